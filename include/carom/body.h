@@ -1,0 +1,143 @@
+#pragma once
+
+/// @file
+/// Bodies: what a body is made from (BodyDef), and the short-lived references that read and change one.
+
+#include "carom/id.h"
+#include "carom/math.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+namespace internal {
+struct SceneData;
+}
+class Scene;
+struct ContactInfo;
+
+enum class BodyType : std::uint8_t
+{
+    Static,    ///< never moves, infinite mass
+    Kinematic, ///< moves as told, pushes and is never pushed
+    Dynamic,   ///< moved by forces, contacts and joints
+};
+
+/// Directions in which a dynamic body does not move; its mass there is infinite. World axes.
+struct MotionLocks
+{
+    bool linear_x = false;
+    bool linear_y = false;
+    bool angular = false;
+    friend constexpr bool operator==(MotionLocks, MotionLocks) = default;
+};
+
+/// Mass, centre of mass and inertia of a body.
+struct MassData
+{
+    float mass = 0;    ///< kg, > 0
+    Vec2 center{};       ///< centre of mass in the body's frame, m
+    float inertia = 0; ///< about the centre of mass, kg m²; 0 means that the body does not turn
+};
+
+/// Parameters of a new body.
+struct BodyDef
+{
+    BodyType type = BodyType::Static;
+    Position position{};                ///< origin of the body's frame, m
+    float angle = 0;                  ///< radians
+    Vec2 velocity{};                    ///< of the centre of mass, m/s
+    float angular_velocity = 0;       ///< rad/s
+    float gravity_scale = 1;          ///< multiplies the scene's gravity
+    float linear_damping = 0;         ///< 1/s, >= 0: the velocity decays as exp(-damping t)
+    float angular_damping = 0;        ///< 1/s, >= 0
+    MotionLocks locks{};
+    bool enabled = true;              ///< a disabled body stays in the scene and takes no part
+    bool awake = true;
+    bool can_sleep = true;
+    std::uint64_t user_data = 0;      ///< yours; never read by the engine
+};
+
+/// Reads a body. A short-lived reference: valid until the body is destroyed; every call checks that.
+class ConstBody
+{
+public:
+    [[nodiscard]] BodyId id() const { return m_id; }
+    [[nodiscard]] BodyType type() const;
+    [[nodiscard]] Pose pose() const;
+    [[nodiscard]] Position position() const;
+    [[nodiscard]] Rotation rotation() const;
+    [[nodiscard]] float angle() const;                     ///< radians, -pi to pi
+    /// The pose between the last two steps, for drawing: alpha 0 is the earlier one, 1 the present one.
+    [[nodiscard]] Pose interpolated_pose(float alpha) const;
+    [[nodiscard]] Position center_of_mass() const;         ///< in the world
+    [[nodiscard]] Vec2 local_center_of_mass() const;
+    [[nodiscard]] Vec2 velocity() const;                   ///< of the centre of mass, m/s
+    [[nodiscard]] float angular_velocity() const;          ///< rad/s
+    [[nodiscard]] Vec2 velocity_at(Position world_point) const; ///< of the body's material at that point, m/s
+    [[nodiscard]] float mass() const;                      ///< kg; 0 for static and kinematic bodies
+    [[nodiscard]] float inertia() const;                   ///< about the centre of mass, kg m²
+    [[nodiscard]] float kinetic_energy() const;            ///< J
+    [[nodiscard]] float gravity_scale() const;
+    [[nodiscard]] float linear_damping() const;
+    [[nodiscard]] float angular_damping() const;
+    [[nodiscard]] MotionLocks locks() const;
+    [[nodiscard]] bool is_enabled() const;
+    [[nodiscard]] bool is_awake() const;
+    [[nodiscard]] bool can_sleep() const;
+    [[nodiscard]] std::uint64_t user_data() const;
+    [[nodiscard]] Position world_point(Vec2 local) const;
+    [[nodiscard]] Vec2 local_point(Position world) const;
+    /// The shapes, joints and touching contacts of the body, copied: the scene may change while you iterate.
+    [[nodiscard]] std::vector<ShapeId> shapes() const;
+    [[nodiscard]] std::vector<JointId> joints() const;
+    [[nodiscard]] std::vector<ContactInfo> contacts() const;
+
+protected:
+    friend class Scene;
+    ConstBody(internal::SceneData* data, BodyId id) : m_data(data), m_id(id) {}
+    internal::SceneData* m_data;
+    BodyId m_id{};
+};
+
+/// Reads and changes a body. Verbs that give motion wake the body; non-finite arguments are refused.
+class Body : public ConstBody
+{
+public:
+    void set_type(BodyType type);
+    /// Puts the body elsewhere without giving it a velocity. Contacts are found anew; the interpolated pose jumps too.
+    void teleport(Position position, float angle);
+    /// Kinematic bodies only: chooses the velocity that reaches this pose at the end of the next step, the shorter way
+    /// round. After that step the body stops unless a new target is set. The surface speed during the step is right.
+    void set_target_pose(Position position, float angle);
+    void set_velocity(Vec2 velocity);                       ///< m/s
+    void set_angular_velocity(float radians_per_second);
+    /// Forces act through the next step and are then cleared (see Scene::update for several steps a frame). Dynamic
+    /// bodies only, others ignore them. N, N m.
+    void apply_force(Vec2 force, Position world_point);
+    void apply_force(Vec2 force);                           ///< at the centre of mass
+    void apply_torque(float torque);
+    void apply_impulse(Vec2 impulse, Position world_point); ///< N s, changes the velocity at once
+    void apply_impulse(Vec2 impulse);                       ///< at the centre of mass
+    void apply_angular_impulse(float impulse);              ///< N m s
+    void set_gravity_scale(float scale);
+    void set_linear_damping(float damping);
+    void set_angular_damping(float damping);
+    void set_locks(MotionLocks locks);
+    /// Overrides what the shapes give; stays until reset_mass. Dynamic bodies only.
+    void set_mass(const MassData& mass);
+    /// Mass, centre and inertia from the shapes and their densities again.
+    void reset_mass();
+    void set_enabled(bool enabled);
+    /// Waking or putting to sleep; sleep takes the bodies it touches along.
+    void set_awake(bool awake);
+    void set_can_sleep(bool can_sleep);
+    void set_user_data(std::uint64_t user_data);
+
+private:
+    friend class Scene;
+    using ConstBody::ConstBody;
+};
+
+} // namespace carom

@@ -1,0 +1,19 @@
+#pragma once
+
+/// @file
+/// Version and build configuration. Every configuration macro of the library stands in this file.
+
+#define CAROM_VERSION_MAJOR 0
+#define CAROM_VERSION_MINOR 1
+#define CAROM_VERSION_PATCH 0
+#define CAROM_VERSION_STRING "0.1.0"
+
+/// The version as one number, 10,000 · major + 100 · minor + patch, for comparison in the preprocessor.
+#define CAROM_VERSION (CAROM_VERSION_MAJOR * 10000 + CAROM_VERSION_MINOR * 100 + CAROM_VERSION_PATCH)
+
+/// 1 where refusals are thrown as carom::Error, 0 where they go to the handler set by carom::set_error_handler.
+#if defined(__cpp_exceptions) || defined(__EXCEPTIONS)
+#define CAROM_EXCEPTIONS 1
+#else
+#define CAROM_EXCEPTIONS 0
+#endif

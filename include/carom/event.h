@@ -1,0 +1,86 @@
+#pragma once
+
+/// @file
+/// What happened in a step. Spans of events are valid until the next step; ids in them may be stale where the object was
+/// destroyed since. All events of a step are sorted by (time, shape_a, shape_b). Normals point from shape_a to shape_b.
+
+#include "carom/id.h"
+#include "carom/math.h"
+
+#include <functional>
+
+namespace carom {
+
+class Scene;
+
+/// Two shapes began to touch.
+struct ContactBeginEvent
+{
+    ShapeId shape_a{};
+    ShapeId shape_b{};
+    BodyId body_a{};
+    BodyId body_b{};
+    Position point{};
+    Vec2 normal{};
+    float time = 0; ///< within the step, s
+};
+
+/// Two shapes no longer touch; every begin has its end, also when a shape or body is destroyed or disabled.
+struct ContactEndEvent
+{
+    ShapeId shape_a{};
+    ShapeId shape_b{};
+    BodyId body_a{};
+    BodyId body_b{};
+    float time = 0; ///< within the step, s
+};
+
+/// A collision. The terms of the impulse are given, so that it can be checked by hand:
+/// impulse = (1 + restitution) · m_a m_b / (m_a + m_b) · (speed_a - speed_b) + kick's share, with m the effective point masses
+/// 1 / (1/m + r²/I) and speed the material speed along the normal before the impact.
+struct ImpactEvent
+{
+    ShapeId shape_a{};
+    ShapeId shape_b{};
+    BodyId body_a{};
+    BodyId body_b{};
+    Position point{};
+    Vec2 normal{};                ///< unit, from a to b
+    float approach_speed = 0;   ///< speed_a - speed_b, m/s, > 0
+    float impulse = 0;          ///< along the normal, N s, >= 0
+    float friction_impulse = 0; ///< along perp(normal) on b, N s
+    float energy_lost = 0;      ///< kinetic energy before minus after, J; negative where a kick added some
+    float time = 0;             ///< within the step, s
+    float speed_a = 0;          ///< m/s
+    float speed_b = 0;          ///< m/s
+    float effective_mass_a = 0; ///< kg; 0 means infinite
+    float effective_mass_b = 0; ///< kg; 0 means infinite
+    float restitution = 0;      ///< as mixed, at this approach speed
+    float kick_speed = 0;       ///< added separating speed, m/s
+};
+
+/// A shape came into or went out of a trigger shape.
+struct TriggerEvent
+{
+    ShapeId trigger{};
+    ShapeId visitor{};
+    BodyId trigger_body{};
+    BodyId visitor_body{};
+    float time = 0; ///< within the step, s
+};
+
+/// Called at the end of the step from the same events, in the order of the spans: contact begins, impacts, contact ends,
+/// trigger enters, insides, exits. In contact events given to a callback, shape_a is the shape that owns it. Everything may be
+/// created and destroyed inside, both parties included; events of shapes destroyed meanwhile are still delivered, with stale
+/// ids, to the callbacks of shapes that live.
+struct ShapeCallbacks
+{
+    std::function<void(Scene&, const ContactBeginEvent&)> on_contact_begin;
+    std::function<void(Scene&, const ImpactEvent&)> on_impact;
+    std::function<void(Scene&, const ContactEndEvent&)> on_contact_end;
+    std::function<void(Scene&, const TriggerEvent&)> on_trigger_enter;
+    std::function<void(Scene&, const TriggerEvent&)> on_trigger_inside; ///< every step while inside, also asleep
+    std::function<void(Scene&, const TriggerEvent&)> on_trigger_exit;
+};
+
+} // namespace carom

@@ -1,0 +1,138 @@
+#pragma once
+
+/// @file
+/// Joints between two bodies, or a body and the world (a null body). Anchors are in each body's frame; the anchor of a
+/// null body is a point of the world.
+
+#include "carom/id.h"
+#include "carom/math.h"
+
+#include <cstdint>
+#include <variant>
+
+namespace carom {
+
+namespace internal {
+struct SceneData;
+}
+class Scene;
+
+/// Force k (x - length) - c v along the line between two points: the differential equation, stable however stiff.
+struct SpringDef
+{
+    BodyId body_a{};
+    BodyId body_b{};
+    Vec2 anchor_a{};
+    Vec2 anchor_b{};
+    float stiffness = 0;  ///< k, N/m, >= 0
+    float damping = 0;    ///< c, N s/m, >= 0
+    float length = -1;    ///< m; negative: measured when the joint is made
+    bool collide_connected = true;
+    std::uint64_t user_data = 0;
+};
+
+/// Keeps the distance of two points between min_length and max_length: a rod where they are equal, a rope where
+/// min_length is 0. With hertz > 0 the limits give like a spring.
+struct DistanceDef
+{
+    BodyId body_a{};
+    BodyId body_b{};
+    Vec2 anchor_a{};
+    Vec2 anchor_b{};
+    float min_length = -1;    ///< m; negative: measured when the joint is made
+    float max_length = -1;    ///< m, >= min_length; negative: measured when the joint is made
+    float hertz = 0;          ///< softness of the limits, 1/s; 0: rigid
+    float damping_ratio = 1;  ///< of the soft limits, >= 0
+    bool collide_connected = true;
+    std::uint64_t user_data = 0;
+};
+
+/// A hinge. The joint's angle is angle_b - angle_a - reference_angle.
+struct RevoluteDef
+{
+    BodyId body_a{};
+    BodyId body_b{};
+    Vec2 anchor_a{};
+    Vec2 anchor_b{};
+    float reference_angle = 0;     ///< radians
+    bool enable_limit = false;
+    float lower_angle = 0;         ///< radians, <= upper_angle
+    float upper_angle = 0;         ///< radians
+    float limit_restitution = 0;   ///< 0 to 1: how much of the speed comes back from a limit
+    bool enable_motor = false;
+    float motor_speed = 0;         ///< rad/s
+    float max_motor_torque = 0;    ///< N m, >= 0
+    float spring_hertz = 0;        ///< towards spring_angle, 1/s; 0: no spring
+    float spring_damping_ratio = 0;
+    float spring_angle = 0;        ///< radians
+    bool collide_connected = false;
+    std::uint64_t user_data = 0;
+};
+
+/// A slider along axis_a (in body a's frame). The joint's translation is how far anchor_b is ahead of anchor_a.
+struct PrismaticDef
+{
+    BodyId body_a{};
+    BodyId body_b{};
+    Vec2 anchor_a{};
+    Vec2 anchor_b{};
+    Vec2 axis_a{1, 0};              ///< any length but 0
+    float reference_angle = 0;      ///< angle_b - angle_a that is held, radians
+    bool enable_limit = false;
+    float lower_translation = 0;    ///< m, <= upper_translation
+    float upper_translation = 0;    ///< m
+    float limit_restitution = 0;    ///< 0 to 1
+    bool enable_motor = false;
+    float motor_speed = 0;          ///< m/s
+    float max_motor_force = 0;      ///< N, >= 0
+    float spring_hertz = 0;         ///< towards spring_translation, 1/s; 0: no spring
+    float spring_damping_ratio = 0;
+    float spring_translation = 0;   ///< m
+    bool collide_connected = false;
+    std::uint64_t user_data = 0;
+};
+
+using JointDef = std::variant<SpringDef, DistanceDef, RevoluteDef, PrismaticDef>;
+
+/// Reads a joint. A short-lived reference; every call checks the id.
+class ConstJoint
+{
+public:
+    [[nodiscard]] JointId id() const { return m_id; }
+    [[nodiscard]] JointDef def() const;  ///< with measured lengths filled in and the axis normalised
+    [[nodiscard]] BodyId body_a() const; ///< null for the world
+    [[nodiscard]] BodyId body_b() const;
+    [[nodiscard]] Position anchor_a() const; ///< in the world
+    [[nodiscard]] Position anchor_b() const;
+    /// Length (spring, distance) in m, angle (revolute) in radians, translation (prismatic) in m.
+    [[nodiscard]] float coordinate() const;
+    /// Rate of change of the coordinate, m/s or rad/s.
+    [[nodiscard]] float speed() const;
+    /// Force on body b at its anchor over the last step, N, without what a motor or limit gives as a torque.
+    [[nodiscard]] Vec2 force() const;
+    /// Torque on body b over the last step, N m (limits, motors and springs of a hinge; the angle lock of a slider).
+    [[nodiscard]] float torque() const;
+    [[nodiscard]] std::uint64_t user_data() const;
+
+protected:
+    friend class Scene;
+    ConstJoint(internal::SceneData* data, JointId id) : m_data(data), m_id(id) {}
+    internal::SceneData* m_data;
+    JointId m_id;
+};
+
+/// Reads and changes a joint.
+class Joint : public ConstJoint
+{
+public:
+    /// Replaces the parameters: the same kind of joint on the same bodies. Wakes the bodies. Meant to be cheap: motors,
+    /// limits and springs are driven with it.
+    void set_def(const JointDef& def);
+    void set_user_data(std::uint64_t user_data);
+
+private:
+    friend class Scene;
+    using ConstJoint::ConstJoint;
+};
+
+} // namespace carom

@@ -1,0 +1,56 @@
+#pragma once
+
+/// @file
+/// Questions about the scene as it stands between steps. Const: any number of them may run at once.
+
+#include "carom/id.h"
+#include "carom/math.h"
+
+#include <cstdint>
+
+namespace carom {
+
+/// Which shapes a query sees: those whose category is in mask and whose mask has the query's category.
+struct QueryFilter
+{
+    std::uint64_t category = ~std::uint64_t{0};
+    std::uint64_t mask = ~std::uint64_t{0};
+    bool include_triggers = false;
+};
+
+struct RayHit
+{
+    ShapeId shape{};
+    Position point{};
+    Vec2 normal{};        ///< of the surface, against the ray; zero where the ray starts inside
+    float fraction = 0; ///< of the translation, 0 to 1
+};
+
+struct PointHit
+{
+    ShapeId shape{};
+    Position point{};     ///< on the shape's surface
+    Vec2 normal{};        ///< outward at that point
+    float distance = 0; ///< m; negative inside
+};
+
+/// A touching or nearly touching pair, from Scene::contacts.
+struct ContactInfo
+{
+    struct Point
+    {
+        Position position;
+        float separation = 0;       ///< m, negative where they overlap
+        float normal_impulse = 0;   ///< N s, sum over the last step
+        float friction_impulse = 0; ///< along perp(normal) on b, N s, sum over the last step
+    };
+    ShapeId shape_a{};
+    ShapeId shape_b{};
+    Vec2 normal{}; ///< unit, from a to b
+    Point points[2];
+    int point_count = 0;
+    bool touching = false;
+    int color = -1; ///< of the constraint graph in the last step; -1: not in it
+};
+
+} // namespace carom

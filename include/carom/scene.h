@@ -1,0 +1,175 @@
+#pragma once
+
+/// @file
+/// The scene: one object that holds bodies, shapes and joints and steps them through time.
+
+#include "carom/body.h"
+#include "carom/debug_draw.h"
+#include "carom/error.h"
+#include "carom/event.h"
+#include "carom/id.h"
+#include "carom/joint.h"
+#include "carom/math.h"
+#include "carom/query.h"
+#include "carom/shape.h"
+#include "carom/step_report.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+/// How the values of two touching shapes become one.
+enum class MixRule : std::uint8_t
+{
+    Average,
+    GeometricMean,
+    Minimum,
+    Maximum,
+    Product,
+    OtherDecides, ///< the value of the shape that does not yield (ShapeDef::yields_material); the average of two equals
+    Function,     ///< SceneDef::mix_function
+};
+
+enum class MixedValue : std::uint8_t
+{
+    Friction,
+    Restitution,
+};
+
+/// Your own rule; called while contacts are prepared, from any thread: it must depend on its arguments alone.
+/// The two values come with the user data of their shapes.
+using MixFunction = float (*)(MixedValue what, float a, std::uint64_t user_data_a, float b, std::uint64_t user_data_b);
+
+/// Your own job system. The engine calls run() with a number of tasks; it must have run task(context, 0 ... count - 1),
+/// in any order, on any threads, before it returns. Results do not depend on the threads.
+struct TaskHooks
+{
+    int worker_count = 1; ///< 1 to 64
+    void (*run)(void* user, int count, void (*task)(void* context, int index), void* context) = nullptr;
+    void* user = nullptr;
+};
+
+/// Parameters of a new scene.
+struct SceneDef
+{
+    Vec2 gravity{0, -9.81f};  ///< m/s²
+    /// Size of a typical moving object, m, > 0. Sets every tolerance: a tenth to ten times this size simulates well.
+    float length_scale = 1;
+    int substeps = 4;         ///< per step, 1 to 64
+    float fixed_step = 1.0f / 60;  ///< what update() steps by, s, > 0
+    float max_frame_time = 0.25f;  ///< most that update() catches up in one call, s
+    MixRule friction_rule = MixRule::GeometricMean;
+    MixRule restitution_rule = MixRule::Average;
+    MixFunction mix_function = nullptr;
+    // contact_hertz 30 and damping ratio 10: Box2D 3's values, by which a 30-row pyramid stands at 1/60 s with 4 sub-steps.
+    float contact_hertz = 30;         ///< stiffness of overlap recovery, 1/s, > 0
+    float contact_damping_ratio = 10; ///< > 0
+    float contact_push_speed = 3;     ///< overlap is removed no faster than this times length_scale, 1/s, >= 0
+    bool sleeping = true;
+    bool continuous = true;   ///< balls cannot pass through anything; off only to see what it is good for
+    bool record_substeps = false; ///< fill StepReport::substep_poses
+    TaskHooks tasks{};
+};
+
+/// What Scene::update did.
+struct UpdateResult
+{
+    int steps = 0;   ///< steps taken
+    float alpha = 0; ///< 0 to 1, how far the frame is past the last step; give it to Body::interpolated_pose
+};
+
+/// A world of its own. No globals: any number of scenes, on any threads, need no lock between them. Const functions of
+/// one scene may run together; anything else on it needs the scene to itself.
+///
+/// Every function refuses bad input (carom::Error) and leaves the scene as it was: numbers that are not finite or
+/// out of range, stale ids, a step of 0.
+class Scene
+{
+public:
+    explicit Scene(const SceneDef& def = {});
+    ~Scene();
+    Scene(Scene&&) noexcept;
+    Scene& operator=(Scene&&) noexcept;
+
+    [[nodiscard]] BodyId create_body(const BodyDef& def);
+    ShapeId create_shape(BodyId body, const Geometry& geometry, const ShapeDef& def = {});
+    JointId create_joint(const JointDef& def);
+    /// Destroys the body, its shapes and its joints.
+    void destroy(BodyId body);
+    void destroy(ShapeId shape);
+    void destroy(JointId joint);
+
+    [[nodiscard]] bool is_valid(BodyId body) const;
+    [[nodiscard]] bool is_valid(ShapeId shape) const;
+    [[nodiscard]] bool is_valid(JointId joint) const;
+
+    [[nodiscard]] Body body(BodyId body);
+    [[nodiscard]] ConstBody body(BodyId body) const;
+    [[nodiscard]] Shape shape(ShapeId shape);
+    [[nodiscard]] ConstShape shape(ShapeId shape) const;
+    [[nodiscard]] Joint joint(JointId joint);
+    [[nodiscard]] ConstJoint joint(JointId joint) const;
+
+    /// Everything there is, in slot order, copied: the scene may change while you iterate.
+    [[nodiscard]] std::vector<BodyId> bodies() const;
+    [[nodiscard]] std::vector<JointId> joints() const;
+    [[nodiscard]] std::vector<ContactInfo> contacts() const; ///< pairs with contact points, asleep ones included
+
+    /// Callbacks live beside the state: they are not in the hash. Default-constructed ones remove them.
+    void set_callbacks(ShapeId shape, ShapeCallbacks callbacks);
+
+    /// Bodies that never touch each other, whatever their filters say.
+    void ignore_pair(BodyId a, BodyId b);
+    void restore_pair(BodyId a, BodyId b);
+
+    /// Advances the scene by h seconds, h > 0. Not from inside a callback.
+    const StepReport& step(float h);
+    /// Adds a frame's time to the scene's own accumulator and takes as many fixed steps as fit. Forces applied before
+    /// the call act in all of them.
+    UpdateResult update(float frame_time);
+    [[nodiscard]] const StepReport& report() const;
+    [[nodiscard]] std::uint64_t step_count() const;
+    [[nodiscard]] double time() const; ///< s since the scene was made
+
+    [[nodiscard]] std::span<const ContactBeginEvent> contact_begins() const;
+    [[nodiscard]] std::span<const ContactEndEvent> contact_ends() const;
+    [[nodiscard]] std::span<const ImpactEvent> impacts() const;
+    [[nodiscard]] std::span<const TriggerEvent> trigger_enters() const;
+    [[nodiscard]] std::span<const TriggerEvent> trigger_exits() const;
+    /// The shapes inside a trigger now, in slot order.
+    [[nodiscard]] std::vector<ShapeId> inside(ShapeId trigger) const;
+
+    /// The nearest surface the ray from origin to origin + translation meets.
+    [[nodiscard]] std::optional<RayHit> raycast_closest(Position origin, Vec2 translation, const QueryFilter& filter = {}) const;
+    /// Every shape the ray meets, nearest first.
+    [[nodiscard]] std::vector<RayHit> raycast_all(Position origin, Vec2 translation, const QueryFilter& filter = {}) const;
+    [[nodiscard]] bool raycast_any(Position origin, Vec2 translation, const QueryFilter& filter = {}) const;
+    [[nodiscard]] std::vector<ShapeId> overlap_point(Position point, const QueryFilter& filter = {}) const;
+    /// Shapes that overlap the box (the shapes themselves, not their bounds).
+    [[nodiscard]] std::vector<ShapeId> overlap_box(const Box& box, const QueryFilter& filter = {}) const;
+    [[nodiscard]] std::vector<ShapeId> overlap_shape(const Geometry& geometry, const Pose& pose, const QueryFilter& filter = {}) const;
+    /// The nearest point on any shape within max_distance.
+    [[nodiscard]] std::optional<PointHit> closest_point(Position point, float max_distance, const QueryFilter& filter = {}) const;
+
+    [[nodiscard]] Vec2 gravity() const;
+    void set_gravity(Vec2 gravity); ///< m/s²; wakes everything
+    [[nodiscard]] const SceneDef& def() const;
+    void set_record_substeps(bool record);
+
+    void debug_draw(DebugDraw& draw, const DebugDrawOptions& options = {}) const;
+
+    /// A hash over all simulation state: equal hashes mean equal futures. User data, callbacks and times are not in it.
+    [[nodiscard]] std::uint64_t state_hash() const;
+
+    /// For the engine's own tests.
+    [[nodiscard]] internal::SceneData& data() { return *m_data; }
+
+private:
+    std::unique_ptr<internal::SceneData> m_data;
+};
+
+} // namespace carom
