@@ -1,0 +1,106 @@
+#pragma once
+
+/// @file
+/// One game of pinball: a table that is stepped with inputs. No window, no sound, no clock: the same table, seed and
+/// inputs give the same game, bit for bit.
+
+#include "carom/scene.h"
+#include "pinball/elements/event.h"
+#include "pinball/elements/state.h"
+#include "pinball/rules/high_scores.h"
+#include "pinball/rules/show.h"
+#include "pinball/table/table.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace carom::pinball {
+
+/// The buttons, as held during one step.
+struct Input
+{
+    bool left = false;
+    bool right = false;
+    bool plunger = false; ///< held: pulls the rod; let go: releases it
+    bool start = false;   ///< pressed: starts a game when none is on; skips the bonus count
+
+    friend bool operator==(Input, Input) = default;
+};
+
+enum class Phase : std::uint8_t
+{
+    Attract,  ///< no game yet; start begins one
+    Ready,    ///< the ball lies before the plunger
+    InPlay,
+    Bonus,    ///< the end-of-ball bonus is counted
+    GameOver, ///< the score stands; start begins a new game
+};
+
+struct Options
+{
+    std::uint64_t seed = 1;
+    bool ball_save = true;
+    bool kickback = true;
+};
+
+class Game
+{
+public:
+    explicit Game(Table table, const Options& options = {});
+    ~Game();
+    Game(Game&&) noexcept;
+    Game& operator=(Game&&) noexcept;
+
+    /// One step of Physics::step (1 ms).
+    void step(const Input& input);
+    /// Back to the first step, with the same seed; high scores stay.
+    void restart();
+
+    [[nodiscard]] const Table& table() const;
+    [[nodiscard]] std::int64_t step_count() const;
+
+    [[nodiscard]] Phase phase() const;
+    [[nodiscard]] int ball_number() const;  ///< from 1; 0 in attract
+    [[nodiscard]] int balls_per_game() const;
+    [[nodiscard]] int balls_served() const; ///< since the first step, saved ones included
+    [[nodiscard]] std::int64_t score() const;
+    [[nodiscard]] int bonus() const;        ///< not yet multiplied
+    [[nodiscard]] int bonus_multiplier() const;
+    [[nodiscard]] int letters() const;      ///< lit ones of the bank rule's word
+    [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
+    [[nodiscard]] int players() const { return 1; }
+
+    /// Of any element: a Light shows its state; every other one what a light on it would show.
+    [[nodiscard]] LampState lamp(Index element) const;
+    /// The message that shows now; empty when there is none.
+    [[nodiscard]] std::string_view message() const;
+    [[nodiscard]] std::span<const Message> messages() const;
+
+    [[nodiscard]] const ElementState& element(Index element) const;
+    /// In serial order: captive ones first.
+    [[nodiscard]] const std::vector<BallState>& balls() const;
+    /// What happened in the last step, in order.
+    [[nodiscard]] std::span<const GameEvent> events() const;
+
+    /// For queries and drawing.
+    [[nodiscard]] const Scene& scene() const;
+    void record_substeps(bool record);
+
+    /// Over the whole state: scene, elements, rules and random numbers. High scores are not in it.
+    [[nodiscard]] std::uint64_t state_hash() const;
+
+    [[nodiscard]] const HighScores& high_scores() const;
+    void set_high_scores(HighScores scores);
+    /// The place of the game that just ended, from 0; -1 where it is not among the best.
+    [[nodiscard]] int last_rank() const;
+    void name_last(std::string_view name);
+
+private:
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+} // namespace carom::pinball
