@@ -1,0 +1,30 @@
+# What every target of this project has in common.
+
+# carom_target(<target>): language level, warnings, and the floating-point rule that determinism rests on.
+function(carom_target target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    # g++ contracts a*b+c to one rounding by default where the machine can: other bits than everywhere else.
+    target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wconversion -Wshadow)
+    if(CAROM_WERROR)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+endfunction()
+
+# carom_glob(<variable> <pattern>...): the files of these patterns, relative to the current folder, found anew at each build.
+function(carom_glob variable)
+    file(GLOB_RECURSE files CONFIGURE_DEPENDS LIST_DIRECTORIES false RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" ${ARGN})
+    set(${variable} ${files} PARENT_SCOPE)
+endfunction()
+
+# carom_want(<variable> <what for> <package> [find_package arguments]): whether a package outside the engine is there;
+# says so when it is not, and what is left out.
+macro(carom_want variable purpose package)
+    find_package(${package} ${ARGN} QUIET)
+    if(${package}_FOUND)
+        set(${variable} TRUE)
+    else()
+        set(${variable} FALSE)
+        message(STATUS "carom: ${package} not found, left out: ${purpose} (scripts/setup installs what is missing)")
+    endif()
+endmacro()
