@@ -211,7 +211,7 @@ struct Kicker
 {
     Vec2 pos{};
     Vec2 half{};
-    Vec2 kick{}; ///< m/s
+    Vec2 kick{};      ///< m/s
     bool lit = false; ///< at the start of a game
 };
 
@@ -259,8 +259,8 @@ using Part = std::variant<Wall, Solid, Post, Plane, Flipper, Plunger, Bumper, Sl
 
 /// The names of the types in the file, in the order of Part.
 inline constexpr std::array<std::string_view, std::variant_size_v<Part>> type_names = {
-    "wall",  "solid",         "post",    "plane", "flipper", "plunger", "bumper", "slingshot", "drop_target", "standup",
-    "sprung_target", "spinner", "gate",  "sensor", "booster", "kicker", "saucer", "ball", "light"};
+    "wall",          "solid",   "post", "plane",  "flipper", "plunger", "bumper", "slingshot", "drop_target", "standup",
+    "sprung_target", "spinner", "gate", "sensor", "booster", "kicker",  "saucer", "ball",      "light"};
 
 struct Element
 {
@@ -387,10 +387,10 @@ struct BallDef
 
 struct Physics
 {
-    float g = 9.81f;          ///< m/s²
-    float slope = 0;          ///< of the table, rad
-    float step = 0.001f;      ///< s
-    float mu_playfield = 0;   ///< friction between ball and playfield
+    float g = 9.81f;        ///< m/s²
+    float slope = 0;        ///< of the table, rad
+    float step = 0.001f;    ///< s
+    float mu_playfield = 0; ///< friction between ball and playfield
 };
 
 struct Table
