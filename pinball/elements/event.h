@@ -12,22 +12,22 @@ namespace carom::pinball {
 
 enum class EventKind : std::uint8_t
 {
-    Impact,       ///< a ball against something; `element` is what it hit, none for another ball
-    Fired,        ///< a coil: bumper, slingshot, kicker; `speed` is the speed it gave
-    Hit,          ///< a target hit hard enough: standup, sprung target (`impulse`)
-    Fell,         ///< a drop target went down
-    Raised,       ///< a drop target came up again
-    Spun,         ///< half a turn of a spinner; `speed` is its rate, rad/s
-    Passed,       ///< a ball went through a gate
-    Entered,      ///< a ball came onto a sensor, booster or kicker
-    Left,         ///< and off it
-    Captured,     ///< a saucer holds a ball
-    Ejected,      ///< a saucer threw its ball out
-    Drained,      ///< a ball left the game over a sensor that kills; `ball` is already gone
-    Served,       ///< a ball was put before the plunger
-    Launched,     ///< a ball left the plunger's lane for the playfield
-    FlipperStop,  ///< a flipper reached a stop; `speed` in rad/s, `value` 1 at the upper one
-    FlipperCoil,  ///< a flipper's coil went on (`value` 1) or off (0)
+    Impact,      ///< a ball against something; `element` is what it hit, none for another ball
+    Fired,       ///< a coil: bumper, slingshot, kicker; `speed` is the speed it gave
+    Hit,         ///< a target hit hard enough: standup, sprung target (`impulse`)
+    Fell,        ///< a drop target went down
+    Raised,      ///< a drop target came up again
+    Spun,        ///< half a turn of a spinner; `speed` is its rate, rad/s
+    Passed,      ///< a ball went through a gate
+    Entered,     ///< a ball came onto a sensor, booster or kicker
+    Left,        ///< and off it
+    Captured,    ///< a saucer holds a ball
+    Ejected,     ///< a saucer threw its ball out
+    Drained,     ///< a ball left the game over a sensor that kills; `ball` is already gone
+    Served,      ///< a ball was put before the plunger
+    Launched,    ///< a ball left the plunger's lane for the playfield
+    FlipperStop, ///< a flipper reached a stop; `speed` in rad/s, `value` 1 at the upper one
+    FlipperCoil, ///< a flipper's coil went on (`value` 1) or off (0)
     PlungerPulled,
     PlungerReleased, ///< `speed` is how far it was pulled, m
     // From here on: events of the rules.
@@ -36,10 +36,10 @@ enum class EventKind : std::uint8_t
     LetterLit,      ///< `value` is how many are lit
     LevelUp,        ///< of the bumpers, `value` the new level from 0
     BallSaved,
-    BonusCounted,   ///< one step of the count, `value` what was added
+    BonusCounted, ///< one step of the count, `value` what was added
     BallEnded,
-    Jackpot,        ///< `value` what it paid
-    Combo,          ///< `value` the length of the chain
+    Jackpot, ///< `value` what it paid
+    Combo,   ///< `value` the length of the chain
     SkillShot,
     MultiballStarted,
     GameEnded,

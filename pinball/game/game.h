@@ -32,8 +32,8 @@ struct Input
 
 enum class Phase : std::uint8_t
 {
-    Attract,  ///< no game yet; start begins one
-    Ready,    ///< the ball lies before the plunger
+    Attract, ///< no game yet; start begins one
+    Ready,   ///< the ball lies before the plunger
     InPlay,
     Bonus,    ///< the end-of-ball bonus is counted
     GameOver, ///< the score stands; start begins a new game
@@ -63,13 +63,13 @@ public:
     [[nodiscard]] std::int64_t step_count() const;
 
     [[nodiscard]] Phase phase() const;
-    [[nodiscard]] int ball_number() const;  ///< from 1; 0 in attract
+    [[nodiscard]] int ball_number() const; ///< from 1; 0 in attract
     [[nodiscard]] int balls_per_game() const;
     [[nodiscard]] int balls_served() const; ///< since the first step, saved ones included
     [[nodiscard]] std::int64_t score() const;
-    [[nodiscard]] int bonus() const;        ///< not yet multiplied
+    [[nodiscard]] int bonus() const; ///< not yet multiplied
     [[nodiscard]] int bonus_multiplier() const;
-    [[nodiscard]] int letters() const;      ///< lit ones of the bank rule's word
+    [[nodiscard]] int letters() const;         ///< lit ones of the bank rule's word
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
     [[nodiscard]] int players() const { return 1; }
 

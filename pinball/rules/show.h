@@ -19,7 +19,7 @@ enum class LampState : std::uint8_t
 struct Message
 {
     std::string text{};
-    int priority = 0;     ///< the highest one shows; of equals, the latest
+    int priority = 0;       ///< the highest one shows; of equals, the latest
     std::int64_t until = 0; ///< step after which it is gone
 };
 

@@ -1,0 +1,370 @@
+#include "pinball/elements/playfield.h"
+
+#include "pinball/elements/make.h"
+#include "pinball/elements/rolling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::pinball {
+
+namespace {
+
+// Shapes are tagged with their element's index + 1; balls with this bit and their serial number.
+constexpr std::uint64_t ball_tag = std::uint64_t{1} << 63;
+
+// Softer touches than this are rolling and leaning, not hits: a ball at rest sinks and rises by less.
+constexpr float quietest_impact = 0.02f; // m/s
+
+SceneDef scene_def(const Table& table)
+{
+    SceneDef def;
+    def.gravity = {0, -table.physics.g * Rotation::from_angle(table.physics.slope).s};
+    def.length_scale = 0.02f; // a ball is 27 mm
+    def.fixed_step = table.physics.step;
+    def.friction_rule = MixRule::OtherDecides;
+    def.restitution_rule = MixRule::OtherDecides;
+    return def;
+}
+
+} // namespace
+
+PlungerLane::PlungerLane(const Table& table)
+{
+    for (const auto& element : table.elements)
+    {
+        const auto* plunger = std::get_if<Plunger>(&element.part);
+        if (!plunger || plunger->lane == none)
+            continue;
+        const Vec2 half = std::get<Sensor>(table.elements[plunger->lane].part).half;
+        m_origin = plunger->pos;
+        m_axis = plunger->axis;
+        m_half_width = std::abs(half.x * m_axis.y) + std::abs(half.y * m_axis.x) + 0.002f;
+        m_behind = plunger->stroke;
+        return;
+    }
+}
+
+bool PlungerLane::contains(Position p) const
+{
+    const Vec2 d = p - Position(m_origin);
+    return std::abs(cross(m_axis, d)) < m_half_width && dot(m_axis, d) > -m_behind;
+}
+
+Playfield::Playfield(const Table& table, std::uint64_t seed)
+    : m_table(table),
+      m_scene(scene_def(table)),
+      m_random(seed),
+      m_lane(table),
+      m_slope(m_scene.gravity()),
+      m_friction(table.physics.mu_playfield * table.physics.g * Rotation::from_angle(table.physics.slope).c)
+{
+    add_devices();
+}
+
+Playfield::~Playfield() = default;
+
+void Playfield::add_devices()
+{
+    for (Index i = 0; i < m_table.elements.size(); ++i)
+        m_devices.push_back(std::visit([&](const auto& part) { return make(*this, i, part); }, m_table.elements[i].part));
+}
+
+void Playfield::step(const Buttons& buttons)
+{
+    m_events.clear();
+    m_buttons = buttons;
+    for (auto& device : m_devices)
+        device->before_step(*this);
+    roll_balls();
+    m_scene.step(h());
+    ++m_step;
+    read_balls();
+    hear_impacts();
+    hear_triggers();
+    for (auto& device : m_devices)
+        device->after_step(*this);
+    watch_lane();
+    remove_drained();
+}
+
+void Playfield::roll_balls()
+{
+    for (Ball& ball : m_balls)
+    {
+        if (ball.state.held)
+            continue;
+        Body body = m_scene.body(ball.state.body);
+        const Vec2 friction = playfield_friction(body.velocity(), ball.state.rolling, m_slope, m_friction, h());
+        body.apply_force(m_table.ball.mass * friction);
+        ball.state.rolling = rolling_after(ball.state.rolling, friction, h());
+    }
+}
+
+void Playfield::read_balls()
+{
+    for (Ball& ball : m_balls)
+    {
+        const Body body = m_scene.body(ball.state.body);
+        ball.state.position = body.position();
+        ball.state.velocity = body.velocity();
+        ball.state.spin = body.angular_velocity();
+    }
+}
+
+// --- What happened -------------------------------------------------------------------------------------------------
+
+Ball* Playfield::find_ball(BodyId body)
+{
+    const auto found = std::ranges::find_if(m_balls, [body](const Ball& b) { return b.state.body == body; });
+    return found == m_balls.end() ? nullptr : &*found;
+}
+
+Ball* Playfield::ball_of(ShapeId shape) { return m_scene.is_valid(shape) ? find_ball(m_scene.shape(shape).body()) : nullptr; }
+
+Index Playfield::element_of(ShapeId shape) const
+{
+    if (!m_scene.is_valid(shape))
+        return none;
+    const std::uint64_t tag = m_scene.shape(shape).user_data();
+    return tag == 0 || (tag & ball_tag) != 0 ? none : static_cast<Index>(tag - 1);
+}
+
+void Playfield::hear_impacts()
+{
+    for (const ImpactEvent& impact : m_scene.impacts())
+    {
+        Ball* a = ball_of(impact.shape_a);
+        Ball* b = ball_of(impact.shape_b);
+        if (a && b)
+            strike_balls(*a, *b, impact);
+        else if (a)
+            strike(*a, element_of(impact.shape_b), impact, -impact.normal);
+        else if (b)
+            strike(*b, element_of(impact.shape_a), impact, impact.normal);
+    }
+}
+
+namespace {
+
+// What the sideways friction left of the greatest friction impulse, over the ball's mass.
+float room_to_rub(const ImpactEvent& impact, float friction, float mass)
+{
+    const float greatest = friction * impact.impulse;
+    const float left = greatest * greatest - impact.friction_impulse * impact.friction_impulse;
+    return left > 0 ? std::sqrt(left) / mass : 0.0f;
+}
+
+} // namespace
+
+void Playfield::strike(Ball& ball, Index element, const ImpactEvent& impact, Vec2 normal)
+{
+    if (element == none)
+        return;
+    const Index material = m_table.elements[element].material;
+    const float friction = material == none ? 0.0f : m_table.materials[material].friction;
+    ball.state.rolling = rub_wall(ball.state.rolling, normal, room_to_rub(impact, friction, m_table.ball.mass));
+    if (impact.approach_speed >= quietest_impact)
+        emit({.kind = EventKind::Impact,
+              .element = element,
+              .point = impact.point,
+              .normal = normal,
+              .impulse = impact.impulse,
+              .speed = impact.approach_speed,
+              .ball = ball.state.serial});
+    m_devices[element]->on_strike(*this, ball, {impact.point, normal, impact.approach_speed, impact.impulse, impact.kick_speed});
+}
+
+void Playfield::strike_balls(Ball& a, Ball& b, const ImpactEvent& impact)
+{
+    const float friction = m_table.ball.material == none ? 0.0f : m_table.materials[m_table.ball.material].friction;
+    rub_balls(a.state.rolling, b.state.rolling, impact.normal, room_to_rub(impact, friction, m_table.ball.mass));
+    if (impact.approach_speed < quietest_impact)
+        return;
+    const bool a_is_hit = a.element != none;
+    const Ball& striker = a_is_hit ? b : a;
+    emit({.kind = EventKind::Impact,
+          .element = a_is_hit ? a.element : b.element,
+          .point = impact.point,
+          .normal = a_is_hit ? impact.normal : -impact.normal,
+          .impulse = impact.impulse,
+          .speed = impact.approach_speed,
+          .ball = striker.state.serial});
+}
+
+void Playfield::hear_triggers()
+{
+    for (const TriggerEvent& event : m_scene.trigger_enters())
+    {
+        const Index element = element_of(event.trigger);
+        Ball* ball = find_ball(event.visitor_body);
+        if (element != none && ball)
+            m_devices[element]->on_enter(*this, *ball);
+    }
+    for (const TriggerEvent& event : m_scene.trigger_exits())
+    {
+        const Index element = element_of(event.trigger);
+        if (element != none)
+            m_devices[element]->on_exit(*this, event.visitor_body, find_ball(event.visitor_body));
+    }
+}
+
+void Playfield::watch_lane()
+{
+    for (Ball& ball : m_balls)
+    {
+        const bool in_lane = m_lane.contains(ball.state.position);
+        if (ball.in_lane && !in_lane && !ball.drained)
+            emit({.kind = EventKind::Launched,
+                  .point = ball.state.position,
+                  .speed = length(ball.state.velocity),
+                  .ball = ball.state.serial});
+        ball.in_lane = in_lane;
+    }
+}
+
+// --- Balls ---------------------------------------------------------------------------------------------------------
+
+Ball& Playfield::add_ball(Vec2 position, Index captive_element)
+{
+    const BallDef& def = m_table.ball;
+    const BodyId body =
+        m_scene.create_body({.type = BodyType::Dynamic, .position = position, .can_sleep = false, .user_data = ball_tag});
+    ShapeDef shape;
+    if (def.material != none)
+    {
+        const Material& material = m_table.materials[def.material];
+        shape.friction = material.friction;
+        shape.restitution = material.restitution;
+        shape.restitution_curve = material.curve;
+    }
+    shape.yields_material = true;
+    shape.filter.category = ball_category;
+    shape.user_data = ball_tag + static_cast<std::uint64_t>(m_next_serial);
+    m_scene.create_shape(body, Circle{{}, def.radius}, shape);
+    m_scene.body(body).set_mass({.mass = def.mass, .center = {}, .inertia = 0.4f * def.mass * def.radius * def.radius});
+
+    Ball ball;
+    ball.state = {.body = body, .serial = m_next_serial++, .captive = captive_element != none, .position = position};
+    ball.element = captive_element;
+    ball.in_lane = m_lane.contains(position);
+    m_balls.push_back(ball);
+    return m_balls.back();
+}
+
+bool Playfield::serve()
+{
+    const Vec2 spawn = m_table.ball.spawn;
+    const QueryFilter balls{.mask = ball_category};
+    if (!m_scene.overlap_shape(Circle{{}, m_table.ball.radius}, {.position = spawn}, balls).empty())
+        return false;
+    const Ball& ball = add_ball(spawn);
+    ++m_served;
+    emit({.kind = EventKind::Served, .point = spawn, .ball = ball.state.serial});
+    return true;
+}
+
+void Playfield::remove_drained()
+{
+    for (const Ball& ball : m_balls)
+        if (ball.drained)
+            m_scene.destroy(ball.state.body);
+    std::erase_if(m_balls, [](const Ball& ball) { return ball.drained; });
+}
+
+void Playfield::clear()
+{
+    for (Ball& ball : m_balls)
+        ball.drained = !ball.state.captive;
+    remove_drained();
+}
+
+int Playfield::balls_in_play() const
+{
+    return static_cast<int>(std::ranges::count_if(m_balls, [](const Ball& b) { return !b.state.captive; }));
+}
+
+void Playfield::hold(Ball& ball, Position at)
+{
+    Body body = m_scene.body(ball.state.body);
+    body.set_velocity({});
+    body.set_angular_velocity(0);
+    body.teleport(at, 0);
+    body.set_enabled(false);
+    ball.state.held = true;
+    ball.state.position = at;
+    ball.state.velocity = {};
+    ball.state.rolling = {};
+    ball.state.spin = 0;
+}
+
+void Playfield::release(Ball& ball, Vec2 velocity)
+{
+    Body body = m_scene.body(ball.state.body);
+    body.set_enabled(true);
+    body.set_velocity(velocity);
+    ball.state.held = false;
+    ball.state.velocity = velocity;
+}
+
+// --- For the elements ----------------------------------------------------------------------------------------------
+
+BodyId Playfield::add_fixed(bool enabled) { return m_scene.create_body({.type = BodyType::Static, .enabled = enabled}); }
+
+ShapeDef Playfield::surface(Index element) const
+{
+    ShapeDef def;
+    if (const Index material = m_table.elements[element].material; material != none)
+    {
+        def.friction = m_table.materials[material].friction;
+        def.restitution = m_table.materials[material].restitution;
+        def.restitution_curve = m_table.materials[material].curve;
+    }
+    def.filter = {.category = fixed_category, .mask = ball_category};
+    def.user_data = element + 1;
+    return def;
+}
+
+ShapeDef Playfield::moving_surface(Index element) const
+{
+    ShapeDef def = surface(element);
+    def.filter.category = moving_category;
+    return def;
+}
+
+ShapeDef Playfield::trigger(Index element) const
+{
+    ShapeDef def;
+    def.trigger = true;
+    def.filter = {.category = fixed_category, .mask = ball_category};
+    def.user_data = element + 1;
+    return def;
+}
+
+void Playfield::command(Index element, Command command) { m_devices[element]->command(*this, command); }
+
+void Playfield::add_to(Hash& hash) const
+{
+    hash.add(m_scene.state_hash());
+    hash.add(m_random.state());
+    hash.add(m_step);
+    for (const Ball& ball : m_balls)
+    {
+        hash.add(ball.state.serial);
+        hash.add(ball.state.held);
+        hash.add(ball.in_lane);
+        hash.add(ball.state.rolling);
+    }
+    for (const auto& device : m_devices)
+    {
+        const ElementState& s = device->state;
+        for (const float value : {s.angle, s.speed, s.travel})
+            hash.add(value);
+        for (const bool value : {s.down, s.lit, s.occupied})
+            hash.add(value);
+        hash.add(s.last_hit);
+        device->add_to(hash);
+    }
+}
+
+} // namespace carom::pinball
