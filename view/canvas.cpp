@@ -274,7 +274,7 @@ void Canvas::arrow(Position from, Position to, const Pen& pen, float head)
     const Vec2 along = way * (1 / size);
     const Position neck = to - along * head_m;
     line(from, neck, pen);
-    const std::array<Position, 3> tip{to, neck + perp(along) * (0.42f * head_m), neck - perp(along) * (0.42f * head_m)};
+    const std::array<Position, 3> tip{to, neck + perp(along) * (0.5f * head_m), neck - perp(along) * (0.5f * head_m)};
     fill_convex(tip, pen.paint);
 }
 
