@@ -9,10 +9,10 @@ say() { printf '[%2d:%02d] %s\n' $(((SECONDS - start) / 60)) $(((SECONDS - start
 # The last line of a log that is worth showing, cut to the width of a terminal.
 log_tail() { tr '\r' '\n' <"$1" | grep -v '^[[:space:]]*$' | tail -n 1 | cut -c 1-100; }
 
-# progress <label> <log> <pid>: shows how far a running command is: in place on a terminal, every 30 s elsewhere.
+# progress <label> <log> <pid>: shows how far a running command is: in place on a terminal, after 5 s and then every 30 s elsewhere.
 progress()
 {
-    local label="$1" log="$2" pid="$3" began=$SECONDS shown=$SECONDS
+    local label="$1" log="$2" pid="$3" began=$SECONDS shown=$((SECONDS - 25))
     while kill -0 "$pid" 2>/dev/null; do
         sleep 0.5
         if [ -t 1 ]; then
