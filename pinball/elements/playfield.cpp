@@ -252,16 +252,15 @@ Ball& Playfield::add_ball(Vec2 position, Index captive_element)
     return m_balls.back();
 }
 
-bool Playfield::serve()
+std::optional<GameEvent> Playfield::serve()
 {
     const Vec2 spawn = m_table.ball.spawn;
     const QueryFilter balls{.mask = ball_category};
     if (!m_scene.overlap_shape(Circle{{}, m_table.ball.radius}, {.position = spawn}, balls).empty())
-        return false;
+        return std::nullopt;
     const Ball& ball = add_ball(spawn);
     ++m_served;
-    emit({.kind = EventKind::Served, .point = spawn, .ball = ball.state.serial});
-    return true;
+    return GameEvent{.kind = EventKind::Served, .point = spawn, .ball = ball.state.serial};
 }
 
 void Playfield::remove_drained()
@@ -270,13 +269,6 @@ void Playfield::remove_drained()
         if (ball.drained)
             m_scene.destroy(ball.state.body);
     std::erase_if(m_balls, [](const Ball& ball) { return ball.drained; });
-}
-
-void Playfield::clear()
-{
-    for (Ball& ball : m_balls)
-        ball.drained = !ball.state.captive;
-    remove_drained();
 }
 
 int Playfield::balls_in_play() const

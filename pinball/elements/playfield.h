@@ -9,6 +9,7 @@
 #include "pinball/table/table.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,12 +58,9 @@ public:
 
     void step(const Buttons& buttons);
 
-    /// Puts a ball before the plunger; false while another one is in the way.
-    bool serve();
+    /// Puts a ball before the plunger and reports it; nothing while another one is in the way.
+    std::optional<GameEvent> serve();
     void command(Index element, Command command);
-    /// Takes all but the captive balls off.
-    void clear();
-
     [[nodiscard]] const ElementState& state(Index element) const { return m_devices[element]->state; }
     [[nodiscard]] const std::vector<Ball>& balls() const { return m_balls; }
     [[nodiscard]] int balls_in_play() const; ///< all but the captive ones

@@ -30,15 +30,6 @@ struct Input
     friend bool operator==(Input, Input) = default;
 };
 
-enum class Phase : std::uint8_t
-{
-    Attract, ///< no game yet; start begins one
-    Ready,   ///< the ball lies before the plunger
-    InPlay,
-    Bonus,    ///< the end-of-ball bonus is counted
-    GameOver, ///< the score stands; start begins a new game
-};
-
 struct Options
 {
     std::uint64_t seed = 1;

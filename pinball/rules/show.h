@@ -1,12 +1,21 @@
 #pragma once
 
 /// @file
-/// What the rules show: lamps and messages.
+/// What the rules show: the phase of the game, lamps and messages.
 
 #include <cstdint>
 #include <string>
 
 namespace carom::pinball {
+
+enum class Phase : std::uint8_t
+{
+    Attract,  ///< no game yet; start begins one
+    Ready,    ///< the ball lies before the plunger
+    InPlay,   ///< it has touched the first switch of the playfield
+    Bonus,    ///< the end-of-ball bonus is counted
+    GameOver, ///< the score stands; start begins a new game
+};
 
 enum class LampState : std::uint8_t
 {

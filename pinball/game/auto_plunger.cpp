@@ -1,0 +1,35 @@
+#include "pinball/game/auto_plunger.h"
+
+namespace carom::pinball {
+
+namespace {
+
+// A ball that was just served settles on the rod first, and one that was launched gets away before the next pull.
+constexpr int settle_steps = 300;
+
+} // namespace
+
+bool AutoPlunger::step(bool ready, int pull_steps)
+{
+    if (m_pulled == 0)
+    {
+        m_pause = ready && m_balls > 0 ? m_pause + 1 : 0;
+        if (m_pause < settle_steps)
+            return false;
+    }
+    if (++m_pulled <= pull_steps)
+        return true;
+    m_pulled = 0;
+    m_pause = 0;
+    --m_balls;
+    return false;
+}
+
+void AutoPlunger::add_to(Hash& hash) const
+{
+    hash.add(m_balls);
+    hash.add(m_pulled);
+    hash.add(m_pause);
+}
+
+} // namespace carom::pinball

@@ -1,0 +1,26 @@
+#pragma once
+
+/// @file
+/// Holds and lets go of the plunger for balls that the machine launches by itself.
+
+#include "pinball/elements/hash.h"
+
+namespace carom::pinball {
+
+class AutoPlunger
+{
+public:
+    /// Another ball to launch.
+    void launch() { ++m_balls; }
+    void clear() { *this = {}; }
+    /// Whether to hold the plunger in this step. `ready`: a ball lies before it. `pull_steps`: how long a full pull takes.
+    [[nodiscard]] bool step(bool ready, int pull_steps);
+    void add_to(Hash& hash) const;
+
+private:
+    int m_balls = 0;
+    int m_pulled = 0; ///< steps; 0: at rest
+    int m_pause = 0;
+};
+
+} // namespace carom::pinball

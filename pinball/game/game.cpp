@@ -1,0 +1,249 @@
+#include "pinball/game/game.h"
+
+#include "pinball/elements/playfield.h"
+#include "pinball/game/auto_plunger.h"
+#include "pinball/rules/rule_book.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom::pinball {
+
+namespace {
+
+Index plunger_of(const Table& table)
+{
+    for (Index i = 0; i < table.elements.size(); ++i)
+        if (std::holds_alternative<Plunger>(table.elements[i].part))
+            return i;
+    return none;
+}
+
+} // namespace
+
+/// Everything that restart() makes anew.
+struct Session
+{
+    Session(const Table& table, const Options& options)
+        : field(table, options.seed),
+          rules(table, options.ball_save, options.kickback)
+    {}
+
+    Playfield field;
+    RuleBook rules;
+    AutoPlunger auto_plunger{};
+    Input held{};
+    std::vector<GameEvent> events{};
+    std::vector<BallState> balls{};
+    int last_rank = -1;
+};
+
+struct Game::State
+{
+    State(Table t, const Options& o)
+        : table(std::move(t)),
+          options(o),
+          plunger(plunger_of(table)),
+          session(std::make_unique<Session>(table, options))
+    {
+        note_balls();
+    }
+
+    void step(const Input& input);
+    void serve();
+    void obey();
+    void note_balls();
+    void note_score();
+    [[nodiscard]] bool auto_pull();
+    [[nodiscard]] bool lane_is_occupied() const;
+
+    const Table table;
+    Options options;
+    Index plunger;
+    HighScores high_scores{};
+    std::unique_ptr<Session> session;
+};
+
+Game::Game(Table table, const Options& options) : m_state(std::make_unique<State>(std::move(table), options)) {}
+Game::~Game() = default;
+Game::Game(Game&&) noexcept = default;
+Game& Game::operator=(Game&&) noexcept = default;
+
+void Game::step(const Input& input) { m_state->step(input); }
+
+void Game::restart()
+{
+    m_state->session = std::make_unique<Session>(m_state->table, m_state->options);
+    m_state->note_balls();
+}
+
+// The table first, then the rules on what it told, then their orders to the table: an order shows in the next step.
+void Game::State::step(const Input& input)
+{
+    Session& s = *session;
+    s.field.step({.left = input.left, .right = input.right, .plunger = input.plunger || auto_pull()});
+    const Presses presses{
+        .left = input.left && !s.held.left, .right = input.right && !s.held.right, .start = input.start && !s.held.start};
+    s.held = input;
+    const auto told = s.field.events();
+    s.events.assign(told.begin(), told.end());
+    s.rules.step(s.field.step_count(), presses, s.events, s.field.balls_in_play());
+    s.events.insert(s.events.end(), s.rules.announced().begin(), s.rules.announced().end());
+    obey();
+    note_score();
+    note_balls();
+}
+
+void Game::State::obey()
+{
+    for (const Order& order : session->rules.desk().take_orders())
+        session->field.command(order.element, order.command);
+    serve();
+}
+
+void Game::State::serve()
+{
+    Desk& desk = session->rules.desk();
+    if (desk.to_serve == 0)
+        return;
+    const auto served = session->field.serve();
+    if (!served)
+        return;
+    desk.ball_served();
+    session->events.push_back(*served);
+    if (desk.to_launch > 0)
+    {
+        --desk.to_launch;
+        session->auto_plunger.launch();
+    }
+}
+
+bool Game::State::lane_is_occupied() const
+{
+    if (plunger == none)
+        return false;
+    const Index lane = std::get<Plunger>(table.elements[plunger].part).lane;
+    return lane != none && session->field.state(lane).occupied;
+}
+
+bool Game::State::auto_pull()
+{
+    if (plunger == none)
+        return false;
+    const Plunger& rod = std::get<Plunger>(table.elements[plunger].part);
+    const int pull_steps = static_cast<int>(1.2f * rod.stroke / (rod.pull_speed * table.physics.step));
+    return session->auto_plunger.step(lane_is_occupied(), pull_steps);
+}
+
+void Game::State::note_balls()
+{
+    session->balls.clear();
+    for (const Ball& ball : session->field.balls())
+        session->balls.push_back(ball.state);
+}
+
+void Game::State::note_score()
+{
+    const bool ended = std::ranges::any_of(session->events, [](const GameEvent& e) { return e.kind == EventKind::GameEnded; });
+    if (!ended)
+        return;
+    session->last_rank = high_scores.insert({"YOU", session->rules.desk().score});
+    if (session->last_rank >= 0)
+        session->events.push_back({.kind = EventKind::HighScore, .value = session->last_rank});
+}
+
+// --- What shows ----------------------------------------------------------------------------------------------------
+
+const Table& Game::table() const { return m_state->table; }
+
+std::int64_t Game::step_count() const { return m_state->session->field.step_count(); }
+
+Phase Game::phase() const { return m_state->session->rules.desk().phase; }
+
+int Game::ball_number() const { return m_state->session->rules.desk().ball; }
+
+int Game::balls_per_game() const { return m_state->table.rules.balls; }
+
+int Game::balls_served() const { return m_state->session->field.served(); }
+
+std::int64_t Game::score() const { return m_state->session->rules.desk().score; }
+
+int Game::bonus() const { return m_state->session->rules.desk().bonus; }
+
+int Game::bonus_multiplier() const { return m_state->session->rules.desk().multiplier; }
+
+int Game::letters() const { return m_state->session->rules.desk().letters; }
+
+int Game::ball_save_steps() const { return m_state->session->rules.ball_save_steps(); }
+
+namespace {
+
+LampState on_if(bool lit) { return lit ? LampState::On : LampState::Off; }
+
+LampState blink_if(bool lit) { return lit ? LampState::Blink : LampState::Off; }
+
+} // namespace
+
+LampState Game::lamp(Index element) const
+{
+    const Desk& desk = m_state->session->rules.desk();
+    const auto& part = table().elements[element].part;
+    if (std::holds_alternative<Kicker>(part))
+        return on_if(this->element(element).lit);
+    const auto* light = std::get_if<Light>(&part);
+    if (!light)
+        return element == desk.flashing ? LampState::Blink : desk.lamps[element];
+    switch (light->shows)
+    {
+    case Lamp::Element: return light->element == none ? LampState::Off : lamp(light->element);
+    case Lamp::BallSave: return blink_if(ball_save_steps() > 0);
+    case Lamp::Bonus: return on_if(desk.multiplier >= light->number && desk.ball > 0);
+    case Lamp::Letter: return on_if(desk.letters >= light->number);
+    case Lamp::Lock: return blink_if(desk.lock_is_lit);
+    case Lamp::Multiball: return blink_if(desk.multiball);
+    }
+    return LampState::Off;
+}
+
+std::span<const Message> Game::messages() const { return m_state->session->rules.desk().messages(); }
+
+std::string_view Game::message() const
+{
+    const Message* best = nullptr;
+    for (const Message& message : messages())
+        if (!best || message.priority >= best->priority)
+            best = &message;
+    return best ? std::string_view(best->text) : std::string_view{};
+}
+
+const ElementState& Game::element(Index element) const { return m_state->session->field.state(element); }
+
+const std::vector<BallState>& Game::balls() const { return m_state->session->balls; }
+
+std::span<const GameEvent> Game::events() const { return m_state->session->events; }
+
+const Scene& Game::scene() const { return std::as_const(m_state->session->field).scene(); }
+
+void Game::record_substeps(bool record) { m_state->session->field.record_substeps(record); }
+
+std::uint64_t Game::state_hash() const
+{
+    Hash hash;
+    const Session& s = *m_state->session;
+    s.field.add_to(hash);
+    s.rules.add_to(hash);
+    s.auto_plunger.add_to(hash);
+    for (const bool held : {s.held.left, s.held.right, s.held.plunger, s.held.start})
+        hash.add(held);
+    return hash.value();
+}
+
+const HighScores& Game::high_scores() const { return m_state->high_scores; }
+
+void Game::set_high_scores(HighScores scores) { m_state->high_scores = std::move(scores); }
+
+int Game::last_rank() const { return m_state->session->last_rank; }
+
+void Game::name_last(std::string_view name) { m_state->high_scores.rename(last_rank(), name); }
+
+} // namespace carom::pinball

@@ -1,0 +1,87 @@
+#include "pinball/headless/run.h"
+
+#include <chrono>
+
+namespace carom::pinball {
+
+namespace {
+
+// A captive ball's lane is shorter than this.
+constexpr float captive_reach = 0.12f; // m
+
+double microseconds_of(auto&& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+Run::Run(const Table& table, std::uint64_t seed) : m_table(table), m_seed(seed), m_stats(table) { new_session(); }
+
+// A lost ball is not repaired: the game it was lost in is given up, and the next one has its own seed.
+void Run::new_session()
+{
+    Random seeds(m_seed + static_cast<std::uint64_t>(m_sessions++));
+    m_game.emplace(m_table, Options{.seed = seeds.next()});
+    m_player.emplace(m_table, seeds.next());
+    m_judge.emplace(m_table);
+    m_stats.new_session();
+    m_captive_homes.clear();
+    for (const BallState& ball : m_game->balls())
+        m_captive_homes.push_back(ball.position);
+}
+
+void Run::step()
+{
+    const Input input = m_player->play(*m_game);
+    m_stats.note_step(microseconds_of([&] { m_game->step(input); }));
+    hear();
+    watch();
+}
+
+void Run::hear()
+{
+    for (const GameEvent& event : m_game->events())
+    {
+        m_stats.note_event(event);
+        if (event.kind == EventKind::Launched)
+            m_stats.note_launch(event.ball, m_game->step_count());
+        if (event.kind == EventKind::GameEnded)
+            m_stats.note_score(m_game->score());
+        if (event.kind == EventKind::Drained)
+        {
+            m_stats.note_drain(event.ball, m_game->step_count(), m_game->state_hash());
+            m_judge->forget(event.ball);
+        }
+    }
+}
+
+void Run::watch()
+{
+    for (const BallState& ball : m_game->balls())
+    {
+        const Verdict verdict = m_judge->look(ball, m_game->step_count());
+        if (verdict != Verdict::Fine)
+            return lose(verdict == Verdict::Escaped ? "escaped" : verdict == Verdict::Stuck ? "stuck" : "endless", ball);
+        if (captive_is_out(ball))
+            return lose("captive out", ball);
+        if (!ball.captive && !ball.held && !m_judge->in_lane(ball.position))
+            m_stats.note_speed(length(ball.velocity));
+    }
+}
+
+bool Run::captive_is_out(const BallState& ball) const
+{
+    const auto serial = static_cast<std::size_t>(ball.serial);
+    return ball.captive && length(ball.position - m_captive_homes[serial]) > captive_reach;
+}
+
+void Run::lose(const char* how, const BallState& ball)
+{
+    m_stats.note_lost({.how = how, .step = m_game->step_count(), .position = ball.position, .velocity = ball.velocity});
+    new_session();
+}
+
+} // namespace carom::pinball

@@ -1,0 +1,70 @@
+#include "pinball/rules/desk.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom::pinball {
+
+Desk::Desk(const Table& table) : lamps(table.elements.size(), LampState::Off), m_table(&table) {}
+
+std::int64_t Desk::steps(float seconds) const { return static_cast<std::int64_t>(seconds / m_table->physics.step + 0.5f); }
+
+void Desk::say(std::string text, int priority, float seconds)
+{
+    m_messages.push_back({std::move(text), priority, m_now + steps(seconds)});
+}
+
+void Desk::order_all(Command command)
+{
+    for (Index i = 0; i < m_table->elements.size(); ++i)
+        if (m_table->elements[i].enabled)
+            order(i, command);
+}
+
+void Desk::serve(bool launch_it)
+{
+    ++to_serve;
+    to_launch += launch_it ? 1 : 0;
+}
+
+void Desk::begin_step(std::int64_t step, int balls_in_play)
+{
+    m_now = step;
+    m_balls_in_play = balls_in_play;
+    std::erase_if(m_messages, [step](const Message& message) { return message.until < step; });
+}
+
+std::vector<GameEvent> Desk::take_announced() { return std::exchange(m_announced, {}); }
+
+std::vector<Order> Desk::take_orders() { return std::exchange(m_orders, {}); }
+
+void Desk::add_to(Hash& hash) const
+{
+    for (const int value : {static_cast<int>(phase), ball, bonus, multiplier, letters, bumper_level, to_serve, to_launch})
+        hash.add(value);
+    hash.add(score);
+    hash.add(saved_until);
+    hash.add(lock_is_lit);
+    hash.add(multiball);
+    hash.add(flashing);
+    for (const LampState lamp : lamps)
+        hash.add(static_cast<int>(lamp));
+}
+
+bool is_made(const GameEvent& event)
+{
+    using enum EventKind;
+    return event.kind == Entered || event.kind == Hit || event.kind == Fell || event.kind == Captured || event.kind == Fired;
+}
+
+bool is_playfield_switch(const Table& table, const GameEvent& event)
+{
+    if (!is_made(event) && event.kind != EventKind::Passed && event.kind != EventKind::Spun)
+        return false;
+    for (const auto& element : table.elements)
+        if (const auto* plunger = std::get_if<Plunger>(&element.part); plunger && plunger->lane == event.element)
+            return false;
+    return true;
+}
+
+} // namespace carom::pinball

@@ -1,0 +1,79 @@
+#pragma once
+
+/// @file
+/// What the rules share: the score, the state of the ball, lamps and messages, and the tray of orders to the table.
+
+#include "pinball/elements/device.h"
+#include "pinball/rules/show.h"
+#include "pinball/table/table.h"
+
+#include <string>
+#include <vector>
+
+namespace carom::pinball {
+
+struct Order
+{
+    Index element = none;
+    Command command = Command::Raise;
+};
+
+class Desk
+{
+public:
+    explicit Desk(const Table& table);
+
+    [[nodiscard]] const Table& table() const { return *m_table; }
+    [[nodiscard]] std::int64_t now() const { return m_now; }
+    [[nodiscard]] std::int64_t steps(float seconds) const;
+
+    void add_score(std::int64_t points) { score += points; }
+    /// Lines shown for as long as they last; the highest priority wins.
+    void say(std::string text, int priority, float seconds);
+    /// An event of the rules: all rules hear it, and so does whoever watches the game.
+    void announce(GameEvent event) { m_announced.push_back(event); }
+    void order(Index element, Command command) { m_orders.push_back({element, command}); }
+    void order_all(Command command); ///< to everything that takes part in the game
+    /// Another ball before the plunger, as soon as there is room.
+    void serve(bool launch_it = false);
+
+    void begin_step(std::int64_t step, int balls_in_play);
+    [[nodiscard]] std::vector<GameEvent> take_announced();
+    [[nodiscard]] std::vector<Order> take_orders();
+    void ball_served() { --to_serve; }
+    [[nodiscard]] const std::vector<Message>& messages() const { return m_messages; }
+    /// Balls on the table or on their way to it.
+    [[nodiscard]] int balls_out() const { return m_balls_in_play + to_serve; }
+    void add_to(Hash& hash) const;
+
+    Phase phase = Phase::Attract;
+    std::int64_t score = 0;
+    int ball = 0;
+    int bonus = 0;
+    int multiplier = 1;
+    int letters = 0;
+    int bumper_level = 0;
+    int to_serve = 0;
+    int to_launch = 0;            ///< of them, that the machine launches by itself
+    std::int64_t saved_until = 0; ///< step until which the ball save is lit
+    bool ball_was_saved = false;  ///< of the drain that is being judged
+    bool lock_is_lit = false;
+    bool multiball = false;
+    Index flashing = none; ///< the skill shot
+    std::vector<LampState> lamps{};
+
+private:
+    const Table* m_table;
+    std::int64_t m_now = 0;
+    int m_balls_in_play = 0;
+    std::vector<Message> m_messages{};
+    std::vector<GameEvent> m_announced{};
+    std::vector<Order> m_orders{};
+};
+
+/// A switch of the playfield closed: anything but the plunger's lane, walls and the drain.
+[[nodiscard]] bool is_playfield_switch(const Table& table, const GameEvent& event);
+/// An element was made: a rollover crossed, a target hit, a hole entered, a shot of a combo.
+[[nodiscard]] bool is_made(const GameEvent& event);
+
+} // namespace carom::pinball
