@@ -1,0 +1,30 @@
+#pragma once
+
+/// @file
+/// What stands beside the picture: scenes, control, x-ray, numbers, sub-steps, the last impact.
+
+#include "lab/run.h"
+#include "view/window.h"
+
+namespace carom::lab {
+
+/// What the panels read and change.
+struct LabState
+{
+    const scenes::SceneEntry* wanted = nullptr; ///< a scene to load before the next frame; also the present one, to restart it
+    SceneDef base{};       ///< for the next start
+    bool xray = false;
+    bool show_story = true;
+    view::XrayOverlay overlay;
+};
+
+/// Draws the panels and gives what is left of the window for the picture, as a viewport in points.
+struct Viewport
+{
+    Vec2 min{};
+    Vec2 max{};
+};
+[[nodiscard]] Viewport picture_area(Vec2 window);
+void draw_panels(view::Window& window, Run& run, LabState& state);
+
+} // namespace carom::lab
