@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace carom::pinball {
@@ -51,13 +50,6 @@ std::string joined(const std::vector<std::string>& words)
 }
 
 } // namespace
-
-std::string short_number(double value)
-{
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.7g", value);
-    return buffer;
-}
 
 FieldReader::FieldReader(const JsonNode& object, std::string path, std::string element, LoadErrors& errors)
     : m_object(object),

@@ -5,6 +5,7 @@
 
 #include "pinball/table/json_node.h"
 #include "pinball/table/load_error.h"
+#include "pinball/table/number_text.h"
 #include "pinball/table/table.h"
 
 #include <map>
@@ -95,8 +96,5 @@ private:
     LoadErrors& m_errors;
     std::vector<std::string> m_known{};
 };
-
-/// A number as people write it: 0.0135, not 0.013500.
-[[nodiscard]] std::string short_number(double value);
 
 } // namespace carom::pinball

@@ -105,9 +105,8 @@ void PathReader::arc(const JsonNode& node)
 
 void PathReader::add_arc(const JsonNode& node, Vec2 center, double radius, double from, double to)
 {
-    const auto point_at = [&](double angle) {
-        return center + rotate(Rotation::from_angle(static_cast<float>(angle)), {static_cast<float>(radius), 0});
-    };
+    const auto point_at = [&](double angle)
+    { return center + rotate(Rotation::from_angle(static_cast<float>(angle)), {static_cast<float>(radius), 0}); };
     const double sweep = to - from;
     if (std::abs(sweep) < 0.5 * radians_per_degree || std::abs(sweep) > 359.5 * radians_per_degree)
         return fail(node, "an arc sweeps between 0.5 and 359.5 degrees");
@@ -116,6 +115,8 @@ void PathReader::add_arc(const JsonNode& node, Vec2 center, double radius, doubl
         return fail(node, "this arc starts " + short_number(std::round(miss * 1e6) / 1e3) +
                               " mm from where the path stands; 0.1 mm is allowed");
     const Vec2 end = point_at(to);
+    if (distance(m_at, end) < snap_distance)
+        return fail(node, "the ends of an arc lie at least 0.1 mm apart");
     m_chain.pieces.push_back({.end = end, .sweep = static_cast<float>(sweep)});
     m_at = end;
 }
