@@ -1,0 +1,181 @@
+// Every kind of finding has a table in tables/ that is broken in this one way; the shipped tables have none.
+
+#include "pinball/table/check_command.h"
+#include "pinball/table/checker.h"
+#include "pinball/table/loader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace carom::pinball {
+namespace {
+
+using Ids = std::vector<std::string>;
+
+const std::filesystem::path broken_tables = std::filesystem::path(CAROM_SOURCE_DIR) / "tests/pinball/tables";
+
+struct Expected
+{
+    FindingKind kind{};
+    Ids elements{};
+    friend bool operator==(const Expected&, const Expected&) = default;
+    friend void PrintTo(const Expected& expected, std::ostream* out)
+    {
+        *out << to_string(Finding{.kind = expected.kind, .elements = expected.elements});
+    }
+};
+
+struct BrokenTable
+{
+    std::string name{};
+    std::vector<Expected> expected{};
+    friend void PrintTo(const BrokenTable& table, std::ostream* out) { *out << table.name; }
+};
+
+Table load(const std::filesystem::path& file)
+{
+    const LoadResult result = load_table_file(file);
+    for (const LoadError& error : result.errors)
+        ADD_FAILURE() << file << ":" << to_string(error);
+    return result.table.value_or(Table{});
+}
+
+std::vector<Expected> findings_of(const Table& table)
+{
+    std::vector<Expected> found;
+    for (const Finding& finding : check(table))
+        found.push_back({finding.kind, finding.elements});
+    return found;
+}
+
+const std::vector<BrokenTable> all_broken_tables = {
+    {"ball_in_post", {{FindingKind::Overlap, {"post"}}}},
+    {"ball_in_solid", {{FindingKind::Overlap, {"block"}}}},
+    {"bowl", {{FindingKind::RestingPlace, {"left", "right"}}}},
+    {"bumper_in_wall", {{FindingKind::Overlap, {"bumper", "wall"}}}},
+    {"captive_ball_in_wall", {{FindingKind::Overlap, {"captive", "wall"}}}},
+    {"captive_balls_overlap", {{FindingKind::Overlap, {"captive1", "captive2"}}}},
+    {"crossed_solid", {{FindingKind::BadOutline, {"bow"}}, {FindingKind::RestingPlace, {"bow"}}}},
+    {"drop_targets_overlap", {{FindingKind::Overlap, {"drop1", "drop2"}}}},
+    {"flipper_through_wall", {{FindingKind::FlipperStroke, {"flipper", "wall"}}}},
+    {"flippers_cross", {{FindingKind::FlipperStroke, {"left", "right"}}}},
+    {"leak", {{FindingKind::Leak, {"outer"}}}},
+    {"level_ledge", {{FindingKind::RestingPlace, {"ledge"}}}},
+    {"narrow_lane", {{FindingKind::NarrowGap, {"guide1", "guide2"}}, {FindingKind::RestingPlace, {"guide1", "guide2"}}}},
+    {"narrow_posts", {{FindingKind::NarrowGap, {"post1", "post2"}}, {FindingKind::RestingPlace, {"post1", "post2"}}}},
+    {"no_drain", {{FindingKind::NoDrain, {}}, {FindingKind::RestingPlace, {"floor"}}}},
+    {"plunger_has_no_room", {{FindingKind::NoRoom, {"plunger", "post"}}}},
+    {"plunger_lane_misses_ball", {{FindingKind::Plunger, {"plunger", "lane"}}}},
+    {"plunger_misses_ball", {{FindingKind::Plunger, {"plunger"}}}},
+    {"post_outside", {{FindingKind::OutsideTable, {"post"}}}},
+    {"rest_on_target", {{FindingKind::RestingPlace, {"drop1", "wall"}}}},
+    {"round_bowl", {{FindingKind::RestingPlace, {"bowl"}}}},
+    {"saucer_in_post", {{FindingKind::Overlap, {"saucer", "post"}}}},
+    {"sound", {}},
+    {"start_outside", {{FindingKind::OutsideTable, {}}}},
+    {"target_has_no_room", {{FindingKind::NoRoom, {"bash", "roof"}}}},
+    {"wall_outside", {{FindingKind::OutsideTable, {"wall"}}}},
+    {"walled_in", {{FindingKind::Unreachable, {"standup"}}, {FindingKind::Unreachable, {"rollover"}}}},
+};
+
+class TableChecker : public testing::TestWithParam<BrokenTable>
+{};
+
+TEST_P(TableChecker, FindsExactlyWhatIsBroken)
+{
+    const Table table = load(broken_tables / (GetParam().name + ".table.json"));
+    ASSERT_FALSE(table.elements.empty());
+    EXPECT_EQ(findings_of(table), GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, TableChecker, testing::ValuesIn(all_broken_tables),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(TableChecker, EveryBrokenTableIsTested)
+{
+    std::set<std::string> tested;
+    for (const BrokenTable& table : all_broken_tables)
+        tested.insert(table.name + ".table.json");
+    for (const auto& entry : std::filesystem::directory_iterator(broken_tables))
+        EXPECT_TRUE(tested.contains(entry.path().filename().string())) << entry.path();
+}
+
+TEST(TableChecker, EveryKindOfFindingHasABrokenTable)
+{
+    std::set<FindingKind> kinds;
+    for (const BrokenTable& table : all_broken_tables)
+        for (const Expected& expected : table.expected)
+            kinds.insert(expected.kind);
+    EXPECT_EQ(kinds.size(), static_cast<std::size_t>(FindingKind::Plunger) + 1);
+}
+
+TEST(TableChecker, ShippedTablesPass)
+{
+    for (const auto& entry : std::filesystem::directory_iterator(CAROM_TABLES_DIR))
+    {
+        std::ostringstream out;
+        EXPECT_EQ(check_command(entry.path(), out), 0) << out.str();
+    }
+}
+
+/// The shipped table with one element moved.
+template <typename Kind, typename Change>
+std::vector<Expected> momentum_with(const std::string& id, const Change& change)
+{
+    Table table = load(std::filesystem::path(CAROM_TABLES_DIR) / "momentum.table.json");
+    const Index element = table.find(id);
+    if (element == none)
+        return {};
+    change(std::get<Kind>(table.elements[element].part));
+    return findings_of(table);
+}
+
+TEST(TableChecker, FindsTheBashTargetsMissingRoomOnTheRealTable)
+{
+    const auto found = momentum_with<SprungTarget>("bash", [](SprungTarget& bash) { bash.pos.y += 0.003f; });
+    EXPECT_EQ(found, (std::vector<Expected>{{FindingKind::NoRoom, {"bash", "bash_roof"}}}));
+}
+
+TEST(TableChecker, FindsACaptiveLaneNarrowerThanTheBallOnTheRealTable)
+{
+    const auto found = momentum_with<Solid>("island_right", [](Solid& island) { island.path.half_thickness = 0.004f; });
+    const Expected first{FindingKind::Overlap, {"captive1", "island_right"}};
+    const Expected second{FindingKind::Overlap, {"captive2", "island_right"}};
+    EXPECT_NE(std::find(found.begin(), found.end(), first), found.end());
+    EXPECT_NE(std::find(found.begin(), found.end(), second), found.end());
+}
+
+TEST(TableChecker, FindsALongerFlipperOnTheRealTable)
+{
+    const auto found = momentum_with<Flipper>("flipper_left", [](Flipper& flipper) { flipper.length = 0.12f; });
+    const Expected expected{FindingKind::FlipperStroke, {"flipper_left", "flipper_right"}};
+    EXPECT_NE(std::find(found.begin(), found.end(), expected), found.end());
+}
+
+TEST(TableChecker, CommandNamesFileLineAndElement)
+{
+    std::ostringstream out;
+    const std::filesystem::path file = broken_tables / "narrow_posts.table.json";
+    EXPECT_EQ(check_command(file, out), 1);
+    EXPECT_NE(out.str().find(file.string() + ":9: narrow gap \"post1\", \"post2\": the gap is 20.4 mm"), std::string::npos)
+        << out.str();
+    EXPECT_NE(out.str().find("2 findings"), std::string::npos) << out.str();
+}
+
+TEST(TableChecker, CommandRefusesAFileThatIsNotThere)
+{
+    std::ostringstream out;
+    EXPECT_EQ(check_command(broken_tables / "nothing.table.json", out), 1);
+    EXPECT_NE(out.str().find("there is no file"), std::string::npos) << out.str();
+}
+
+} // namespace
+} // namespace carom::pinball
