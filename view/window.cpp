@@ -6,6 +6,7 @@
 #include <imgui_impl_opengl3.h>
 #include <imgui_impl_sdl.h>
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -96,7 +97,7 @@ Window::Window(const WindowDef& def) : m_native(std::make_unique<Native>()), m_b
     m_native->window =
         SDL_CreateWindow(def.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, def.width, def.height, flags);
     if (m_native->window == nullptr) fail("no window");
-    SDL_SetWindowMinimumSize(m_native->window, 320, 240);
+    SDL_SetWindowMinimumSize(m_native->window, std::min(def.width, 320), std::min(def.height, 240));
     m_native->gl = SDL_GL_CreateContext(m_native->window);
     if (m_native->gl == nullptr) fail("no OpenGL 3.3");
     SDL_GL_SetSwapInterval(def.vertical_sync && !m_native->offscreen ? 1 : 0);
