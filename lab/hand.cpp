@@ -33,25 +33,33 @@ bool Hand::press(const SDL_MouseButtonEvent& event, Scene& scene, const view::Ca
 {
     m_mouse = mouse_at(event.x, event.y);
     const Position at = camera.to_world(m_mouse);
-    if (event.button == SDL_BUTTON_RIGHT) m_ray_start = at;
-    if (event.button != SDL_BUTTON_LEFT) return false;
-    if (const auto body = find(scene, at, camera.meters(12))) grab(scene, *body, at);
-    else m_panning = true;
+    if (event.button == SDL_BUTTON_RIGHT)
+        m_ray_start = at;
+    if (event.button != SDL_BUTTON_LEFT)
+        return false;
+    if (const auto body = find(scene, at, camera.meters(12)))
+        grab(scene, *body, at);
+    else
+        m_panning = true;
     return false;
 }
 
 bool Hand::move(const SDL_MouseMotionEvent& event, view::Camera& camera)
 {
     m_mouse = mouse_at(event.x, event.y);
-    if (m_panning) camera.pan(mouse_at(event.xrel, event.yrel));
+    if (m_panning)
+        camera.pan(mouse_at(event.xrel, event.yrel));
     return m_panning;
 }
 
 void Hand::release(const SDL_MouseButtonEvent& event, Scene& scene)
 {
-    if (event.button == SDL_BUTTON_RIGHT) m_ray_start.reset();
-    if (event.button != SDL_BUTTON_LEFT) return;
-    if (m_spring && scene.is_valid(m_spring)) scene.destroy(m_spring);
+    if (event.button == SDL_BUTTON_RIGHT)
+        m_ray_start.reset();
+    if (event.button != SDL_BUTTON_LEFT)
+        return;
+    if (m_spring && scene.is_valid(m_spring))
+        scene.destroy(m_spring);
     m_spring = {};
     m_panning = false;
 }
@@ -59,9 +67,11 @@ void Hand::release(const SDL_MouseButtonEvent& event, Scene& scene)
 std::optional<BodyId> Hand::find(const Scene& scene, Position at, float reach) const
 {
     for (const ShapeId shape : scene.overlap_point(at))
-        if (can_be_dragged(scene, shape)) return scene.shape(shape).body();
+        if (can_be_dragged(scene, shape))
+            return scene.shape(shape).body();
     const auto near = scene.closest_point(at, reach);
-    if (near && can_be_dragged(scene, near->shape)) return scene.shape(near->shape).body();
+    if (near && can_be_dragged(scene, near->shape))
+        return scene.shape(near->shape).body();
     return std::nullopt;
 }
 
@@ -71,13 +81,18 @@ void Hand::grab(Scene& scene, BodyId body, Position at)
     // 3 Hz and 0.7 of critical damping: follows the hand and does not swing about it, whatever the mass.
     const float rate = 2 * pi * 3;
     const float mass = grabbed.mass();
-    m_spring = scene.create_joint(SpringDef{.body_b = body, .anchor_a = to_vec2(at), .anchor_b = grabbed.local_point(at),
-                                            .stiffness = mass * rate * rate, .damping = 2 * 0.7f * mass * rate, .length = 0});
+    m_spring = scene.create_joint(SpringDef{.body_b = body,
+                                            .anchor_a = to_vec2(at),
+                                            .anchor_b = grabbed.local_point(at),
+                                            .stiffness = mass * rate * rate,
+                                            .damping = 2 * 0.7f * mass * rate,
+                                            .length = 0});
 }
 
 void Hand::follow(Scene& scene, const view::Camera& camera)
 {
-    if (!m_spring || !scene.is_valid(m_spring)) return;
+    if (!m_spring || !scene.is_valid(m_spring))
+        return;
     auto def = std::get<SpringDef>(scene.joint(m_spring).def());
     def.anchor_a = to_vec2(camera.to_world(m_mouse));
     scene.joint(m_spring).set_def(def);
@@ -85,13 +100,16 @@ void Hand::follow(Scene& scene, const view::Camera& camera)
 
 void Hand::draw(view::Canvas& canvas, const Scene& scene) const
 {
-    if (!m_ray_start) return;
+    if (!m_ray_start)
+        return;
     const Position end = canvas.camera().to_world(m_mouse);
     const Vec2 way = end - *m_ray_start;
-    if (length(way) <= 0) return;
+    if (length(way) <= 0)
+        return;
     const auto hit = scene.raycast_closest(*m_ray_start, way);
     canvas.line(*m_ray_start, hit ? hit->point : end, {view::rgb(0x99e9f2), 1.5f});
-    if (!hit) return;
+    if (!hit)
+        return;
     const float pixel = canvas.camera().meters(1);
     canvas.fill_circle(hit->point, 3 * pixel, view::rgb(0x99e9f2));
     canvas.arrow(hit->point, hit->point + hit->normal * (30 * pixel), {view::rgb(0xffec99), 1.5f});

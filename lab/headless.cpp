@@ -23,7 +23,8 @@ public:
     Progress(std::string_view name, int total) : m_name(name), m_total(total), m_terminal(isatty(STDERR_FILENO) != 0) {}
     ~Progress()
     {
-        if (m_shown) std::fprintf(stderr, "\r\033[K");
+        if (m_shown)
+            std::fprintf(stderr, "\r\033[K");
     }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -31,7 +32,8 @@ public:
     void at(int step)
     {
         const auto now = Clock::now();
-        if (!m_terminal || now < m_next) return;
+        if (!m_terminal || now < m_next)
+            return;
         m_next = now + std::chrono::milliseconds(200);
         m_shown = true;
         std::fprintf(stderr, "\r\033[K%s: step %d of %d, Ctrl-C reports what is done", m_name.c_str(), step, m_total);
@@ -70,8 +72,8 @@ struct Totals
 nlohmann::ordered_json stage_means(const Totals& t, int steps)
 {
     const double n = steps > 0 ? steps : 1;
-    return {{"sweep", t.sweep / n},   {"pairs", t.pairs / n},   {"contacts", t.contacts / n}, {"units", t.units / n},
-            {"solve", t.solve / n},   {"commit", t.commit / n}, {"events", t.events / n},     {"total", t.total / n}};
+    return {{"sweep", t.sweep / n}, {"pairs", t.pairs / n},   {"contacts", t.contacts / n}, {"units", t.units / n},
+            {"solve", t.solve / n}, {"commit", t.commit / n}, {"events", t.events / n},     {"total", t.total / n}};
 }
 
 nlohmann::ordered_json flag_names(std::uint32_t flags)
@@ -82,7 +84,8 @@ nlohmann::ordered_json flag_names(std::uint32_t flags)
                                                       {StepFlag::ColorsExhausted, "colors_exhausted"},
                                                       {StepFlag::TimeDropped, "time_dropped"}};
     for (const auto& [flag, name] : known)
-        if ((flags & static_cast<std::uint32_t>(flag)) != 0) names.push_back(name);
+        if ((flags & static_cast<std::uint32_t>(flag)) != 0)
+            names.push_back(name);
     return names;
 }
 
@@ -96,7 +99,8 @@ std::string hex(std::uint64_t value)
 double kinetic_energy(const Scene& scene)
 {
     double sum = 0;
-    for (const BodyId body : scene.bodies()) sum += static_cast<double>(scene.body(body).kinetic_energy());
+    for (const BodyId body : scene.bodies())
+        sum += static_cast<double>(scene.body(body).kinetic_energy());
     return sum;
 }
 

@@ -36,7 +36,8 @@ void add_options(CLI::App& app, Arguments& a)
     app.add_option("--scene", a.scene, "the scene to start with")->capture_default_str();
     app.add_flag("--headless", a.headless, "no window: take the steps and report");
     app.add_flag("--json", a.json, "report as one JSON object (the only report there is)");
-    app.add_option("--steps", a.steps, "steps for --headless (default: the scene's own number) and --screenshot (default: 0)")->check(CLI::NonNegativeNumber);
+    app.add_option("--steps", a.steps, "steps for --headless (default: the scene's own number) and --screenshot (default: 0)")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--step-time", a.h, "seconds a step, headless (default: the scene's own)")->check(CLI::PositiveNumber);
     app.add_option("--substeps", a.substeps, "sub-steps a step, headless")->check(CLI::Range(1, 64))->capture_default_str();
     app.add_option("--screenshot", a.screenshot, "render off the screen, write this PNG file and end");
@@ -69,20 +70,23 @@ bool parse_size(const std::string& text, lab::ViewerOptions& options)
 
 int window(const Arguments& a, const scenes::SceneEntry& entry)
 {
-    lab::ViewerOptions options{.entry = &entry, .xray = a.xray, .screenshot = a.screenshot, .steps = std::max(a.steps, 0), .substep = a.look_at_substep};
+    lab::ViewerOptions options{
+        .entry = &entry, .xray = a.xray, .screenshot = a.screenshot, .steps = std::max(a.steps, 0), .substep = a.look_at_substep};
     if (!parse_size(a.size, options))
     {
         std::fprintf(stderr, "carom-lab: --size %s is not WIDTHxHEIGHT from 64 to 16384\n", a.size.c_str());
         return 2;
     }
     // A picture needs no display; who sets the driver himself keeps it.
-    if (!a.screenshot.empty()) setenv("SDL_VIDEODRIVER", "offscreen", 0);
+    if (!a.screenshot.empty())
+        setenv("SDL_VIDEODRIVER", "offscreen", 0);
     return lab::run_viewer(options);
 }
 
 int run(const Arguments& a)
 {
-    if (a.list) return list_scenes();
+    if (a.list)
+        return list_scenes();
     const scenes::SceneEntry* entry = scenes::find_scene(a.scene);
     if (entry == nullptr)
     {

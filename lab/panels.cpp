@@ -34,14 +34,17 @@ void scene_list(Run& run, LabState& state)
     for (const scenes::SceneEntry& entry : scenes::all_scenes())
     {
         const bool chosen = &entry == &run.entry();
-        if (ImGui::Selectable(std::string(entry.name).c_str(), chosen)) state.wanted = &entry;
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(entry.description).c_str());
+        if (ImGui::Selectable(std::string(entry.name).c_str(), chosen))
+            state.wanted = &entry;
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", std::string(entry.description).c_str());
     }
 }
 
 void time_controls(Run& run, LabState& state)
 {
-    if (ImGui::Button(run.paused ? "Play" : "Pause", {76, 0})) run.paused = !run.paused;
+    if (ImGui::Button(run.paused ? "Play" : "Pause", {76, 0}))
+        run.paused = !run.paused;
     ImGui::SameLine();
     if (ImGui::Button("Step", {76, 0}))
     {
@@ -49,10 +52,12 @@ void time_controls(Run& run, LabState& state)
         run.step();
     }
     ImGui::SameLine();
-    if (ImGui::Button("Restart", {76, 0})) state.wanted = &run.entry();
+    if (ImGui::Button("Restart", {76, 0}))
+        state.wanted = &run.entry();
     auto speed = static_cast<float>(run.speed);
     ImGui::SetNextItemWidth(160);
-    if (ImGui::SliderFloat("speed", &speed, 0.01f, 2, "%.2f", ImGuiSliderFlags_Logarithmic)) run.speed = static_cast<double>(speed);
+    if (ImGui::SliderFloat("speed", &speed, 0.01f, 2, "%.2f", ImGuiSliderFlags_Logarithmic))
+        run.speed = static_cast<double>(speed);
 }
 
 // They hold from the next start, so that a scene stays the same from its first step on.
@@ -63,7 +68,8 @@ void world_controls(LabState& state)
     ImGui::Checkbox("sleeping", &state.base.sleeping);
     ImGui::SameLine();
     ImGui::Checkbox("continuous", &state.base.continuous);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Off: fast balls pass through thin walls. Try it with \"bullet\".\nHolds from the next restart.");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Off: fast balls pass through thin walls. Try it with \"bullet\".\nHolds from the next restart.");
 }
 
 void number_row(const char* name, const std::string& value)
@@ -85,17 +91,21 @@ void numbers(const Run& run)
     number_row("units, colors", n(r.units) + ", " + n(r.colors));
     number_row("in flight", n(r.flight_bodies) + ", impacts " + n(r.flight_impacts));
     number_row("bulk impacts", n(r.bulk_impacts));
-    if (r.flags != 0) ImGui::TextColored({1, 0.6f, 0.4f, 1}, "step flags: %u", r.flags);
+    if (r.flags != 0)
+        ImGui::TextColored({1, 0.6f, 0.4f, 1}, "step flags: %u", r.flags);
 }
 
 void xray_panel(Run& run, LabState& state)
 {
     ImGui::Checkbox("x-ray (X)", &state.xray);
-    if (state.xray) state.overlay.widgets();
+    if (state.xray)
+        state.overlay.widgets();
     ImGui::Separator();
     ImGui::TextUnformatted("within the last step");
-    if (run.paused) run.scrubber.widgets();
-    else ImGui::TextDisabled("pause to look into it");
+    if (run.paused)
+        run.scrubber.widgets();
+    else
+        ImGui::TextDisabled("pause to look into it");
 }
 
 void wide_panels(view::Window& window, Run& run, LabState& state)
@@ -103,8 +113,10 @@ void wide_panels(view::Window& window, Run& run, LabState& state)
     const Vec2 size = window.size();
     begin_at("control", {0, 0}, {side_width, size.y});
     time_controls(run, state);
-    if (ImGui::CollapsingHeader("Scenes", ImGuiTreeNodeFlags_DefaultOpen)) scene_list(run, state);
-    if (ImGui::CollapsingHeader("World")) world_controls(state);
+    if (ImGui::CollapsingHeader("Scenes", ImGuiTreeNodeFlags_DefaultOpen))
+        scene_list(run, state);
+    if (ImGui::CollapsingHeader("World"))
+        world_controls(state);
     ImGui::End();
 
     begin_at("knowledge", {size.x - story_width, 0}, {story_width, size.y});
@@ -113,7 +125,8 @@ void wide_panels(view::Window& window, Run& run, LabState& state)
         numbers(run);
         stage_plot(run.history());
     }
-    if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen)) xray_panel(run, state);
+    if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen))
+        xray_panel(run, state);
     if (state.xray && ImGui::CollapsingHeader("Last impact", ImGuiTreeNodeFlags_DefaultOpen))
         view::impact_widgets(window.fonts(), run.impacts.last());
     ImGui::End();
@@ -121,7 +134,8 @@ void wide_panels(view::Window& window, Run& run, LabState& state)
 
 void tab(const char* name, const auto& content)
 {
-    if (!ImGui::BeginTabItem(name)) return;
+    if (!ImGui::BeginTabItem(name))
+        return;
     ImGui::BeginChild(name);
     content();
     ImGui::EndChild();
@@ -138,7 +152,12 @@ void narrow_panels(view::Window& window, Run& run, LabState& state)
     {
         tab("Scenes", [&] { scene_list(run, state); });
         tab("X-ray", [&] { xray_panel(run, state); });
-        tab("Numbers", [&] { numbers(run); stage_plot(run.history()); });
+        tab("Numbers",
+            [&]
+            {
+                numbers(run);
+                stage_plot(run.history());
+            });
         tab("Impact", [&] { view::impact_widgets(window.fonts(), run.impacts.last()); });
         tab("World", [&] { world_controls(state); });
         ImGui::EndTabBar();
@@ -150,14 +169,17 @@ void narrow_panels(view::Window& window, Run& run, LabState& state)
 
 Viewport picture_area(Vec2 window)
 {
-    if (is_narrow(window)) return {{0, 0}, {window.x, std::max(window.y * 0.55f, 100.0f)}};
+    if (is_narrow(window))
+        return {{0, 0}, {window.x, std::max(window.y * 0.55f, 100.0f)}};
     return {{side_width, 0}, {window.x - story_width, window.y}};
 }
 
 void draw_panels(view::Window& window, Run& run, LabState& state)
 {
-    if (is_narrow(window.size())) narrow_panels(window, run, state);
-    else wide_panels(window, run, state);
+    if (is_narrow(window.size()))
+        narrow_panels(window, run, state);
+    else
+        wide_panels(window, run, state);
 }
 
 } // namespace carom::lab

@@ -12,7 +12,7 @@ namespace carom::lab {
 struct LabState
 {
     const scenes::SceneEntry* wanted = nullptr; ///< a scene to load before the next frame; also the present one, to restart it
-    SceneDef base{};       ///< for the next start
+    SceneDef base{};                            ///< for the next start
     bool xray = false;
     bool show_story = true;
     view::XrayOverlay overlay;

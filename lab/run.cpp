@@ -19,22 +19,22 @@ void Run::step()
 {
     const StepReport& report = m_built.step(m_entry->h);
     m_history.push_back(report.ms);
-    if (m_history.size() > history_steps) m_history.pop_front();
+    if (m_history.size() > history_steps)
+        m_history.pop_front();
     impacts.observe(m_built.scene);
     scrubber.capture(m_built.scene);
 }
 
 void Run::advance(double seconds)
 {
-    if (paused) return;
+    if (paused)
+        return;
     const auto h = static_cast<double>(m_entry->h);
     m_waiting = std::min(m_waiting + seconds * speed, h * most_steps_a_frame);
-    for (; m_waiting >= h; m_waiting -= h) step();
+    for (; m_waiting >= h; m_waiting -= h)
+        step();
 }
 
-float Run::alpha() const
-{
-    return paused ? 1 : static_cast<float>(m_waiting / static_cast<double>(m_entry->h));
-}
+float Run::alpha() const { return paused ? 1 : static_cast<float>(m_waiting / static_cast<double>(m_entry->h)); }
 
 } // namespace carom::lab

@@ -14,14 +14,14 @@ namespace {
 struct Stage
 {
     const char* name;
-    float StageTimes::*value;
+    float StageTimes::* value;
     view::Color color;
 };
 
 constexpr Stage stages[] = {
-    {"sweep", &StageTimes::sweep, view::rgb(0x4dabf7)},   {"pairs", &StageTimes::pairs, view::rgb(0x63e6be)},
+    {"sweep", &StageTimes::sweep, view::rgb(0x4dabf7)},       {"pairs", &StageTimes::pairs, view::rgb(0x63e6be)},
     {"contacts", &StageTimes::contacts, view::rgb(0xffd43b)}, {"units", &StageTimes::units, view::rgb(0xffa94d)},
-    {"solve", &StageTimes::solve, view::rgb(0xff6b6b)},   {"commit", &StageTimes::commit, view::rgb(0xda77f2)},
+    {"solve", &StageTimes::solve, view::rgb(0xff6b6b)},       {"commit", &StageTimes::commit, view::rgb(0xda77f2)},
     {"events", &StageTimes::events, view::rgb(0x868e96)},
 };
 
@@ -29,7 +29,8 @@ constexpr Stage stages[] = {
 float scale_of(const std::deque<StageTimes>& history)
 {
     std::vector<float> totals;
-    for (const StageTimes& t : history) totals.push_back(t.total);
+    for (const StageTimes& t : history)
+        totals.push_back(t.total);
     std::ranges::sort(totals);
     return totals.empty() ? 1 : std::max(totals[(totals.size() - 1) * 98 / 100] * 1.15f, 1e-3f);
 }
@@ -52,10 +53,12 @@ void legend(const std::deque<StageTimes>& history)
     for (const Stage& stage : stages)
     {
         double sum = 0;
-        for (const StageTimes& t : history) sum += static_cast<double>(t.*stage.value);
+        for (const StageTimes& t : history)
+            sum += static_cast<double>(t.*stage.value);
         const double mean = history.empty() ? 0 : sum / static_cast<double>(history.size());
         const view::Color& c = stage.color;
-        if (shown++ % 2 != 0) ImGui::SameLine(ImGui::GetWindowContentRegionMax().x / 2);
+        if (shown++ % 2 != 0)
+            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x / 2);
         ImGui::TextColored({c.r, c.g, c.b, 1}, "%-9s%.3f ms", stage.name, mean);
     }
 }

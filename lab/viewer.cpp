@@ -19,7 +19,8 @@ class Viewer
 {
 public:
     explicit Viewer(const ViewerOptions& options)
-        : m_options(options), m_window({.title = "Carom lab", .width = options.width, .height = options.height})
+        : m_options(options),
+          m_window({.title = "Carom lab", .width = options.width, .height = options.height})
     {
         m_state.xray = options.xray;
         load(*options.entry);
@@ -33,21 +34,25 @@ public:
             const Uint64 now = SDL_GetPerformanceCounter();
             const double passed = static_cast<double>(now - before) / static_cast<double>(SDL_GetPerformanceFrequency());
             before = now;
-            for (const SDL_Event& event : m_window.events()) handle(event);
+            for (const SDL_Event& event : m_window.events())
+                handle(event);
             m_hand.follow(m_run->scene(), m_camera);
             m_run->advance(std::min(passed, 0.1));
             frame();
             m_window.end_frame();
-            if (m_state.wanted != nullptr) load(*m_state.wanted);
+            if (m_state.wanted != nullptr)
+                load(*m_state.wanted);
         }
         return 0;
     }
 
     int photograph()
     {
-        for (int i = 0; i < m_options.steps; ++i) m_run->step();
+        for (int i = 0; i < m_options.steps; ++i)
+            m_run->step();
         m_run->paused = true;
-        if (m_options.substep >= 0) m_run->scrubber.select(m_options.substep);
+        if (m_options.substep >= 0)
+            m_run->scrubber.select(m_options.substep);
         view::Image image;
         // Sizes of text asked for in one frame are baked before the next; widgets settle in the second.
         for (int i = 0; i < 3 && m_window.begin_frame(); ++i)
@@ -55,7 +60,8 @@ public:
             frame();
             m_window.end_frame(&image);
         }
-        if (view::save_png(image, m_options.screenshot)) return 0;
+        if (view::save_png(image, m_options.screenshot))
+            return 0;
         std::fprintf(stderr, "carom-lab: cannot write %s\n", m_options.screenshot.c_str());
         return 1;
     }
@@ -71,15 +77,19 @@ private:
         m_run->speed = speed;
         m_hand.forget();
         m_state.wanted = nullptr;
-        if (!same) m_own_camera = false;
+        if (!same)
+            m_own_camera = false;
     }
 
     void handle(const SDL_Event& event)
     {
-        if (event.type == SDL_KEYDOWN && !m_window.wants_keyboard()) key(event.key.keysym.scancode);
+        if (event.type == SDL_KEYDOWN && !m_window.wants_keyboard())
+            key(event.key.keysym.scancode);
         const bool mouse = event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEWHEEL;
-        if (mouse && m_window.wants_mouse()) return;
-        if (m_hand.handle(event, m_run->scene(), m_camera)) m_own_camera = true;
+        if (mouse && m_window.wants_mouse())
+            return;
+        if (m_hand.handle(event, m_run->scene(), m_camera))
+            m_own_camera = true;
     }
 
     void key(SDL_Scancode code)
@@ -87,7 +97,10 @@ private:
         switch (code)
         {
         case SDL_SCANCODE_SPACE: m_run->paused = !m_run->paused; break;
-        case SDL_SCANCODE_RIGHT: m_run->paused = true; m_run->step(); break;
+        case SDL_SCANCODE_RIGHT:
+            m_run->paused = true;
+            m_run->step();
+            break;
         case SDL_SCANCODE_COMMA: scrub(-1); break;
         case SDL_SCANCODE_PERIOD: scrub(1); break;
         case SDL_SCANCODE_R: m_state.wanted = &m_run->entry(); break;
@@ -112,13 +125,15 @@ private:
     {
         const auto all = scenes::all_scenes();
         const auto index = &m_run->entry() - all.data() + by;
-        if (index >= 0 && index < static_cast<std::ptrdiff_t>(all.size())) m_state.wanted = &all[static_cast<std::size_t>(index)];
+        if (index >= 0 && index < static_cast<std::ptrdiff_t>(all.size()))
+            m_state.wanted = &all[static_cast<std::size_t>(index)];
     }
 
     void frame()
     {
         const Viewport area = picture_area(m_window.size());
-        if (!m_own_camera) m_camera = view::Camera::fit(m_run->entry().view, area.min, area.max, 16);
+        if (!m_own_camera)
+            m_camera = view::Camera::fit(m_run->entry().view, area.min, area.max, 16);
         m_camera.viewport_min = area.min;
         m_camera.viewport_max = area.max;
         picture(area);
@@ -130,9 +145,12 @@ private:
         view::Canvas canvas = m_window.canvas(m_camera);
         canvas.push_clip(m_camera.visible());
         view::draw_scene(canvas, m_run->scene(), m_run->alpha(), m_state.xray ? faded() : view::ScenePalette{});
-        if (m_state.xray) m_state.overlay.draw(canvas, m_run->scene());
-        if (m_state.xray && m_run->paused) m_run->scrubber.draw(canvas, m_run->scene());
-        if (m_state.xray && m_run->impacts.last()) view::draw_impact(canvas, *m_run->impacts.last());
+        if (m_state.xray)
+            m_state.overlay.draw(canvas, m_run->scene());
+        if (m_state.xray && m_run->paused)
+            m_run->scrubber.draw(canvas, m_run->scene());
+        if (m_state.xray && m_run->impacts.last())
+            view::draw_impact(canvas, *m_run->impacts.last());
         m_hand.draw(canvas, m_run->scene());
         caption(area);
         canvas.pop_clip();
@@ -143,15 +161,19 @@ private:
         view::Canvas hud = m_window.canvas();
         const scenes::SceneEntry& entry = m_run->entry();
         const view::Color shadow = view::rgb(0x000000, 0.7f);
-        hud.text(area.min + Vec2{14, 12}, entry.name, {.size = 20, .color = view::rgb(0xe8eef8), .face = view::Face::Bold, .shadow = shadow});
+        hud.text(area.min + Vec2{14, 12}, entry.name,
+                 {.size = 20, .color = view::rgb(0xe8eef8), .face = view::Face::Bold, .shadow = shadow});
         const view::TextStyle small{.size = 13, .color = view::rgb(0x9fb0c8), .shadow = shadow};
         const bool room = area.max.x - area.min.x > 600;
-        if (room) hud.text(area.min + Vec2{14, 38}, entry.description, small);
+        if (room)
+            hud.text(area.min + Vec2{14, 38}, entry.description, small);
         view::TextStyle foot = small;
         foot.align_y = 1;
         hud.text({static_cast<double>(area.min.x) + 14, static_cast<double>(area.max.y) - 10},
-                 room ? "Space pause   → step   , . sub-step   X x-ray   R restart   drag with the left, ray with the right button"
-                      : "Space pause   → step   X x-ray   R restart", foot);
+                 room
+                     ? "Space pause   → step   , . sub-step   X x-ray   R restart   drag with the left, ray with the right button"
+                     : "Space pause   → step   X x-ray   R restart",
+                 foot);
     }
 
     // Under the x-ray the picture steps back.
@@ -161,7 +183,8 @@ private:
         const auto dim = [](view::Color& c) { c = view::mix(view::rgb(0x10141c), c, 0.4f); };
         dim(palette.still);
         dim(palette.kinematic);
-        for (view::Color& c : palette.dynamic) dim(c);
+        for (view::Color& c : palette.dynamic)
+            dim(c);
         dim(palette.joint);
         return palette;
     }

@@ -17,7 +17,7 @@ struct ViewerOptions
     bool xray = false;
     std::string screenshot{}; ///< where set: take `steps` steps, write this PNG, end
     int steps = 0;
-    int substep = -1;         ///< for a screenshot: look at this sub-step of the last step
+    int substep = -1; ///< for a screenshot: look at this sub-step of the last step
 };
 
 /// Returns the program's exit code.

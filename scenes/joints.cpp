@@ -17,12 +17,14 @@ BuiltScene chain(const SceneDef& base)
     for (int i = 0; i < links; ++i)
     {
         const BodyId link = add_dynamic(scene, {length * (i + 0.5), 0}, Capsule{{-0.2f, 0}, {0.2f, 0}, 0.05f, 0.05f});
-        scene.create_joint(RevoluteDef{.body_a = previous, .body_b = link, .anchor_a = previous_anchor, .anchor_b = {-length / 2, 0}});
+        scene.create_joint(
+            RevoluteDef{.body_a = previous, .body_b = link, .anchor_a = previous_anchor, .anchor_b = {-length / 2, 0}});
         previous = link;
         previous_anchor = {length / 2, 0};
     }
     const float link_mass = scene.body(previous).mass();
-    const BodyId weight = add_dynamic(scene, {length * links + 0.5, 0}, Circle{.radius = 0.5f}, {.density = 50 * link_mass / (pi * 0.25f)});
+    const BodyId weight =
+        add_dynamic(scene, {length * links + 0.5, 0}, Circle{.radius = 0.5f}, {.density = 50 * link_mass / (pi * 0.25f)});
     scene.create_joint(RevoluteDef{.body_a = previous, .body_b = weight, .anchor_a = previous_anchor, .anchor_b = {-0.5f, 0}});
     return built;
 }
@@ -72,7 +74,8 @@ BuiltScene springs(const SceneDef& base)
         const float sag = 9.81f / o.stiffness;
         const float pull = o.stiffness > 1e5f ? 0 : 0.5f;
         const BodyId mass = add_dynamic(scene, {x, -3.0 - static_cast<double>(sag + pull)}, box(0.5f, 0.5f));
-        scene.create_joint(SpringDef{.body_b = mass, .anchor_a = {x, 0}, .stiffness = o.stiffness, .damping = o.damping, .length = 3});
+        scene.create_joint(
+            SpringDef{.body_b = mass, .anchor_a = {x, 0}, .stiffness = o.stiffness, .damping = o.damping, .length = 3});
         x += 3;
     }
     return built;
@@ -94,25 +97,50 @@ BuiltScene joints(const SceneDef& base)
         anchor = {0.4f, 0};
     }
     scene.create_joint(RevoluteDef{.body_a = previous, .body_b = {}, .anchor_a = anchor, .anchor_b = {0.6f, 6}});
-    for (int i = 0; i < 3; ++i) add_dynamic(scene, {-6.0 + 2 * i, 8}, Circle{.radius = 0.5f});
+    for (int i = 0; i < 3; ++i)
+        add_dynamic(scene, {-6.0 + 2 * i, 8}, Circle{.radius = 0.5f});
 
     const BodyId bob = add_dynamic(scene, {5.5, 7}, Circle{.radius = 0.4f});
     scene.create_joint(DistanceDef{.body_b = bob, .anchor_a = {3, 7}, .min_length = 0, .max_length = 3});
 
     const BodyId slider = add_dynamic(scene, {4, 1.5}, box(0.6f, 0.3f));
-    scene.create_joint(PrismaticDef{.body_b = slider, .anchor_a = {4, 1.5f}, .axis_a = {1, 0}, .enable_limit = true, .lower_translation = -2,
-                                    .upper_translation = 2, .enable_motor = true, .motor_speed = 1.5f, .max_motor_force = 50});
+    scene.create_joint(PrismaticDef{.body_b = slider,
+                                    .anchor_a = {4, 1.5f},
+                                    .axis_a = {1, 0},
+                                    .enable_limit = true,
+                                    .lower_translation = -2,
+                                    .upper_translation = 2,
+                                    .enable_motor = true,
+                                    .motor_speed = 1.5f,
+                                    .max_motor_force = 50});
 
     const BodyId board = add_dynamic(scene, {9, 5}, box(1.5f, 0.1f));
-    scene.create_joint(RevoluteDef{.body_b = board, .anchor_a = {7.5f, 5}, .anchor_b = {-1.5f, 0}, .spring_hertz = 2, .spring_damping_ratio = 0.2f});
+    scene.create_joint(RevoluteDef{
+        .body_b = board, .anchor_a = {7.5f, 5}, .anchor_b = {-1.5f, 0}, .spring_hertz = 2, .spring_damping_ratio = 0.2f});
     return built;
 }
 
 constexpr SceneEntry entries[] = {
-    {.name = "chain", .description = "Twenty links on hinges swing a weight of fifty links.", .create = chain, .view = {{-13, -14}, {13, 2}}},
-    {.name = "cradle", .description = "Newton's cradle, once with touching balls and once with gaps of 1 mm.", .create = cradle, .h = 1.0f / 240, .frames = 2400, .view = {{-11, 0}, {11, 7}}},
-    {.name = "springs", .description = "Masses on springs: half, one and two hertz, damped, over-damped, very stiff.", .create = springs, .h = 1.0f / 240, .frames = 2400, .view = {{-10, -6}, {10, 1}}},
-    {.name = "joints", .description = "A bridge of planks, a rope, a driven slider and a soft hinge.", .create = joints, .view = {{-11, -1}, {11.5, 10}}},
+    {.name = "chain",
+     .description = "Twenty links on hinges swing a weight of fifty links.",
+     .create = chain,
+     .view = {{-13, -14}, {13, 2}}},
+    {.name = "cradle",
+     .description = "Newton's cradle, once with touching balls and once with gaps of 1 mm.",
+     .create = cradle,
+     .h = 1.0f / 240,
+     .frames = 2400,
+     .view = {{-11, 0}, {11, 7}}},
+    {.name = "springs",
+     .description = "Masses on springs: half, one and two hertz, damped, over-damped, very stiff.",
+     .create = springs,
+     .h = 1.0f / 240,
+     .frames = 2400,
+     .view = {{-10, -6}, {10, 1}}},
+    {.name = "joints",
+     .description = "A bridge of planks, a rope, a driven slider and a soft hinge.",
+     .create = joints,
+     .view = {{-11, -1}, {11.5, 10}}},
 };
 
 } // namespace

@@ -16,8 +16,10 @@ BuiltScene kinematic_bar(const SceneDef& base)
     scene.create_shape(piston, box(0.5f, 0.7f));
     Random random(3);
     for (int i = 0; i < 60; ++i)
-        add_dynamic(scene, {-9 + 0.9 * (i % 20), 8.5 + 0.8 * (i / 20)}, Circle{.radius = random.in(0.2f, 0.35f)}, {.restitution = 0.3f});
-    built.before_step = [piston](Scene& s) {
+        add_dynamic(scene, {-9 + 0.9 * (i % 20), 8.5 + 0.8 * (i / 20)}, Circle{.radius = random.in(0.2f, 0.35f)},
+                    {.restitution = 0.3f});
+    built.before_step = [piston](Scene& s)
+    {
         // Out and back once in four seconds, on a curve without jumps.
         const float phase = static_cast<float>(s.step_count() % 240) / 240;
         const float out = phase < 0.5f ? phase * 2 : 2 - phase * 2;
@@ -37,7 +39,8 @@ BuiltScene bullet(const SceneDef& base)
     const ShapeDef wall{.friction = 0, .restitution = 1};
     const Chain room{.start = {-10, 0}, .pieces = {{{10, 0}}, {{10, 10}}, {{-10, 10}}}, .closed = true};
     add_static(scene, room, wall);
-    for (int i = 0; i < 4; ++i) add_static(scene, Segment{{-6 + 4 * static_cast<float>(i), 2}, {-6 + 4 * static_cast<float>(i), 8}}, wall);
+    for (int i = 0; i < 4; ++i)
+        add_static(scene, Segment{{-6 + 4 * static_cast<float>(i), 2}, {-6 + 4 * static_cast<float>(i), 8}}, wall);
     const float speed[] = {10, 50, 200, 500, 1000};
     Random random(9);
     for (int i = 0; i < 20; ++i)
@@ -58,17 +61,28 @@ BuiltScene triggers(const SceneDef& base)
     add_static(scene, box(1, 3), {.trigger = true, .field = {.acceleration = {0, 25}}}, {-5, 3});
     add_static(scene, box(2, 1), {.trigger = true, .field = {.drag = 4}}, {0, 5});
     for (const double x : {3.0, 6.0})
-        add_static(scene, Circle{.radius = 0.8f}, {.restitution = 0.5f, .kick = {.speed = 4, .threshold = 1, .cooldown = 0.05f}}, {x, 3});
+        add_static(scene, Circle{.radius = 0.8f}, {.restitution = 0.5f, .kick = {.speed = 4, .threshold = 1, .cooldown = 0.05f}},
+                   {x, 3});
     Random random(21);
     for (int i = 0; i < 14; ++i)
-        add_dynamic(scene, {-6.5 + static_cast<double>(i), 8.0 + 0.4 * (i % 3)}, Circle{.radius = 0.25f}, {.restitution = 0.4f}, {random.in(-1, 1), 0});
+        add_dynamic(scene, {-6.5 + static_cast<double>(i), 8.0 + 0.4 * (i % 3)}, Circle{.radius = 0.25f}, {.restitution = 0.4f},
+                    {random.in(-1, 1), 0});
     return built;
 }
 
 constexpr SceneEntry entries[] = {
-    {.name = "kinematic_bar", .description = "A turning bar and a piston push sixty balls and are never pushed.", .create = kinematic_bar, .view = {{-12, -1}, {12, 12}}},
-    {.name = "bullet", .description = "Balls of up to 1,000 m/s between walls without thickness: none gets out.", .create = bullet, .view = {{-11, -1}, {11, 11}}},
-    {.name = "triggers", .description = "A lift, a brake and two bumpers: fields and kicks.", .create = triggers, .view = {{-10, -1}, {10, 10}}},
+    {.name = "kinematic_bar",
+     .description = "A turning bar and a piston push sixty balls and are never pushed.",
+     .create = kinematic_bar,
+     .view = {{-12, -1}, {12, 12}}},
+    {.name = "bullet",
+     .description = "Balls of up to 1,000 m/s between walls without thickness: none gets out.",
+     .create = bullet,
+     .view = {{-11, -1}, {11, 11}}},
+    {.name = "triggers",
+     .description = "A lift, a brake and two bumpers: fields and kicks.",
+     .create = triggers,
+     .view = {{-10, -1}, {10, 10}}},
 };
 
 } // namespace

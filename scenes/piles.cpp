@@ -20,9 +20,11 @@ Polygon regular_polygon(int corners, float radius)
 // An L from one concave outline: several shapes on one body.
 void add_bracket(Scene& scene, BodyId body, float size)
 {
-    const std::array<Vec2, 6> outline{Vec2{-size, -size}, Vec2{size, -size}, Vec2{size, -0.3f * size},
-                                      Vec2{-0.3f * size, -0.3f * size}, Vec2{-0.3f * size, size}, Vec2{-size, size}};
-    for (const Polygon& part : split_concave(outline)) scene.create_shape(body, part);
+    const std::array<Vec2, 6> outline{Vec2{-size, -size},       Vec2{size, -size},
+                                      Vec2{size, -0.3f * size}, Vec2{-0.3f * size, -0.3f * size},
+                                      Vec2{-0.3f * size, size}, Vec2{-size, size}};
+    for (const Polygon& part : split_concave(outline))
+        scene.create_shape(body, part);
 }
 
 void add_something(Scene& scene, Position at, Random& random)
@@ -55,14 +57,18 @@ BuiltScene tumbler(const SceneDef& base)
 {
     BuiltScene built{Scene(base)};
     const BodyId drum = built.scene.create_body({.type = BodyType::Kinematic, .position = {0, 0}, .angular_velocity = 0.5f});
-    for (const auto& [half, center] : {std::pair<Vec2, Vec2>{{5.25f, 0.25f}, {0, 5}}, {{5.25f, 0.25f}, {0, -5}},
-                                       {{0.25f, 5.25f}, {5, 0}}, {{0.25f, 5.25f}, {-5, 0}}})
+    for (const auto& [half, center] : {std::pair<Vec2, Vec2>{{5.25f, 0.25f}, {0, 5}},
+                                       {{5.25f, 0.25f}, {0, -5}},
+                                       {{0.25f, 5.25f}, {5, 0}},
+                                       {{0.25f, 5.25f}, {-5, 0}}})
         built.scene.create_shape(drum, box(half.x, half.y, center));
     for (int i = 0; i < 225; ++i)
     {
         const Position at{-3.5 + 0.5 * (i % 15), -3.5 + 0.5 * (i / 15)};
-        if (i % 3 == 0) add_dynamic(built.scene, at, Circle{.radius = 0.2f});
-        else add_dynamic(built.scene, at, box(0.2f, 0.2f));
+        if (i % 3 == 0)
+            add_dynamic(built.scene, at, Circle{.radius = 0.2f});
+        else
+            add_dynamic(built.scene, at, box(0.2f, 0.2f));
     }
     return built;
 }
@@ -76,19 +82,28 @@ BuiltScene many_sizes(const SceneDef& base)
     Scene& scene = built.scene;
     add_trough(scene, 9, 14);
     add_dynamic(scene, {0, 5}, Circle{.radius = 5});
-    for (const double x : {-7.4, 7.4}) add_dynamic(scene, {x, 1.5}, Circle{.radius = 1.5f});
+    for (const double x : {-7.4, 7.4})
+        add_dynamic(scene, {x, 1.5}, Circle{.radius = 1.5f});
     Random random(5);
-    for (int i = 0; i < 12; ++i) add_dynamic(scene, {-8.2 + 1.49 * i, 11.5 + 0.5 * (i % 2)}, box(0.4f, 0.25f));
-    for (int i = 0; i < 60; ++i) add_dynamic(scene, {-8.6 + 0.29 * i, 13.2}, Circle{.radius = random.in(0.03f, 0.1f)});
+    for (int i = 0; i < 12; ++i)
+        add_dynamic(scene, {-8.2 + 1.49 * i, 11.5 + 0.5 * (i % 2)}, box(0.4f, 0.25f));
+    for (int i = 0; i < 60; ++i)
+        add_dynamic(scene, {-8.6 + 0.29 * i, 13.2}, Circle{.radius = random.in(0.03f, 0.1f)});
     for (int i = 0; i < 300; ++i)
         add_dynamic(scene, {-4.5 + 0.03 * (i % 20), 0.006 + 0.012 * (i / 20)}, Circle{.radius = 0.005f});
     return built;
 }
 
 constexpr SceneEntry entries[] = {
-    {.name = "mixed_pile", .description = "Two hundred things of every shape fall into a trough and come to rest.", .create = mixed_pile, .view = {{-10, -1}, {10, 14}}},
+    {.name = "mixed_pile",
+     .description = "Two hundred things of every shape fall into a trough and come to rest.",
+     .create = mixed_pile,
+     .view = {{-10, -1}, {10, 14}}},
     {.name = "tumbler", .description = "A turning drum keeps 225 bodies awake.", .create = tumbler, .view = {{-8, -8}, {8, 8}}},
-    {.name = "many_sizes", .description = "Balls from 5 mm to 5 m in one trough: a factor of a thousand.", .create = many_sizes, .view = {{-11, -1}, {11, 15}}},
+    {.name = "many_sizes",
+     .description = "Balls from 5 mm to 5 m in one trough: a factor of a thousand.",
+     .create = many_sizes,
+     .view = {{-11, -1}, {11, 15}}},
 };
 
 } // namespace

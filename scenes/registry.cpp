@@ -7,7 +7,8 @@ namespace carom::scenes {
 
 std::span<const SceneEntry> all_scenes()
 {
-    static const std::vector<SceneEntry> all = [] {
+    static const std::vector<SceneEntry> all = []
+    {
         std::vector<SceneEntry> list;
         for (const auto family : {stacking_scenes(), joint_scenes(), surface_scenes(), motion_scenes(), pile_scenes()})
             list.insert(list.end(), family.begin(), family.end());

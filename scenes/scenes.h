@@ -19,7 +19,8 @@ struct BuiltScene
 
     const StepReport& step(float h)
     {
-        if (before_step) before_step(scene);
+        if (before_step)
+            before_step(scene);
         return scene.step(h);
     }
 };
@@ -30,8 +31,8 @@ struct SceneEntry
     std::string_view description; ///< one sentence: what is to be seen
     /// Builds the scene. The base gives what a scene does not care about (sub-steps, tasks, sleeping, ...).
     BuiltScene (*create)(const SceneDef& base);
-    float h = 1.0f / 60;          ///< suggested step, s
-    int frames = 600;             ///< suggested number of steps
+    float h = 1.0f / 60;           ///< suggested step, s
+    int frames = 600;              ///< suggested number of steps
     Box view{{-10, -1}, {10, 12}}; ///< what is worth seeing
 };
 

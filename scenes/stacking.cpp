@@ -31,8 +31,14 @@ BuiltScene small_pyramid(const SceneDef& base) { return box_pyramid(base, 5); }
 BuiltScene pyramid(const SceneDef& base) { return box_pyramid(base, 20); }
 
 constexpr SceneEntry entries[] = {
-    {.name = "stack", .description = "Ten boxes on top of each other stand still and fall asleep.", .create = stack, .view = {{-8, -1}, {8, 11}}},
-    {.name = "tall_stack", .description = "Fifty boxes: the whole weight rests on the lowest contact.", .create = tall_stack, .view = {{-35, -2}, {35, 52}}},
+    {.name = "stack",
+     .description = "Ten boxes on top of each other stand still and fall asleep.",
+     .create = stack,
+     .view = {{-8, -1}, {8, 11}}},
+    {.name = "tall_stack",
+     .description = "Fifty boxes: the whole weight rests on the lowest contact.",
+     .create = tall_stack,
+     .view = {{-35, -2}, {35, 52}}},
     {.name = "small_pyramid", .description = "A pyramid of five rows.", .create = small_pyramid, .view = {{-6, -1}, {6, 6}}},
     {.name = "pyramid", .description = "A pyramid of twenty rows, 210 boxes.", .create = pyramid, .view = {{-17, -1}, {17, 21}}},
 };

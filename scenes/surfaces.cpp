@@ -13,10 +13,10 @@ BuiltScene slopes(const SceneDef& base)
     add_floor(scene, 0, {.friction = 1});
     const float angle = -20 * pi / 180;
     const Rotation lean = Rotation::from_angle(angle);
-    const auto slope = [&](Position middle, float half_length) {
-        add_static(scene, box(half_length, 0.15f), {.friction = 1}, middle, angle);
-    };
-    const auto on_slope = [&](Position middle, float along, float above) { return middle + rotate(lean, {along, 0.15f + above}); };
+    const auto slope = [&](Position middle, float half_length)
+    { add_static(scene, box(half_length, 0.15f), {.friction = 1}, middle, angle); };
+    const auto on_slope = [&](Position middle, float along, float above)
+    { return middle + rotate(lean, {along, 0.15f + above}); };
     const Position upper{-5, 8};
     slope(upper, 5);
     const float friction[] = {0.05f, 0.2f, 0.45f, 0.7f, 1};
@@ -47,7 +47,8 @@ BuiltScene one_way_and_conveyor(const SceneDef& base)
         add_dynamic(scene, {-8.0 + 1.5 * i, 0.4}, Circle{.radius = 0.4f}, {.restitution = 0.2f}, {0, speed[i]});
     // Positive surface speed moves things to the left of the outward normal, which is -x on top: -2 carries to the right.
     add_static(scene, box(4, 0.2f), {.friction = 0.8f, .surface_speed = -2}, {2, 3});
-    for (int i = 0; i < 4; ++i) add_dynamic(scene, {-1.5 + 1.1 * i, 3.6}, box(0.35f, 0.35f), {.friction = 0.8f});
+    for (int i = 0; i < 4; ++i)
+        add_dynamic(scene, {-1.5 + 1.1 * i, 3.6}, box(0.35f, 0.35f), {.friction = 0.8f});
     add_static(scene, box(0.1f, 1), {}, {7, 1});
     add_static(scene, box(0.1f, 1.5f), {}, {10, 1.5});
     return built;
@@ -72,20 +73,35 @@ BuiltScene arc_loop(const SceneDef& base)
     add_static(scene, Arc{.center = {-7, 3}, .radius = 3, .start_angle = -pi / 2, .sweep = 2 * pi}, track);
     add_rolling(scene, {-7, 0.3}, 11);
 
-    const Chain half_pipe{.start = {-2, 6}, .pieces = {{{-2, 2}, 0}, {{0, 0}, pi / 2}, {{3, 0}, 0}, {{5, 2}, pi / 2}, {{5, 6}, 0}}};
+    const Chain half_pipe{.start = {-2, 6},
+                          .pieces = {{{-2, 2}, 0}, {{0, 0}, pi / 2}, {{3, 0}, 0}, {{5, 2}, pi / 2}, {{5, 6}, 0}}};
     add_static(scene, half_pipe, track);
     add_dynamic(scene, {-1.7, 4.5}, Circle{.radius = 0.3f}, track);
 
-    const Chain stadium{.start = {7, 1}, .pieces = {{{10, 1}, 0}, {{10, 5}, pi}, {{7, 5}, 0}, {{7, 1}, pi}}, .closed = true, .sides = Sides::Left};
+    const Chain stadium{.start = {7, 1},
+                        .pieces = {{{10, 1}, 0}, {{10, 5}, pi}, {{7, 5}, 0}, {{7, 1}, pi}},
+                        .closed = true,
+                        .sides = Sides::Left};
     add_static(scene, stadium, track);
     add_rolling(scene, {8.5, 1.3}, 9);
     return built;
 }
 
 constexpr SceneEntry entries[] = {
-    {.name = "slopes", .description = "Friction decides who slides on 20 degrees; below, a wheel, a stiff wheel and ice.", .create = slopes, .view = {{-12, -1}, {13, 11}}},
-    {.name = "one_way_and_conveyor", .description = "Floors that are passed from below, and a belt that fills a bin.", .create = one_way_and_conveyor, .view = {{-11, -1}, {11, 9}}},
-    {.name = "arc_loop", .description = "Balls in a loop, a half-pipe and a closed track of true arcs.", .create = arc_loop, .h = 1.0f / 240, .frames = 2400, .view = {{-11, -1}, {13, 7}}},
+    {.name = "slopes",
+     .description = "Friction decides who slides on 20 degrees; below, a wheel, a stiff wheel and ice.",
+     .create = slopes,
+     .view = {{-12, -1}, {13, 11}}},
+    {.name = "one_way_and_conveyor",
+     .description = "Floors that are passed from below, and a belt that fills a bin.",
+     .create = one_way_and_conveyor,
+     .view = {{-11, -1}, {11, 9}}},
+    {.name = "arc_loop",
+     .description = "Balls in a loop, a half-pipe and a closed track of true arcs.",
+     .create = arc_loop,
+     .h = 1.0f / 240,
+     .frames = 2400,
+     .view = {{-11, -1}, {13, 7}}},
 };
 
 } // namespace

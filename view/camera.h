@@ -9,9 +9,9 @@ namespace carom::view {
 
 struct Camera
 {
-    Position center{};           ///< what is seen in the middle of the viewport
+    Position center{}; ///< what is seen in the middle of the viewport
     double points_per_meter = 100;
-    Vec2 viewport_min{};         ///< the part of the window that is used, points
+    Vec2 viewport_min{}; ///< the part of the window that is used, points
     Vec2 viewport_max{1280, 800};
     bool y_up = true;
 

@@ -13,7 +13,8 @@ ImVec2 to_imgui(Vec2 v) { return {v.x, v.y}; }
 
 Color color_at(const Paint& paint, Position p)
 {
-    if (!paint.gradient) return paint.from;
+    if (!paint.gradient)
+        return paint.from;
     const Vec2 axis = paint.end - paint.start;
     const float squared = dot(axis, axis);
     const float t = squared > 0 ? dot(p - paint.start, axis) / squared : 0;
@@ -24,7 +25,8 @@ std::vector<PathPoint> to_points(const Camera& camera, std::span<const Position>
 {
     std::vector<PathPoint> points;
     points.reserve(path.size());
-    for (const Position p : path) points.push_back({to_imgui(camera.to_screen(p)), color_at(paint, p)});
+    for (const Position p : path)
+        points.push_back({to_imgui(camera.to_screen(p)), color_at(paint, p)});
     return points;
 }
 
@@ -35,7 +37,8 @@ void drop_doubles(std::vector<PathPoint>& points, bool closed)
 {
     const auto same = [](const PathPoint& a, const PathPoint& b) { return distance(a.at, b.at) < 0.02f; };
     points.erase(std::unique(points.begin(), points.end(), same), points.end());
-    if (closed && points.size() > 2 && same(points.front(), points.back())) points.pop_back();
+    if (closed && points.size() > 2 && same(points.front(), points.back()))
+        points.pop_back();
 }
 
 float heading(ImVec2 a, ImVec2 b) { return std::atan2(b.y - a.y, b.x - a.x); }
@@ -43,7 +46,8 @@ float heading(ImVec2 a, ImVec2 b) { return std::atan2(b.y - a.y, b.x - a.x); }
 bool is_sharp(const PathPoint& before, const PathPoint& at, const PathPoint& after, float limit)
 {
     float bend = std::abs(heading(at.at, after.at) - heading(before.at, at.at));
-    if (bend > pi) bend = 2 * pi - bend;
+    if (bend > pi)
+        bend = 2 * pi - bend;
     return bend > limit;
 }
 
@@ -65,7 +69,8 @@ public:
         const std::size_t n = p.size();
         for (std::size_t i = 0; i < n; ++i)
         {
-            if (!is_sharp(p[(i + n - 1) % n], p[i], p[(i + 1) % n], m_sharp)) continue;
+            if (!is_sharp(p[(i + n - 1) % n], p[i], p[(i + 1) % n], m_sharp))
+                continue;
             std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i), p.end());
             p.push_back(p.front());
             joint(p.front());
@@ -80,7 +85,8 @@ private:
         std::size_t first = 0;
         for (std::size_t i = 1; i + 1 < p.size(); ++i)
         {
-            if (!is_sharp(p[i - 1], p[i], p[i + 1], m_sharp)) continue;
+            if (!is_sharp(p[i - 1], p[i], p[i + 1], m_sharp))
+                continue;
             m_mesher.sweep(p.subspan(first, i + 1 - first), m_profile, false);
             joint(p[i]);
             first = i;
@@ -109,9 +115,11 @@ OutlineMesh::OutlineMesh(std::span<const Vec2> outline) : m_outline(outline.begi
 }
 
 Canvas::Canvas(ImDrawList& list, const Camera& camera, Fonts& fonts, float pixel_scale)
-    : m_list(&list), m_camera(camera), m_fonts(&fonts), m_pixel_scale(pixel_scale)
-{
-}
+    : m_list(&list),
+      m_camera(camera),
+      m_fonts(&fonts),
+      m_pixel_scale(pixel_scale)
+{}
 
 Path Canvas::world_arc(Position center, float radius, float start_angle, float sweep) const
 {
@@ -163,10 +171,12 @@ void Canvas::fill_box(const Box& box, const Paint& paint, float corner_radius)
 
 void Canvas::fill_outline(const OutlineMesh& mesh, const Paint& paint, const Pose& pose)
 {
-    const auto placed = [&](std::span<const Vec2> points) {
+    const auto placed = [&](std::span<const Vec2> points)
+    {
         Path path;
         path.reserve(points.size());
-        for (const Vec2 p : points) path.push_back(transform(pose, p));
+        for (const Vec2 p : points)
+            path.push_back(transform(pose, p));
         return to_points(m_camera, path, paint);
     };
     Mesher mesher(*m_list);
@@ -198,17 +208,21 @@ void Canvas::stroke(std::span<const Position> path, const Pen& pen, bool closed)
 {
     auto points = to_points(m_camera, path, pen.paint);
     drop_doubles(points, closed);
-    if (points.size() < 2) return;
+    if (points.size() < 2)
+        return;
     const float pixel = 1 / m_pixel_scale;
     const float width = std::max(pen.width, pixel);
     // Thinner than a pixel: a pixel wide and paler.
     if (pen.width < pixel)
-        for (PathPoint& p : points) p.color = fade(p.color, pen.width / pixel);
+        for (PathPoint& p : points)
+            p.color = fade(p.color, pen.width / pixel);
     const std::array<Profile::Step, 2> steps{{{(width - pixel) / 2, 1}, {(width + pixel) / 2, 0}}};
     Mesher mesher(*m_list);
     LineMaker lines(mesher, {steps}, width > 3 * pixel ? 0.7f : 1.8f);
-    if (closed && points.size() > 2) lines.closed(std::move(points));
-    else lines.open(points);
+    if (closed && points.size() > 2)
+        lines.closed(std::move(points));
+    else
+        lines.open(points);
 }
 
 void Canvas::line(Position a, Position b, const Pen& pen)
@@ -254,12 +268,14 @@ void Canvas::dashed(std::span<const Position> path, const Pen& pen, float dash, 
     {
         const Vec2 leg = path[i + 1] - path[i];
         const float size = length(leg);
-        if (size <= 0 || size > 4000 * period) continue;
+        if (size <= 0 || size > 4000 * period)
+            continue;
         for (float s = -at; s < size; s += period)
         {
             const float from = std::max(s, 0.0f);
             const float to = std::min(s + dash_m, size);
-            if (to > from) line(path[i] + leg * (from / size), path[i] + leg * (to / size), pen);
+            if (to > from)
+                line(path[i] + leg * (from / size), path[i] + leg * (to / size), pen);
         }
         at = std::fmod(at + size, period);
     }
@@ -270,7 +286,8 @@ void Canvas::arrow(Position from, Position to, const Pen& pen, float head)
     const Vec2 way = to - from;
     const float size = length(way);
     const float head_m = std::min(m_camera.meters(head), size * 0.6f);
-    if (size <= 0) return;
+    if (size <= 0)
+        return;
     const Vec2 along = way * (1 / size);
     const Position neck = to - along * head_m;
     line(from, neck, pen);
@@ -312,7 +329,8 @@ void Canvas::text(Position at, std::string_view utf8, const TextStyle& style)
     const ImVec2 p{std::round(corner.x), std::round(corner.y)};
     const char* first = utf8.data();
     const char* last = first + utf8.size();
-    if (style.shadow.a > 0) m_list->AddText(font, size, {p.x, p.y + 1}, pack(style.shadow), first, last);
+    if (style.shadow.a > 0)
+        m_list->AddText(font, size, {p.x, p.y + 1}, pack(style.shadow), first, last);
     m_list->AddText(font, size, p, pack(style.color), first, last);
 }
 
@@ -365,14 +383,17 @@ void Canvas::ribbon(std::span<const Position> path, float radius, Color color, b
 {
     auto points_of_path = to_points(m_camera, path, color);
     drop_doubles(points_of_path, closed);
-    if (points_of_path.size() < 2) return;
+    if (points_of_path.size() < 2)
+        return;
     begin_additive();
     const auto steps = falloff(0, points(radius));
     Mesher mesher(*m_list);
     // No round joints: light laid twice shines twice.
     LineMaker lines(mesher, {steps}, 10);
-    if (closed && points_of_path.size() > 2) lines.closed(std::move(points_of_path));
-    else lines.open(points_of_path);
+    if (closed && points_of_path.size() > 2)
+        lines.closed(std::move(points_of_path));
+    else
+        lines.open(points_of_path);
     end_additive();
 }
 

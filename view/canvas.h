@@ -23,7 +23,7 @@ class OutlineMesh
 public:
     /// Either winding. Throws carom::Error where the outline crosses itself.
     explicit OutlineMesh(std::span<const Vec2> outline);
-    [[nodiscard]] std::span<const Vec2> outline() const { return m_outline; } ///< counter-clockwise
+    [[nodiscard]] std::span<const Vec2> outline() const { return m_outline; }     ///< counter-clockwise
     [[nodiscard]] std::span<const Vec2> triangles() const { return m_triangles; } ///< three points each
 
 private:

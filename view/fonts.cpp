@@ -25,17 +25,19 @@ std::vector<unsigned char> read_font(const std::string& name)
 {
     std::vector<std::string> folders{"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF",
                                      "/usr/share/fonts/dejavu-sans-fonts"};
-    if (const char* own = std::getenv("CAROM_FONT_DIR")) folders.insert(folders.begin(), own);
+    if (const char* own = std::getenv("CAROM_FONT_DIR"))
+        folders.insert(folders.begin(), own);
     for (const std::string& folder : folders)
-        if (auto bytes = read_file(folder + "/" + name); !bytes.empty()) return bytes;
+        if (auto bytes = read_file(folder + "/" + name); !bytes.empty())
+            return bytes;
     return {};
 }
 
 // Latin, Greek, and what formulas need: super- and subscripts, arrows, operators, marks.
 const ImWchar* glyph_ranges()
 {
-    static const ImWchar ranges[] = {0x0020, 0x017F, 0x0370, 0x03FF, 0x2010, 0x2027, 0x2070, 0x209F,
-                                     0x2190, 0x21A0, 0x2200, 0x2265, 0x25A0, 0x25CF, 0x2605, 0x2606, 0};
+    static const ImWchar ranges[] = {0x0020, 0x017F, 0x0370, 0x03FF, 0x2010, 0x2027, 0x2070, 0x209F, 0x2190,
+                                     0x21A0, 0x2200, 0x2265, 0x25A0, 0x25CF, 0x2605, 0x2606, 0};
     return ranges;
 }
 
@@ -77,7 +79,8 @@ SizedFont Fonts::get(Face face, float points)
     const Key key{face, pixels_for(points)};
     const float size = static_cast<float>(key.pixels) / m_scale;
     m_wanted[key] = true;
-    if (const auto found = m_baked.find(key); found != m_baked.end()) return {found->second, size};
+    if (const auto found = m_baked.find(key); found != m_baked.end())
+        return {found->second, size};
     m_dirty = true;
     return {nearest(key), size};
 }
@@ -90,15 +93,18 @@ bool Fonts::prepare(float pixel_scale)
         m_wanted.clear();
         m_dirty = true;
     }
-    if (!m_dirty) return false;
+    if (!m_dirty)
+        return false;
     bake();
     return true;
 }
 
 void Fonts::bake()
 {
-    if (m_wanted.size() > most_sizes) std::erase_if(m_wanted, [](const auto& entry) { return !entry.second; });
-    if (m_wanted.size() > most_sizes) m_wanted.clear();
+    if (m_wanted.size() > most_sizes)
+        std::erase_if(m_wanted, [](const auto& entry) { return !entry.second; });
+    if (m_wanted.size() > most_sizes)
+        m_wanted.clear();
     const Key widgets{Face::Sans, pixels_for(widget_points)};
     m_wanted.try_emplace(widgets, false);
 

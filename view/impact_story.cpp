@@ -15,7 +15,8 @@ ImpactParty party(const Scene& scene, BodyId id, ShapeId shape, const char* fall
 {
     ImpactParty p;
     p.name = namer && scene.is_valid(shape) ? namer(scene, shape) : fallback;
-    if (!scene.is_valid(id)) return p;
+    if (!scene.is_valid(id))
+        return p;
     const ConstBody body = scene.body(id);
     p.type = body.type();
     p.mass = body.mass();
@@ -27,8 +28,10 @@ ImpactParty party(const Scene& scene, BodyId id, ShapeId shape, const char* fall
 
 float reduced_mass(float a, float b)
 {
-    if (a <= 0) return b;
-    if (b <= 0) return a;
+    if (a <= 0)
+        return b;
+    if (b <= 0)
+        return a;
     return a * b / (a + b);
 }
 
@@ -36,8 +39,8 @@ std::string with_index(const char* symbol, bool first) { return std::string(symb
 
 void tell_fixed(std::vector<StoryLine>& story, const ImpactParty& p, bool first)
 {
-    const char* why = p.type == BodyType::Kinematic ? " moves as it is told and cannot be pushed: "
-                                                     : " is fixed and cannot be pushed: ";
+    const char* why =
+        p.type == BodyType::Kinematic ? " moves as it is told and cannot be pushed: " : " is fixed and cannot be pushed: ";
     story.push_back({Kind::Text, p.name + why + with_index("m", first) + " = ∞"});
 }
 
@@ -45,7 +48,8 @@ void tell_held(std::vector<StoryLine>& story, const ImpactParty& p, float effect
 {
     const std::string r = number(lever_arm(p, effective));
     story.push_back({Kind::Text, p.name + " turns about a fixed pivot, hit " + r + " m from it: only I/r² counts"});
-    story.push_back({Kind::Formula, with_index("m", first) + " = " + number(p.inertia) + " / " + r + "² = " + number(effective) + " kg"});
+    story.push_back(
+        {Kind::Formula, with_index("m", first) + " = " + number(p.inertia) + " / " + r + "² = " + number(effective) + " kg"});
 }
 
 void tell_free(std::vector<StoryLine>& story, const ImpactParty& p, float effective, bool first)
@@ -59,15 +63,18 @@ void tell_free(std::vector<StoryLine>& story, const ImpactParty& p, float effect
         return;
     }
     story.push_back({Kind::Text, p.name + " is hit " + number(r) + " m beside its centre and can turn away: it feels lighter"});
-    story.push_back({Kind::Formula, m + " = 1 / (1/" + number(p.mass) + " + " + number(r) + "²/" + number(p.inertia) + ") = " +
-                                        number(effective) + " kg"});
+    story.push_back({Kind::Formula, m + " = 1 / (1/" + number(p.mass) + " + " + number(r) + "²/" + number(p.inertia) +
+                                        ") = " + number(effective) + " kg"});
 }
 
 void tell_mass(std::vector<StoryLine>& story, const ImpactParty& p, float effective, bool first)
 {
-    if (effective <= 0) tell_fixed(story, p, first);
-    else if (p.held) tell_held(story, p, effective, first);
-    else tell_free(story, p, effective, first);
+    if (effective <= 0)
+        tell_fixed(story, p, first);
+    else if (p.held)
+        tell_held(story, p, effective, first);
+    else
+        tell_free(story, p, effective, first);
 }
 
 std::string bracketed(float value) { return value < 0 ? "(" + number(value) + ")" : number(value); }
@@ -76,14 +83,16 @@ void tell_speed(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     story.push_back({Kind::Step, "How fast do they approach?"});
     story.push_back({Kind::Text, "Speeds along the line of the hit, positive from the first towards the second:"});
-    story.push_back({Kind::Formula, "v₁ − v₂ = " + number(e.speed_a) + " − " + bracketed(e.speed_b) + " = " + number(e.approach_speed) + " m/s"});
+    story.push_back({Kind::Formula, "v₁ − v₂ = " + number(e.speed_a) + " − " + bracketed(e.speed_b) + " = " +
+                                        number(e.approach_speed) + " m/s"});
 }
 
 void tell_bounce(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     const int percent = static_cast<int>(std::lround(100 * e.restitution));
     story.push_back({Kind::Step, "How bouncy is it?"});
-    story.push_back({Kind::Text, "e = " + number(e.restitution) + ": " + std::to_string(percent) + " % of the approach speed comes back"});
+    story.push_back(
+        {Kind::Text, "e = " + number(e.restitution) + ": " + std::to_string(percent) + " % of the approach speed comes back"});
 }
 
 void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -96,12 +105,15 @@ void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
     const bool both = e.effective_mass_a > 0 && e.effective_mass_b > 0;
     story.push_back({Kind::Step, "So the blow is"});
     story.push_back({Kind::Formula, "j = (1+e)·m₁·m₂/(m₁+m₂)·(v₁−v₂)"});
-    if (!both) story.push_back({Kind::Text, "Against an infinite mass, m₁·m₂/(m₁+m₂) is just the other mass:"});
+    if (!both)
+        story.push_back({Kind::Text, "Against an infinite mass, m₁·m₂/(m₁+m₂) is just the other mass:"});
     const std::string masses = both ? m1 + "·" + m2 + "/(" + m1 + "+" + m2 + ")" : e.effective_mass_a > 0 ? m1 : m2;
     const float mass = reduced_mass(e.effective_mass_a, e.effective_mass_b);
-    story.push_back({Kind::Formula, "j = " + bounce + masses + speed + " = " + number((1 + e.restitution) * mass * e.approach_speed) + " N·s"});
+    story.push_back({Kind::Formula,
+                     "j = " + bounce + masses + speed + " = " + number((1 + e.restitution) * mass * e.approach_speed) + " N·s"});
     if (e.kick_speed > 0)
-        story.push_back({Kind::Formula, "plus the kick of " + number(e.kick_speed) + " m/s: " + number(mass * e.kick_speed) + " N·s"});
+        story.push_back(
+            {Kind::Formula, "plus the kick of " + number(e.kick_speed) + " m/s: " + number(mass * e.kick_speed) + " N·s"});
 }
 
 void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -110,17 +122,19 @@ void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
     const float engine = record.event.impulse;
     const bool same = std::abs(formula - engine) <= 0.005f * std::max(formula, engine);
     story.push_back({Kind::Result, "The engine gave " + number(engine) + " N·s" + (same ? ": the same" : "")});
-    if (!same) story.push_back({Kind::Text, "They differ: friction or another contact took part in the same blow."});
+    if (!same)
+        story.push_back({Kind::Text, "They differ: friction or another contact took part in the same blow."});
 }
 
 void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effective, float before, float change, bool first)
 {
-    if (effective <= 0) return;
+    if (effective <= 0)
+        return;
     const std::string v = with_index("v", first);
     const std::string sign = change < 0 ? " − " : " + ";
     const float j = std::abs(change) * effective;
-    story.push_back({Kind::Formula, p.name + ": " + v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign + number(j) + "/" +
-                                        number(effective) + " = " + number(before + change) + " m/s"});
+    story.push_back({Kind::Formula, p.name + ": " + v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
+                                        number(j) + "/" + number(effective) + " = " + number(before + change) + " m/s"});
 }
 
 void tell_after(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -138,7 +152,8 @@ std::string superscript(int value)
 {
     static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string text;
-    for (const char c : std::to_string(value)) text += c == '-' ? "⁻" : digits[c - '0'];
+    for (const char c : std::to_string(value))
+        text += c == '-' ? "⁻" : digits[c - '0'];
     return text;
 }
 
@@ -146,10 +161,12 @@ std::string superscript(int value)
 
 std::string number(float value)
 {
-    if (!std::isfinite(value)) return value > 0 ? "∞" : value < 0 ? "−∞" : "?";
+    if (!std::isfinite(value))
+        return value > 0 ? "∞" : value < 0 ? "−∞" : "?";
     const std::string sign = value < 0 ? "−" : "";
     const double size = std::abs(static_cast<double>(value));
-    if (size == 0) return "0";
+    if (size == 0)
+        return "0";
     char text[48];
     std::snprintf(text, sizeof text, "%.2e", size);
     const int exponent = std::atoi(std::string(text).substr(5).c_str());
@@ -161,7 +178,8 @@ std::string number(float value)
 
 ImpactRecord record_impact(const Scene& scene, const ImpactEvent& event, const ShapeNamer& namer)
 {
-    return {event, party(scene, event.body_a, event.shape_a, "A", namer), party(scene, event.body_b, event.shape_b, "B", namer), scene.time()};
+    return {event, party(scene, event.body_a, event.shape_a, "A", namer), party(scene, event.body_b, event.shape_b, "B", namer),
+            scene.time()};
 }
 
 float impulse_by_formula(const ImpactRecord& record)
@@ -172,7 +190,8 @@ float impulse_by_formula(const ImpactRecord& record)
 
 float lever_arm(const ImpactParty& p, float effective_mass)
 {
-    if (effective_mass <= 0 || p.inertia <= 0) return 0;
+    if (effective_mass <= 0 || p.inertia <= 0)
+        return 0;
     const float turning = 1 / effective_mass - (p.held || p.mass <= 0 ? 0 : 1 / p.mass);
     // Below a ten-thousandth of the whole it is rounding, not a lever.
     return turning > 1e-4f / effective_mass ? std::sqrt(turning * p.inertia) : 0;
@@ -199,10 +218,13 @@ void ImpactWatch::observe(const Scene& scene)
 {
     const ImpactEvent* strongest = nullptr;
     for (const ImpactEvent& e : scene.impacts())
-        if (strongest == nullptr || e.impulse > strongest->impulse) strongest = &e;
-    if (strongest == nullptr) return;
+        if (strongest == nullptr || e.impulse > strongest->impulse)
+            strongest = &e;
+    if (strongest == nullptr)
+        return;
     const bool fresh = m_last && scene.time() >= m_last->time && scene.time() - m_last->time < m_hold;
-    if (fresh && m_last->event.impulse >= strongest->impulse) return;
+    if (fresh && m_last->event.impulse >= strongest->impulse)
+        return;
     m_last = record_impact(scene, *strongest, m_namer);
 }
 
@@ -224,15 +246,18 @@ void line_widget(Fonts& fonts, const StoryLine& line)
                                      {Face::Bold, 13, rgb(0x8ce99a), 10}};
     const Look& look = looks[static_cast<std::size_t>(line.kind)];
     const SizedFont sized = fonts.get(look.face, look.size);
-    if (line.kind == Kind::Step) ImGui::Spacing();
+    if (line.kind == Kind::Step)
+        ImGui::Spacing();
     ImGui::PushFont(sized.font);
-    if (look.indent > 0) ImGui::Indent(look.indent);
+    if (look.indent > 0)
+        ImGui::Indent(look.indent);
     ImGui::PushStyleColor(ImGuiCol_Text, pack(look.color));
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(line.text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
-    if (look.indent > 0) ImGui::Unindent(look.indent);
+    if (look.indent > 0)
+        ImGui::Unindent(look.indent);
     ImGui::PopFont();
 }
 
@@ -241,9 +266,11 @@ void line_widget(Fonts& fonts, const StoryLine& line)
 void impact_widgets(Fonts& fonts, const std::optional<ImpactRecord>& record)
 {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 3});
-    if (!record) ImGui::TextWrapped("Nothing has been hit yet. The next impact is written out here, step by step.");
+    if (!record)
+        ImGui::TextWrapped("Nothing has been hit yet. The next impact is written out here, step by step.");
     else
-        for (const StoryLine& line : impact_story(*record)) line_widget(fonts, line);
+        for (const StoryLine& line : impact_story(*record))
+            line_widget(fonts, line);
     ImGui::PopStyleVar();
 }
 
@@ -257,14 +284,16 @@ void draw_impact(Canvas& canvas, const ImpactRecord& record)
     // The faster one gets 55 points.
     const float scale = 55 * pixel / std::max({std::abs(e.speed_a), std::abs(e.speed_b), 1e-9f});
     const Vec2 side = perp(e.normal) * (5 * pixel);
-    const auto speed = [&](float v, Vec2 shift, Color color) {
+    const auto speed = [&](float v, Vec2 shift, Color color)
+    {
         if (std::abs(v) * scale > 3 * pixel)
             canvas.arrow(e.point + shift, e.point + shift + e.normal * (v * scale), {color, 2.5f}, 10);
     };
     speed(e.speed_a, side, party_a_color);
     speed(e.speed_b, -side, party_b_color);
     const TextStyle style{.size = 13, .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};
-    const auto label = [&](const ImpactParty& p, const char* index, float direction, Color color) {
+    const auto label = [&](const ImpactParty& p, const char* index, float direction, Color color)
+    {
         TextStyle own = style;
         own.color = color;
         canvas.text(e.point + e.normal * (direction * 104 * pixel), p.name + index, own);

@@ -22,9 +22,9 @@ struct ImpactParty
 {
     std::string name;
     BodyType type = BodyType::Static;
-    float mass = 0;     ///< kg
-    float inertia = 0;  ///< kg m²
-    bool held = false;  ///< cannot shift, only turn (a flipper on its pivot)
+    float mass = 0;    ///< kg
+    float inertia = 0; ///< kg m²
+    bool held = false; ///< cannot shift, only turn (a flipper on its pivot)
 };
 
 struct ImpactRecord
@@ -52,7 +52,7 @@ struct StoryLine
     enum class Kind
     {
         Title,
-        Step,    ///< a question that the next lines answer
+        Step, ///< a question that the next lines answer
         Text,
         Formula,
         Result,

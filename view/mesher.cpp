@@ -73,7 +73,8 @@ void Mesher::quad(unsigned a, unsigned b, unsigned c, unsigned d)
 void Mesher::convex(std::span<const PathPoint> p, float fringe_width)
 {
     const auto n = static_cast<unsigned>(p.size());
-    if (n < 3) return;
+    if (n < 3)
+        return;
     const float outward = (area(p) < 0 ? 0.5f : -0.5f) * fringe_width;
     const auto [base] = reserve(2 * n, 3 * (n - 2) + 6 * n);
     for (unsigned i = 0; i < n; ++i)
@@ -82,7 +83,8 @@ void Mesher::convex(std::span<const PathPoint> p, float fringe_width)
         vertex(p[i].at - normal, p[i].color);
         vertex(p[i].at + normal, fade(p[i].color, 0));
     }
-    for (unsigned i = 2; i < n; ++i) triangle(base, base + 2 * (i - 1), base + 2 * i);
+    for (unsigned i = 2; i < n; ++i)
+        triangle(base, base + 2 * (i - 1), base + 2 * i);
     for (unsigned i = 0; i < n; ++i)
     {
         const unsigned a = base + 2 * i;
@@ -99,8 +101,10 @@ void Mesher::triangles(std::span<const PathPoint> corners)
     {
         const auto part = corners.subspan(first, std::min(most, corners.size() - first));
         const auto [base] = reserve(part.size(), part.size());
-        for (const PathPoint& c : part) vertex(c.at, c.color);
-        for (unsigned i = 0; i < part.size(); ++i) m_list.PrimWriteIdx(static_cast<ImDrawIdx>(base + i));
+        for (const PathPoint& c : part)
+            vertex(c.at, c.color);
+        for (unsigned i = 0; i < part.size(); ++i)
+            m_list.PrimWriteIdx(static_cast<ImDrawIdx>(base + i));
     }
 }
 
@@ -126,7 +130,8 @@ void Mesher::sweep(std::span<const PathPoint> p, Profile profile, bool closed)
 {
     const auto n = static_cast<unsigned>(p.size());
     const auto half = static_cast<unsigned>(profile.steps.size());
-    if (n < 2 || half == 0) return;
+    if (n < 2 || half == 0)
+        return;
     const unsigned across = 2 * half;
     const unsigned spans = closed ? n : n - 1;
     const auto [base] = reserve(n * across, spans * (across - 1) * 6);
@@ -140,7 +145,8 @@ void Mesher::sweep(std::span<const PathPoint> p, Profile profile, bool closed)
             const Profile::Step step = profile.steps[half - 1 - k];
             vertex(p[i].at - normal * step.distance, fade(p[i].color, step.alpha));
         }
-        for (const Profile::Step step : profile.steps) vertex(p[i].at + normal * step.distance, fade(p[i].color, step.alpha));
+        for (const Profile::Step step : profile.steps)
+            vertex(p[i].at + normal * step.distance, fade(p[i].color, step.alpha));
     }
     for (unsigned i = 0; i < spans; ++i)
         for (unsigned k = 0; k + 1 < across; ++k)
@@ -154,24 +160,27 @@ void Mesher::sweep(std::span<const PathPoint> p, Profile profile, bool closed)
 void Mesher::revolve(const PathPoint& center, Profile profile, float start_angle, float sweep_angle)
 {
     const auto rings = static_cast<unsigned>(profile.steps.size());
-    if (rings == 0) return;
+    if (rings == 0)
+        return;
     const float share = std::abs(sweep_angle) / (2 * pi);
-    const auto n = static_cast<unsigned>(
-        std::ceil(static_cast<float>(circle_segments(profile.steps.back().distance)) * share)) + 1;
+    const auto n =
+        static_cast<unsigned>(std::ceil(static_cast<float>(circle_segments(profile.steps.back().distance)) * share)) + 1;
     const auto [base] = reserve(1 + n * rings, (n - 1) * (3 + (rings - 1) * 6));
     vertex(center.at, fade(center.color, profile.steps[0].alpha));
     for (unsigned i = 0; i < n; ++i)
     {
         const float angle = start_angle + sweep_angle * static_cast<float>(i) / static_cast<float>(n - 1);
         const ImVec2 out{std::cos(angle), std::sin(angle)};
-        for (const Profile::Step step : profile.steps) vertex(center.at + out * step.distance, fade(center.color, step.alpha));
+        for (const Profile::Step step : profile.steps)
+            vertex(center.at + out * step.distance, fade(center.color, step.alpha));
     }
     for (unsigned i = 0; i + 1 < n; ++i)
     {
         const unsigned a = base + 1 + i * rings;
         const unsigned b = a + rings;
         triangle(base, a, b);
-        for (unsigned k = 0; k + 1 < rings; ++k) quad(a + k, a + k + 1, b + k + 1, b + k);
+        for (unsigned k = 0; k + 1 < rings; ++k)
+            quad(a + k, a + k + 1, b + k + 1, b + k);
     }
 }
 

@@ -11,7 +11,8 @@ double turn(Position a, Position b, Position c) { return (b.x - a.x) * (c.y - b.
 float signed_area(std::span<const Position> v)
 {
     double sum = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) sum += turn(v[0], v[i], v[(i + 1) % v.size()]);
+    for (std::size_t i = 0; i < v.size(); ++i)
+        sum += turn(v[0], v[i], v[(i + 1) % v.size()]);
     return static_cast<float>(sum);
 }
 
@@ -78,15 +79,18 @@ Path capsule_outline(Position a, Position b, float radius_a, float radius_b, flo
 Path rounded_outline(std::span<const Position> vertices, float radius, float tolerance)
 {
     Path corners(vertices.begin(), vertices.end());
-    if (signed_area(corners) < 0) std::ranges::reverse(corners);
-    if (radius <= 0) return corners;
+    if (signed_area(corners) < 0)
+        std::ranges::reverse(corners);
+    if (radius <= 0)
+        return corners;
     Path path;
     const std::size_t n = corners.size();
     for (std::size_t i = 0; i < n; ++i)
     {
         const float in = direction(corners[(i + n - 1) % n], corners[i]);
         float bend = direction(corners[i], corners[(i + 1) % n]) - in;
-        if (bend < 0) bend += 2 * pi;
+        if (bend < 0)
+            bend += 2 * pi;
         append_arc(path, corners[i], radius, in - pi / 2, bend, tolerance);
     }
     return path;
@@ -95,14 +99,17 @@ Path rounded_outline(std::span<const Position> vertices, float radius, float tol
 Path chain_path(const Chain& chain, float tolerance)
 {
     Path path{chain.start};
-    for (const ChainPiece& piece : chain.pieces) append_piece(path, path.back(), piece, tolerance);
-    if (chain.closed && path.size() > 2 && length(path.back() - path.front()) < 1e-6f) path.pop_back();
+    for (const ChainPiece& piece : chain.pieces)
+        append_piece(path, path.back(), piece, tolerance);
+    if (chain.closed && path.size() > 2 && length(path.back() - path.front()) < 1e-6f)
+        path.pop_back();
     return path;
 }
 
 void transform_path(Path& path, const Pose& pose)
 {
-    for (Position& p : path) p = transform(pose, to_vec2(p));
+    for (Position& p : path)
+        p = transform(pose, to_vec2(p));
 }
 
 } // namespace carom::view

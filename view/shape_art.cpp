@@ -26,43 +26,52 @@ struct ShapeArtist
             loop.push_back(loop.front());
             canvas.dashed(loop, edge());
         }
-        else canvas.polyline(path, edge(), true);
+        else
+            canvas.polyline(path, edge(), true);
     }
 
     // A line of real thickness, never thinner than can be seen.
     void thick(std::span<const Position> path, float half_thickness, bool closed) const
     {
         const float width = std::max(canvas.points(2 * half_thickness), look.least_thickness);
-        if (look.dashed) canvas.dashed(path, edge());
-        else if (filled()) canvas.polyline(path, {look.fill, width}, closed);
-        else canvas.polyline(path, edge(), closed);
+        if (look.dashed)
+            canvas.dashed(path, edge());
+        else if (filled())
+            canvas.polyline(path, {look.fill, width}, closed);
+        else
+            canvas.polyline(path, edge(), closed);
     }
 
     void operator()(const Circle& c) const
     {
         const Position center = at(c.center);
-        if (filled()) canvas.fill_circle(center, c.radius, look.fill);
+        if (filled())
+            canvas.fill_circle(center, c.radius, look.fill);
         Path path;
         append_arc(path, center, c.radius, 0, 2 * pi, canvas.tolerance());
         path.pop_back();
         outline(path);
         if (look.spoke && canvas.points(c.radius) > 3)
-            canvas.line(center + rotate(pose.rotation, {0.35f * c.radius, 0}), center + rotate(pose.rotation, {0.8f * c.radius, 0}), edge());
+            canvas.line(center + rotate(pose.rotation, {0.35f * c.radius, 0}),
+                        center + rotate(pose.rotation, {0.8f * c.radius, 0}), edge());
     }
 
     void operator()(const Polygon& p) const
     {
         Path corners;
-        for (const Vec2 v : p.vertices) corners.push_back(at(v));
+        for (const Vec2 v : p.vertices)
+            corners.push_back(at(v));
         const Path path = rounded_outline(corners, p.radius, canvas.tolerance());
-        if (filled()) canvas.fill_polygon(path, look.fill);
+        if (filled())
+            canvas.fill_polygon(path, look.fill);
         outline(path);
     }
 
     void operator()(const Capsule& c) const
     {
         const Path path = capsule_outline(at(c.a), at(c.b), c.radius_a, c.radius_b, canvas.tolerance());
-        if (filled()) canvas.fill_polygon(path, look.fill);
+        if (filled())
+            canvas.fill_polygon(path, look.fill);
         outline(path);
     }
 
@@ -96,8 +105,10 @@ struct ShapeArtist
         const float above = dot(normal, middle - at(normalize(h.normal) * h.offset));
         const Position foot = middle - normal * above;
         const Vec2 along = perp(normal) * reach;
-        const std::array<Position, 4> solid{foot - along, foot + along, foot + along - normal * (2 * reach), foot - along - normal * (2 * reach)};
-        if (filled()) canvas.fill_polygon(solid, look.fill);
+        const std::array<Position, 4> solid{foot - along, foot + along, foot + along - normal * (2 * reach),
+                                            foot - along - normal * (2 * reach)};
+        if (filled())
+            canvas.fill_polygon(solid, look.fill);
         canvas.line(solid[0], solid[1], edge());
     }
 };
@@ -111,18 +122,22 @@ Box grown(const Box& box, float by) { return {box.lower - Vec2{by, by}, box.uppe
 
 Color body_color(const ConstBody& body, const ScenePalette& palette)
 {
-    if (body.type() == BodyType::Static) return palette.still;
-    if (body.type() == BodyType::Kinematic) return palette.kinematic;
+    if (body.type() == BodyType::Static)
+        return palette.still;
+    if (body.type() == BodyType::Kinematic)
+        return palette.kinematic;
     const Color color = palette.dynamic[body.id().slot % std::size(palette.dynamic)];
     return body.is_awake() ? color : mix(rgb(0x2a3242), color, palette.asleep);
 }
 
 ShapeLook shape_look(const ConstBody& body, bool trigger, const ScenePalette& palette)
 {
-    if (trigger) return {.fill = fade(palette.trigger, 0), .edge = palette.trigger, .dashed = true, .spoke = false};
+    if (trigger)
+        return {.fill = fade(palette.trigger, 0), .edge = palette.trigger, .dashed = true, .spoke = false};
     const Color color = body_color(body, palette);
     const float enabled = body.is_enabled() ? 1.0f : 0.3f;
-    return {.fill = fade(color, enabled), .edge = fade(mix(color, rgb(0x0a0d13), 0.55f), enabled),
+    return {.fill = fade(color, enabled),
+            .edge = fade(mix(color, rgb(0x0a0d13), 0.55f), enabled),
             .spoke = body.type() != BodyType::Static};
 }
 
@@ -134,7 +149,8 @@ void draw_body(Canvas& canvas, const Scene& scene, BodyId id, float alpha, const
     for (const ShapeId shape_id : body.shapes())
     {
         const ConstShape shape = scene.shape(shape_id);
-        if (overlap(shape.bounds(), seen)) draw_shape(canvas, shape.geometry(), pose, shape_look(body, shape.is_trigger(), palette));
+        if (overlap(shape.bounds(), seen))
+            draw_shape(canvas, shape.geometry(), pose, shape_look(body, shape.is_trigger(), palette));
     }
 }
 
@@ -146,7 +162,8 @@ Position anchor(const Scene& scene, BodyId id, Vec2 local, float alpha)
 void draw_joint(Canvas& canvas, const Scene& scene, JointId id, float alpha, Color color)
 {
     std::visit(
-        [&](const auto& def) {
+        [&](const auto& def)
+        {
             using Def = std::decay_t<decltype(def)>;
             const Position a = anchor(scene, def.body_a, def.anchor_a, alpha);
             const Position b = anchor(scene, def.body_b, def.anchor_b, alpha);
@@ -173,14 +190,17 @@ void draw_scene(Canvas& canvas, const Scene& scene, float alpha, const ScenePale
     // What stands still first, so that moving things lie on top.
     for (const bool still : {true, false})
         for (const BodyId id : bodies)
-            if ((scene.body(id).type() == BodyType::Static) == still) draw_body(canvas, scene, id, alpha, palette);
-    for (const JointId id : scene.joints()) draw_joint(canvas, scene, id, alpha, palette.joint);
+            if ((scene.body(id).type() == BodyType::Static) == still)
+                draw_body(canvas, scene, id, alpha, palette);
+    for (const JointId id : scene.joints())
+        draw_joint(canvas, scene, id, alpha, palette.joint);
 }
 
 void draw_ghost(Canvas& canvas, const Scene& scene, BodyId body, const Pose& pose, const Pen& pen)
 {
     const ShapeLook look{.fill = {0, 0, 0, 0}, .edge = pen.paint.from, .edge_width = pen.width};
-    for (const ShapeId shape : scene.body(body).shapes()) draw_shape(canvas, scene.shape(shape).geometry(), pose, look);
+    for (const ShapeId shape : scene.body(body).shapes())
+        draw_shape(canvas, scene.shape(shape).geometry(), pose, look);
 }
 
 } // namespace carom::view

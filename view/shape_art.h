@@ -14,10 +14,10 @@ struct ShapeLook
 {
     Color fill{};
     Color edge{};
-    float edge_width = 1.5f;      ///< points
-    float least_thickness = 3;    ///< of lines, points
-    bool dashed = false;          ///< edges only, dashed: triggers
-    bool spoke = true;            ///< circles show how they turn
+    float edge_width = 1.5f;   ///< points
+    float least_thickness = 3; ///< of lines, points
+    bool dashed = false;       ///< edges only, dashed: triggers
+    bool spoke = true;         ///< circles show how they turn
 };
 
 void draw_shape(Canvas& canvas, const Geometry& geometry, const Pose& pose, const ShapeLook& look);

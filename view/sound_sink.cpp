@@ -13,11 +13,13 @@ class DeviceLock
 public:
     explicit DeviceLock(SDL_AudioDeviceID device) : m_device(device)
     {
-        if (m_device != 0) SDL_LockAudioDevice(m_device);
+        if (m_device != 0)
+            SDL_LockAudioDevice(m_device);
     }
     ~DeviceLock()
     {
-        if (m_device != 0) SDL_UnlockAudioDevice(m_device);
+        if (m_device != 0)
+            SDL_UnlockAudioDevice(m_device);
     }
     DeviceLock(const DeviceLock&) = delete;
     DeviceLock& operator=(const DeviceLock&) = delete;
@@ -50,20 +52,25 @@ SoundSink::SoundSink()
     want.callback = &SoundSink::fill;
     want.userdata = this;
     m_device = SDL_OpenAudioDevice(nullptr, 0, &want, nullptr, 0);
-    if (m_device == 0) m_why_mute = SDL_GetError();
-    else SDL_PauseAudioDevice(m_device, 0);
+    if (m_device == 0)
+        m_why_mute = SDL_GetError();
+    else
+        SDL_PauseAudioDevice(m_device, 0);
 }
 
 SoundSink::~SoundSink()
 {
-    if (m_device != 0) SDL_CloseAudioDevice(m_device);
-    if (SDL_WasInit(SDL_INIT_AUDIO) != 0) SDL_QuitSubSystem(SDL_INIT_AUDIO);
+    if (m_device != 0)
+        SDL_CloseAudioDevice(m_device);
+    if (SDL_WasInit(SDL_INIT_AUDIO) != 0)
+        SDL_QuitSubSystem(SDL_INIT_AUDIO);
 }
 
 void SoundSink::play(const Strike& strike)
 {
     // On mute nothing is queued, so that nothing old is heard when sound comes back.
-    if (m_device == 0 || m_muted) return;
+    if (m_device == 0 || m_muted)
+        return;
     const DeviceLock lock(m_device);
     m_synth.play(strike);
 }

@@ -26,7 +26,8 @@ float approach(float now, float target, float rate) { return now + (target - now
 float soft_limit(float x)
 {
     const float size = std::abs(x);
-    if (size <= 0.7f) return x;
+    if (size <= 0.7f)
+        return x;
     return std::copysign(0.7f + 0.3f * std::tanh((size - 0.7f) / 0.3f), x);
 }
 
@@ -34,7 +35,8 @@ float soft_limit(float x)
 
 float loudness_of_impulse(float impulse, float full_impulse)
 {
-    if (!(impulse > 0) || !(full_impulse > 0)) return 0;
+    if (!(impulse > 0) || !(full_impulse > 0))
+        return 0;
     return std::pow(std::min(impulse / full_impulse, 1.0f), 0.6f);
 }
 
@@ -50,7 +52,8 @@ float Synth::next_noise()
 
 void Synth::play(const Strike& strike)
 {
-    if (!(strike.loudness > silence) || !(strike.pitch_hz > 0)) return;
+    if (!(strike.loudness > silence) || !(strike.pitch_hz > 0))
+        return;
     Voice& voice = *std::ranges::min_element(m_voices, {}, [](const Voice& v) { return v.level + v.noise_level; });
     const float noise = std::clamp(strike.noise, 0.0f, 1.0f);
     const float loudness = std::min(strike.loudness, 1.0f);
@@ -71,7 +74,8 @@ void Synth::play(const Strike& strike)
 
 void Synth::set_drone(int index, const Drone& drone)
 {
-    if (index >= 0 && index < max_drones) m_drones[static_cast<std::size_t>(index)].target = drone;
+    if (index >= 0 && index < max_drones)
+        m_drones[static_cast<std::size_t>(index)].target = drone;
 }
 
 void Synth::stop_all()
@@ -99,7 +103,8 @@ float Synth::sample(Voice& v)
     v.step *= v.step_factor;
     v.level *= v.level_factor;
     v.noise_level *= v.noise_factor;
-    if (v.attack > 0) out *= 1 - static_cast<float>(v.attack--) / attack_samples;
+    if (v.attack > 0)
+        out *= 1 - static_cast<float>(v.attack--) / attack_samples;
     return out;
 }
 
@@ -110,7 +115,8 @@ float Synth::sample(HeldVoice& v)
     v.now.pitch_hz = approach(v.now.pitch_hz, v.target.pitch_hz, rate);
     v.now.noise = approach(v.now.noise, v.target.noise, rate);
     v.now.pan = approach(v.now.pan, v.target.pan, rate);
-    if (v.now.loudness < silence) return 0;
+    if (v.now.loudness < silence)
+        return 0;
     v.phase += static_cast<double>(v.now.pitch_hz) / m_rate;
     v.phase -= std::floor(v.phase);
     // A state-variable band-pass round the pitch.
@@ -129,14 +135,16 @@ void Synth::render(std::span<float> stereo)
         float right = 0;
         for (Voice& v : m_voices)
         {
-            if (v.level + v.noise_level <= silence) continue;
+            if (v.level + v.noise_level <= silence)
+                continue;
             const float s = sample(v);
             left += s * v.left;
             right += s * v.right;
         }
         for (HeldVoice& v : m_drones)
         {
-            if (v.now.loudness < silence && v.target.loudness < silence) continue;
+            if (v.now.loudness < silence && v.target.loudness < silence)
+                continue;
             const float s = sample(v);
             left += s * (1 - std::max(v.now.pan, 0.0f)) * 0.7f;
             right += s * (1 + std::min(v.now.pan, 0.0f)) * 0.7f;

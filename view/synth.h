@@ -26,8 +26,8 @@ struct Strike
 /// Something that sounds until it is set to loudness 0. Changes are smoothed over about 20 ms.
 struct Drone
 {
-    float pitch_hz = 120;  ///< of the tone, and where the noise is brightest
-    float noise = 1;       ///< 0: tone, 1: noise (a rolling ball)
+    float pitch_hz = 120; ///< of the tone, and where the noise is brightest
+    float noise = 1;      ///< 0: tone, 1: noise (a rolling ball)
     float pan = 0;
     float loudness = 0;
 };
@@ -58,9 +58,9 @@ public:
 private:
     struct Voice
     {
-        double phase = 0;      ///< turns
+        double phase = 0; ///< turns
         double mod_phase = 0;
-        double step = 0;       ///< turns per sample
+        double step = 0; ///< turns per sample
         double step_factor = 1;
         float level = 0;
         float level_factor = 0;
@@ -69,14 +69,14 @@ private:
         float brightness = 0;
         float left = 0;
         float right = 0;
-        int attack = 0;        ///< samples of the fade-in that are left
+        int attack = 0; ///< samples of the fade-in that are left
     };
     struct HeldVoice
     {
         Drone now{};
         Drone target{};
         double phase = 0;
-        float low = 0;  ///< state of the noise filter
+        float low = 0; ///< state of the noise filter
         float band = 0;
     };
     float next_noise();

@@ -28,15 +28,21 @@ struct Window::Native
             ImGui_ImplSDL2_Shutdown();
             ImGui::DestroyContext(imgui);
         }
-        if (gl != nullptr) SDL_GL_DeleteContext(gl);
-        if (window != nullptr) SDL_DestroyWindow(window);
-        if (video) SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_GAMECONTROLLER);
+        if (gl != nullptr)
+            SDL_GL_DeleteContext(gl);
+        if (window != nullptr)
+            SDL_DestroyWindow(window);
+        if (video)
+            SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_GAMECONTROLLER);
     }
 };
 
 namespace {
 
-[[noreturn]] void fail(const char* what) { throw std::runtime_error(std::string("view::Window: ") + what + ": " + SDL_GetError()); }
+[[noreturn]] void fail(const char* what)
+{
+    throw std::runtime_error(std::string("view::Window: ") + what + ": " + SDL_GetError());
+}
 
 void ask_for_gl()
 {
@@ -88,7 +94,8 @@ Canvas make_canvas(ImDrawList* list, const Camera& camera, Window& window)
 Window::Window(const WindowDef& def) : m_native(std::make_unique<Native>()), m_background(def.background)
 {
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_GAMECONTROLLER) != 0) fail("no video");
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_GAMECONTROLLER) != 0)
+        fail("no video");
     m_native->video = true;
     const char* driver = SDL_GetCurrentVideoDriver();
     m_native->offscreen = driver != nullptr && std::strcmp(driver, "offscreen") == 0;
@@ -96,14 +103,17 @@ Window::Window(const WindowDef& def) : m_native(std::make_unique<Native>()), m_b
     const Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
     m_native->window =
         SDL_CreateWindow(def.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, def.width, def.height, flags);
-    if (m_native->window == nullptr) fail("no window");
+    if (m_native->window == nullptr)
+        fail("no window");
     SDL_SetWindowMinimumSize(m_native->window, std::min(def.width, 320), std::min(def.height, 240));
     m_native->gl = SDL_GL_CreateContext(m_native->window);
-    if (m_native->gl == nullptr) fail("no OpenGL 3.3");
+    if (m_native->gl == nullptr)
+        fail("no OpenGL 3.3");
     SDL_GL_SetSwapInterval(def.vertical_sync && !m_native->offscreen ? 1 : 0);
     m_native->imgui = ImGui::CreateContext();
     start_imgui(m_native->window, m_native->gl);
-    if (def.fullscreen) set_fullscreen(true);
+    if (def.fullscreen)
+        set_fullscreen(true);
 }
 
 Window::~Window() = default;
@@ -116,7 +126,8 @@ void Window::poll()
     {
         ImGui_ImplSDL2_ProcessEvent(&event);
         // SDL turns SIGINT and SIGTERM into SDL_QUIT too: whoever ignores it can only be killed.
-        if (event.type == SDL_QUIT) m_quit = true;
+        if (event.type == SDL_QUIT)
+            m_quit = true;
         m_events.push_back(event);
     }
 }
@@ -124,7 +135,8 @@ void Window::poll()
 bool Window::begin_frame()
 {
     poll();
-    if (m_quit) return false;
+    if (m_quit)
+        return false;
     if (m_fonts.prepare(pixel_scale()))
     {
         ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -146,7 +158,8 @@ void Window::end_frame(Image* capture)
     glClearColor(m_background.r, m_background.g, m_background.b, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    if (capture != nullptr) read_pixels(*capture);
+    if (capture != nullptr)
+        read_pixels(*capture);
     SDL_GL_SwapWindow(m_native->window);
 }
 
@@ -159,7 +172,8 @@ void Window::read_pixels(Image& image) const
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, image.width, image.height, GL_RGB, GL_UNSIGNED_BYTE, bottom_up.data());
     image.pixels.resize(bottom_up.size());
-    for (std::size_t y = 0; y < rows; ++y) std::memcpy(&image.pixels[y * row], &bottom_up[(rows - 1 - y) * row], row);
+    for (std::size_t y = 0; y < rows; ++y)
+        std::memcpy(&image.pixels[y * row], &bottom_up[(rows - 1 - y) * row], row);
 }
 
 bool Window::wants_keyboard() const { return ImGui::GetIO().WantTextInput; }
@@ -199,12 +213,14 @@ Canvas Window::foreground() { return make_canvas(ImGui::GetForegroundDrawList(),
 void Canvas::begin_additive()
 {
     const auto add = [](const ImDrawList*, const ImDrawCmd*) { glBlendFunc(GL_SRC_ALPHA, GL_ONE); };
-    if (m_additive++ == 0) m_list->AddCallback(add, nullptr);
+    if (m_additive++ == 0)
+        m_list->AddCallback(add, nullptr);
 }
 
 void Canvas::end_additive()
 {
-    if (--m_additive == 0) m_list->AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+    if (--m_additive == 0)
+        m_list->AddCallback(ImDrawCallback_ResetRenderState, nullptr);
 }
 
 } // namespace carom::view

@@ -59,9 +59,9 @@ public:
     void request_quit() { m_quit = true; }
     [[nodiscard]] bool has_focus() const;
 
-    [[nodiscard]] Vec2 size() const;          ///< points
-    [[nodiscard]] float pixel_scale() const;  ///< real pixels per point
-    [[nodiscard]] bool is_offscreen() const;  ///< nobody sees this window
+    [[nodiscard]] Vec2 size() const;         ///< points
+    [[nodiscard]] float pixel_scale() const; ///< real pixels per point
+    [[nodiscard]] bool is_offscreen() const; ///< nobody sees this window
     void set_fullscreen(bool fullscreen);
     [[nodiscard]] bool is_fullscreen() const;
     void toggle_fullscreen() { set_fullscreen(!is_fullscreen()); }

@@ -41,7 +41,8 @@ float strongest_impulse(const Scene& scene)
 {
     float strongest = 0;
     for (const ContactInfo& contact : scene.contacts())
-        for (int i = 0; i < contact.point_count; ++i) strongest = std::max(strongest, contact.points[i].normal_impulse);
+        for (int i = 0; i < contact.point_count; ++i)
+            strongest = std::max(strongest, contact.points[i].normal_impulse);
     return strongest;
 }
 
@@ -76,8 +77,10 @@ void XrayOverlay::draw(Canvas& canvas, const Scene& scene)
 
 void XrayOverlay::outline(DrawRole role, Path path)
 {
-    if (path.empty()) return;
-    if (role != DrawRole::Trigger) return m_canvas->polyline(path, role_pen(role), true);
+    if (path.empty())
+        return;
+    if (role != DrawRole::Trigger)
+        return m_canvas->polyline(path, role_pen(role), true);
     path.push_back(path.front());
     m_canvas->dashed(path, role_pen(role, 1.5f));
 }
@@ -88,12 +91,14 @@ void XrayOverlay::circle(DrawRole role, Position center, float radius, Rotation 
     append_arc(path, center, radius, 0, 2 * pi, m_canvas->tolerance());
     path.pop_back();
     outline(role, std::move(path));
-    if (role != DrawRole::Trigger) m_canvas->line(center, center + rotate(rotation, {radius, 0}), role_pen(role));
+    if (role != DrawRole::Trigger)
+        m_canvas->line(center, center + rotate(rotation, {radius, 0}), role_pen(role));
 }
 
 void XrayOverlay::capsule(DrawRole role, Position a, Position b, float radius_a, float radius_b)
 {
-    if (radius_a <= 0 && radius_b <= 0) return m_canvas->line(a, b, role_pen(role));
+    if (radius_a <= 0 && radius_b <= 0)
+        return m_canvas->line(a, b, role_pen(role));
     outline(role, capsule_outline(a, b, radius_a, radius_b, m_canvas->tolerance()));
 }
 
@@ -104,7 +109,8 @@ void XrayOverlay::polygon(DrawRole role, std::span<const Position> vertices, flo
 
 void XrayOverlay::arc(DrawRole role, Position center, float radius, float start_angle, float sweep, float half_thickness)
 {
-    if (half_thickness <= 0) return m_canvas->arc(center, radius, start_angle, sweep, role_pen(role));
+    if (half_thickness <= 0)
+        return m_canvas->arc(center, radius, start_angle, sweep, role_pen(role));
     Path band;
     append_arc(band, center, radius + half_thickness, start_angle, sweep, m_canvas->tolerance());
     const float turn = sweep > 0 ? pi : -pi;
@@ -118,9 +124,12 @@ void XrayOverlay::arc(DrawRole role, Position center, float radius, float start_
 void XrayOverlay::line(DrawRole role, Position a, Position b)
 {
     const bool arrow = role == DrawRole::Velocity || role == DrawRole::Impulse || role == DrawRole::Friction;
-    if (arrow) m_canvas->arrow(a, b, role_pen(role, 2), 8);
-    else if (role == DrawRole::ContactNormal) m_canvas->line(a, b, role_pen(role, 1.5f));
-    else m_canvas->line(a, b, role_pen(role));
+    if (arrow)
+        m_canvas->arrow(a, b, role_pen(role, 2), 8);
+    else if (role == DrawRole::ContactNormal)
+        m_canvas->line(a, b, role_pen(role, 1.5f));
+    else
+        m_canvas->line(a, b, role_pen(role));
 }
 
 void XrayOverlay::point(DrawRole role, Position p)
@@ -145,11 +154,13 @@ void toggle(const char* label, bool& value, DrawRole role, const char* help)
     const float side = ImGui::GetFrameHeight() * 0.55f;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float shift = (ImGui::GetFrameHeight() - side) / 2;
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + shift}, {at.x + side, at.y + shift + side}, pack(fade(c, value ? 1 : 0.35f)), 3);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + shift}, {at.x + side, at.y + shift + side},
+                                              pack(fade(c, value ? 1 : 0.35f)), 3);
     ImGui::Dummy({side, side});
     ImGui::SameLine();
     ImGui::Checkbox(label, &value);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", help);
 }
 
 } // namespace
@@ -157,7 +168,8 @@ void toggle(const char* label, bool& value, DrawRole role, const char* help)
 void XrayOverlay::widgets()
 {
     XrayToggles& t = toggles;
-    toggle("outlines", t.outlines, DrawRole::AwakeShape, "Shapes as the engine sees them. Sleeping bodies are pale:\nthey rest and cost nothing until something touches them.");
+    toggle("outlines", t.outlines, DrawRole::AwakeShape,
+           "Shapes as the engine sees them. Sleeping bodies are pale:\nthey rest and cost nothing until something touches them.");
     toggle("contact points", t.contacts, DrawRole::Contact, "Where two shapes touch.");
     toggle("normals", t.normals, DrawRole::ContactNormal, "The direction in which two shapes push each other.");
     toggle("impulses", t.impulses, DrawRole::Impulse, "How hard they pushed in the last step: force times time.");
@@ -188,21 +200,26 @@ void SubstepScrubber::capture(const Scene& scene)
 {
     clear();
     const std::vector<SubstepPose>& recorded = scene.report().substep_poses;
-    if (recorded.empty()) return;
+    if (recorded.empty())
+        return;
     m_times.push_back(0);
-    for (const SubstepPose& p : recorded) m_times.push_back(p.time);
+    for (const SubstepPose& p : recorded)
+        m_times.push_back(p.time);
     std::ranges::sort(m_times);
     m_times.erase(std::unique(m_times.begin(), m_times.end()), m_times.end());
     for (const SubstepPose& p : recorded)
     {
-        if (!scene.is_valid(p.body)) continue;
+        if (!scene.is_valid(p.body))
+            continue;
         auto& poses = m_poses[p.body];
-        if (poses.empty()) poses.assign(m_times.size(), scene.body(p.body).interpolated_pose(0));
+        if (poses.empty())
+            poses.assign(m_times.size(), scene.body(p.body).interpolated_pose(0));
         const auto index = static_cast<std::size_t>(std::ranges::lower_bound(m_times, p.time) - m_times.begin());
         // Also later ones: a body that fell asleep or was destroyed stays where it was last seen.
         std::fill(poses.begin() + static_cast<std::ptrdiff_t>(index), poses.end(), p.pose);
     }
-    for (const ImpactEvent& e : scene.impacts()) m_hits.push_back({e.time, e.point, e.normal, e.impulse});
+    for (const ImpactEvent& e : scene.impacts())
+        m_hits.push_back({e.time, e.point, e.normal, e.impulse});
     m_selected = substeps();
 }
 
@@ -211,7 +228,8 @@ void SubstepScrubber::select(int index) { m_selected = std::clamp(index, 0, std:
 std::optional<Pose> SubstepScrubber::pose(BodyId body) const
 {
     const auto found = m_poses.find(body);
-    if (found == m_poses.end()) return std::nullopt;
+    if (found == m_poses.end())
+        return std::nullopt;
     return found->second[static_cast<std::size_t>(m_selected)];
 }
 
@@ -224,7 +242,8 @@ void SubstepScrubber::widgets()
     }
     int index = m_selected;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##substep", &index, 0, substeps(), index == 0 ? "start of the step" : "sub-step %d")) select(index);
+    if (ImGui::SliderInt("##substep", &index, 0, substeps(), index == 0 ? "start of the step" : "sub-step %d"))
+        select(index);
     const auto happened = std::ranges::count_if(m_hits, [&](const Hit& h) { return h.time <= time(); });
     ImGui::Text("%.3f ms of %.3f ms", static_cast<double>(time()) * 1e3, static_cast<double>(m_times.back()) * 1e3);
     ImGui::Text("impacts so far: %d of %d", static_cast<int>(happened), static_cast<int>(m_hits.size()));
@@ -232,20 +251,25 @@ void SubstepScrubber::widgets()
 
 void SubstepScrubber::draw(Canvas& canvas, const Scene& scene) const
 {
-    if (empty()) return;
+    if (empty())
+        return;
     const float pixel = canvas.camera().meters(1);
     for (const auto& [body, poses] : m_poses)
     {
-        if (!scene.is_valid(body)) continue;
+        if (!scene.is_valid(body))
+            continue;
         Path way;
-        for (const Pose& p : poses) way.push_back(p.position);
+        for (const Pose& p : poses)
+            way.push_back(p.position);
         canvas.polyline(way, {rgb(0xffffff, 0.35f), 1});
-        for (const Position p : way) canvas.fill_circle(p, 1.5f * pixel, rgb(0xffffff, 0.6f));
+        for (const Position p : way)
+            canvas.fill_circle(p, 1.5f * pixel, rgb(0xffffff, 0.6f));
         draw_ghost(canvas, scene, body, poses[static_cast<std::size_t>(m_selected)], {rgb(0xffe066), 1.5f});
     }
     for (const Hit& hit : m_hits)
     {
-        if (hit.time > time()) continue;
+        if (hit.time > time())
+            continue;
         canvas.stroke_circle(hit.point, 6 * pixel, {rgb(0xff8787), 2});
         canvas.line(hit.point, hit.point + hit.normal * (18 * pixel), {rgb(0xff8787), 2});
     }

@@ -17,7 +17,7 @@ namespace carom::view {
 
 struct XrayToggles
 {
-    bool outlines = true;    ///< the shapes as the engine sees them; sleeping ones are pale
+    bool outlines = true; ///< the shapes as the engine sees them; sleeping ones are pale
     bool triggers = true;
     bool joints = true;
     bool contacts = true;
@@ -25,11 +25,11 @@ struct XrayToggles
     bool impulses = true;
     bool friction = false;
     bool velocities = true;
-    bool boxes = false;      ///< fat boxes of the broad phase
+    bool boxes = false; ///< fat boxes of the broad phase
     bool centers = false;
-    bool islands = false;    ///< awake islands
-    float velocity_time = 0.1f;   ///< an arrow shows the way within this many seconds
-    float impulse_points = 60;    ///< length of the strongest impulse of late
+    bool islands = false;       ///< awake islands
+    float velocity_time = 0.1f; ///< an arrow shows the way within this many seconds
+    float impulse_points = 60;  ///< length of the strongest impulse of late
 };
 
 class XrayOverlay : public DebugDraw
@@ -71,7 +71,10 @@ public:
     /// 0 is the start of the step, substeps() its end.
     void select(int index);
     [[nodiscard]] int selected() const { return m_selected; }
-    [[nodiscard]] float time() const { return empty() ? 0 : m_times[static_cast<std::size_t>(m_selected)]; } ///< within the step, s
+    [[nodiscard]] float time() const
+    {
+        return empty() ? 0 : m_times[static_cast<std::size_t>(m_selected)];
+    } ///< within the step, s
     /// Where a body was at the selected time; empty if it did not move in that step.
     [[nodiscard]] std::optional<Pose> pose(BodyId body) const;
 
@@ -88,7 +91,7 @@ private:
         Vec2 normal{};
         float impulse = 0;
     };
-    std::vector<float> m_times; ///< start of the step, then the end of each sub-step
+    std::vector<float> m_times;                  ///< start of the step, then the end of each sub-step
     std::map<BodyId, std::vector<Pose>> m_poses; ///< one for each time
     std::vector<Hit> m_hits;
     int m_selected = 0;

@@ -24,7 +24,8 @@ ImpactRecord ball_on_rod()
 {
     const float rod = 1 / (1.0f + 0.25f * 12);
     ImpactRecord record;
-    record.event = {.approach_speed = 3, .speed_a = 2, .speed_b = -1, .effective_mass_a = 2, .effective_mass_b = rod, .restitution = 0.5f};
+    record.event = {
+        .approach_speed = 3, .speed_a = 2, .speed_b = -1, .effective_mass_a = 2, .effective_mass_b = rod, .restitution = 0.5f};
     record.event.impulse = 1.5f * (2 * rod / (2 + rod)) * 3;
     record.a = {.name = "ball", .type = BodyType::Dynamic, .mass = 2, .inertia = 0.4f};
     record.b = {.name = "rod", .type = BodyType::Dynamic, .mass = 1, .inertia = 1.0f / 12};
@@ -34,7 +35,8 @@ ImpactRecord ball_on_rod()
 bool says(const ImpactRecord& record, const std::string& text)
 {
     for (const StoryLine& line : impact_story(record))
-        if (line.text.find(text) != std::string::npos) return true;
+        if (line.text.find(text) != std::string::npos)
+            return true;
     return false;
 }
 

@@ -62,8 +62,7 @@ TEST(Path, RoundedOutlineIsTheSameForBothWindings)
 
 // The turn of a piece decides where its centre lies, also beyond half a circle.
 class ChainArc : public testing::TestWithParam<float>
-{
-};
+{};
 
 TEST_P(ChainArc, EveryPointIsOnOneCircleAndTheLengthIsRight)
 {
@@ -71,7 +70,8 @@ TEST_P(ChainArc, EveryPointIsOnOneCircleAndTheLengthIsRight)
     const Path path = chain_path({.start = {0, 0}, .pieces = {{{2, 0}, sweep}}}, 1e-5f);
     const double radius = 1 / std::abs(std::sin(static_cast<double>(sweep) / 2));
     double size = 0;
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) size += std::hypot(path[i + 1].x - path[i].x, path[i + 1].y - path[i].y);
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        size += std::hypot(path[i + 1].x - path[i].x, path[i + 1].y - path[i].y);
     EXPECT_NEAR(size, radius * std::abs(static_cast<double>(sweep)), 2e-3 * radius);
     // Turning left starts downwards to the right: the arc bulges below the chord.
     const auto lowest = std::ranges::min_element(path, {}, &Position::y)->y;

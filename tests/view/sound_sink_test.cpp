@@ -55,7 +55,8 @@ private:
 double energy(const std::vector<float>& samples)
 {
     double sum = 0;
-    for (const float s : samples) sum += static_cast<double>(s) * static_cast<double>(s);
+    for (const float s : samples)
+        sum += static_cast<double>(s) * static_cast<double>(s);
     return sum;
 }
 
@@ -68,9 +69,11 @@ double heard(float impulse, bool muted = false)
         EXPECT_TRUE(sink.available()) << sink.why_mute();
         sink.set_muted(muted);
         // Let the volume settle, strike, and wait until the decay of 50 ms is on the disk, by the size of the file.
-        const auto wait_for = [&](std::size_t bytes) {
+        const auto wait_for = [&](std::size_t bytes)
+        {
             const std::size_t goal = file.size() + bytes;
-            for (int i = 0; i < 2000 && file.size() < goal; ++i) SDL_Delay(5);
+            for (int i = 0; i < 2000 && file.size() < goal; ++i)
+                SDL_Delay(5);
             EXPECT_GE(file.size(), goal);
         };
         constexpr std::size_t second = 48000 * 2 * sizeof(float);

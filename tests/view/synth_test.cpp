@@ -11,7 +11,8 @@ namespace {
 double rms(std::span<const float> samples)
 {
     double sum = 0;
-    for (const float s : samples) sum += static_cast<double>(s) * static_cast<double>(s);
+    for (const float s : samples)
+        sum += static_cast<double>(s) * static_cast<double>(s);
     return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
@@ -89,9 +90,11 @@ TEST(Synth, PanMovesSoundToOneSide)
 TEST(Synth, NeverLeavesTheRangeHoweverManySound)
 {
     Synth synth;
-    for (int i = 0; i < 200; ++i) synth.play({.pitch_hz = 100.0f + 13.0f * static_cast<float>(i), .loudness = 1});
+    for (int i = 0; i < 200; ++i)
+        synth.play({.pitch_hz = 100.0f + 13.0f * static_cast<float>(i), .loudness = 1});
     synth.set_drone(0, {.loudness = 1});
-    for (const float s : render(synth, 48000)) ASSERT_LE(std::abs(s), 1.0f);
+    for (const float s : render(synth, 48000))
+        ASSERT_LE(std::abs(s), 1.0f);
     EXPECT_LE(synth.sounding(), Synth::max_voices);
 }
 
@@ -102,18 +105,21 @@ TEST(Synth, PitchIsTheOneAskedFor)
     synth.play({.pitch_hz = 500, .brightness = 0, .noise = 0, .decay_s = 10, .loudness = 0.5f});
     const std::vector<float> stereo = render(synth, 48000);
     int crossings = 0;
-    for (std::size_t i = 2; i < stereo.size(); i += 2) crossings += stereo[i - 2] < 0 && stereo[i] >= 0;
+    for (std::size_t i = 2; i < stereo.size(); i += 2)
+        crossings += stereo[i - 2] < 0 && stereo[i] >= 0;
     EXPECT_NEAR(crossings, 500, 2);
 }
 
 TEST(Synth, BrightSoundHasMoreEdges)
 {
-    const auto edges = [](float brightness) {
+    const auto edges = [](float brightness)
+    {
         Synth synth;
         synth.play({.pitch_hz = 400, .brightness = brightness, .noise = 0, .decay_s = 2, .loudness = 0.6f});
         const std::vector<float> s = render(synth, 4800);
         double sum = 0;
-        for (std::size_t i = 2; i < s.size(); i += 2) sum += std::abs(static_cast<double>(s[i] - s[i - 2]));
+        for (std::size_t i = 2; i < s.size(); i += 2)
+            sum += std::abs(static_cast<double>(s[i] - s[i - 2]));
         return sum;
     };
     EXPECT_GT(edges(0.5f), 1.3 * edges(0));

@@ -33,7 +33,8 @@ std::size_t colors_in(const Image& image, int x0, int y0, int x1, int y1)
 {
     std::set<Pixel> colors;
     for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) colors.insert(pixel(image, x, y));
+        for (int x = x0; x < x1; ++x)
+            colors.insert(pixel(image, x, y));
     return colors.size();
 }
 
@@ -113,9 +114,9 @@ TEST_F(WindowTest, ConcaveOutlineLeavesItsNotchFree)
 TEST_F(WindowTest, GradientRunsFromOneColourToTheOther)
 {
     Window window({.width = 100, .height = 100, .background = rgb(0)});
-    const Image image = photograph(window, [&] {
-        window.canvas().fill_box({{0, 0}, {100, 100}}, Paint::linear({0, 0}, rgb(0x000000), {100, 0}, rgb(0xff0000)));
-    });
+    const Image image = photograph(
+        window,
+        [&] { window.canvas().fill_box({{0, 0}, {100, 100}}, Paint::linear({0, 0}, rgb(0x000000), {100, 0}, rgb(0xff0000))); });
     EXPECT_NEAR(std::get<0>(pixel(image, 25, 50)), 64, 4);
     EXPECT_NEAR(std::get<0>(pixel(image, 75, 50)), 192, 4);
 }
@@ -123,15 +124,19 @@ TEST_F(WindowTest, GradientRunsFromOneColourToTheOther)
 TEST_F(WindowTest, LineHasItsWidthAndThinLinesArePale)
 {
     Window window({.width = 100, .height = 100, .background = rgb(0)});
-    const Image image = photograph(window, [&] {
-        Canvas canvas = window.canvas();
-        canvas.line({10, 30}, {90, 30}, {rgb(0xffffff), 8});
-        canvas.line({10, 70.5}, {90, 70.5}, {rgb(0xffffff), 0.25f});
-    });
+    const Image image = photograph(window,
+                                   [&]
+                                   {
+                                       Canvas canvas = window.canvas();
+                                       canvas.line({10, 30}, {90, 30}, {rgb(0xffffff), 8});
+                                       canvas.line({10, 70.5}, {90, 70.5}, {rgb(0xffffff), 0.25f});
+                                   });
     double thick = 0;
     double thin = 0;
-    for (int y = 0; y < 50; ++y) thick += brightness(image, 50, y) / 765.0;
-    for (int y = 50; y < 100; ++y) thin += brightness(image, 50, y) / 765.0;
+    for (int y = 0; y < 50; ++y)
+        thick += brightness(image, 50, y) / 765.0;
+    for (int y = 50; y < 100; ++y)
+        thin += brightness(image, 50, y) / 765.0;
     EXPECT_NEAR(thick, 8, 0.3);
     EXPECT_NEAR(thin, 0.25, 0.15);
 }
@@ -149,12 +154,14 @@ TEST_F(WindowTest, TextIsDrawnWithSoftEdgesAndNamedGlyphs)
 {
     Window window({.width = 300, .height = 100, .background = rgb(0)});
     Vec2 size{};
-    const Image image = photograph(window, [&] {
-        Canvas canvas = window.canvas();
-        const TextStyle style{.size = 24};
-        canvas.text({10, 10}, "Carom m₁·r²/I", style);
-        size = canvas.text_size("Carom m₁·r²/I", style);
-    });
+    const Image image = photograph(window,
+                                   [&]
+                                   {
+                                       Canvas canvas = window.canvas();
+                                       const TextStyle style{.size = 24};
+                                       canvas.text({10, 10}, "Carom m₁·r²/I", style);
+                                       size = canvas.text_size("Carom m₁·r²/I", style);
+                                   });
     EXPECT_GT(size.x, 100);
     EXPECT_NEAR(size.y, 24, 2);
     EXPECT_GT(colors_in(image, 10, 10, 10 + static_cast<int>(size.x), 34), 30u);
@@ -166,24 +173,28 @@ TEST_F(WindowTest, TextOfTwiceTheSizeIsTwiceAsWide)
     Window window({.width = 300, .height = 100});
     float small = 0;
     float big = 0;
-    (void)photograph(window, [&] {
-        Canvas canvas = window.canvas();
-        small = canvas.text_size("width", {.size = 16}).x;
-        big = canvas.text_size("width", {.size = 32}).x;
-    });
+    (void)photograph(window,
+                     [&]
+                     {
+                         Canvas canvas = window.canvas();
+                         small = canvas.text_size("width", {.size = 16}).x;
+                         big = canvas.text_size("width", {.size = 32}).x;
+                     });
     EXPECT_NEAR(big, 2 * small, 2);
 }
 
 TEST_F(WindowTest, WidgetsAreShown)
 {
     Window window({.width = 300, .height = 200, .background = rgb(0)});
-    const Image image = photograph(window, [] {
-        ImGui::SetNextWindowPos({20, 20});
-        ImGui::SetNextWindowSize({200, 100});
-        ImGui::Begin("panel");
-        ImGui::TextUnformatted("hello");
-        ImGui::End();
-    });
+    const Image image = photograph(window,
+                                   []
+                                   {
+                                       ImGui::SetNextWindowPos({20, 20});
+                                       ImGui::SetNextWindowSize({200, 100});
+                                       ImGui::Begin("panel");
+                                       ImGui::TextUnformatted("hello");
+                                       ImGui::End();
+                                   });
     EXPECT_GT(colors_in(image, 20, 20, 220, 120), 20u);
     EXPECT_EQ(colors_in(image, 230, 0, 300, 200), 1u);
 }
@@ -197,7 +208,8 @@ TEST_F(WindowTest, QuitEventEndsTheLoopAndOthersReachTheUser)
     SDL_PushEvent(&key);
     ASSERT_TRUE(window.begin_frame());
     bool seen = false;
-    for (const SDL_Event& event : window.events()) seen = seen || (event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_Z);
+    for (const SDL_Event& event : window.events())
+        seen = seen || (event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_Z);
     EXPECT_TRUE(seen);
     window.end_frame();
     SDL_Event quit{};
