@@ -219,18 +219,19 @@ Vec2 FieldReader::direction(std::string_view key)
 
 std::vector<Vec2> FieldReader::points(std::string_view key, std::size_t count, Range range)
 {
-    std::vector<Vec2> points(count);
     const JsonNode* node = member(key, JsonNode::Kind::Array, true);
     if (node == nullptr)
-        return points;
+        return {};
     if (node->items.size() != count)
     {
         fail(*node, key, "must have " + std::to_string(count) + " points, has " + std::to_string(node->items.size()));
-        return points;
+        return {};
     }
+    std::vector<Vec2> points;
     for (std::size_t i = 0; i < count; ++i)
-        points[i] = checked_vec2(node->items[i], std::string(key) + "[" + std::to_string(i) + "]", range).value_or(Vec2{});
-    return points;
+        if (const auto point = checked_vec2(node->items[i], std::string(key) + "[" + std::to_string(i) + "]", range))
+            points.push_back(*point);
+    return points.size() == count ? points : std::vector<Vec2>{};
 }
 
 std::size_t FieldReader::choice(std::string_view key, std::span<const std::string_view> choices,
@@ -300,10 +301,12 @@ std::vector<Index> FieldReader::references(std::string_view key, const NameIndex
     {
         const std::string place = std::string(key) + "[" + std::to_string(i) + "]";
         const Index index = resolve(node->items[i], place, names, what);
-        if (index != none && std::find(indices.begin(), indices.end(), index) != indices.end())
-            fail(node->items[i], place, "names \"" + node->items[i].text + "\" twice");
-        if (index != none)
+        if (index == none)
+            continue;
+        if (std::find(indices.begin(), indices.end(), index) == indices.end())
             indices.push_back(index);
+        else
+            fail(node->items[i], place, "names \"" + node->items[i].text + "\" twice");
     }
     return indices;
 }

@@ -64,6 +64,7 @@ public:
     Vec2 vec2(std::string_view key, Range range);
     /// A direction of any length but zero, at length one.
     Vec2 direction(std::string_view key);
+    /// So many points, or none after an error.
     std::vector<Vec2> points(std::string_view key, std::size_t count, Range range);
     /// One of the choices, by its place in the list; without a fallback the key is required.
     std::size_t choice(std::string_view key, std::span<const std::string_view> choices, std::optional<std::size_t> fallback);

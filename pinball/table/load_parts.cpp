@@ -92,26 +92,28 @@ Part read_bumper(FieldReader& in)
 }
 
 /// Keeps the kicking edge from corners[0] to corners[1] and turns the triangle counter-clockwise.
-void turn_counter_clockwise(std::array<Vec2, 3>& corners)
+std::array<Vec2, 3> read_triangle(FieldReader& in)
 {
-    if (cross(corners[1] - corners[0], corners[2] - corners[0]) < 0)
-        std::swap(corners[0], corners[1]);
+    const std::vector<Vec2> points = in.points("corners", 3, range::coordinate);
+    if (points.empty())
+        return {};
+    const float area = cross(points[1] - points[0], points[2] - points[0]) / 2;
+    if (std::abs(area) < 1e-6f)
+        in.fail("corners", "the triangle encloses no area");
+    if (area < 0)
+        return {points[1], points[0], points[2]};
+    return {points[0], points[1], points[2]};
 }
 
 Part read_slingshot(FieldReader& in)
 {
-    const std::vector<Vec2> points = in.points("corners", 3, range::coordinate);
-    Slingshot sling{
-        .corners = {points[0], points[1], points[2]},
+    return Slingshot{
+        .corners = read_triangle(in),
         .radius = in.number("radius", {0.0005, 0.1, "m"}),
         .kick_speed = in.number("kick_speed", range::speed),
         .threshold = in.number("threshold", range::speed, 0.15f),
         .cooldown = in.number("cooldown", range::time, 0.08f),
     };
-    if (in.has("corners") && std::abs(cross(points[1] - points[0], points[2] - points[0])) < 2e-6f)
-        in.fail("corners", "the triangle encloses no area");
-    turn_counter_clockwise(sling.corners);
-    return sling;
 }
 
 /// The two ends of a target, spinner or gate: at least a millimetre apart.

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace carom::pinball {
@@ -33,7 +34,8 @@ void load_body(FieldReader& in, Table& table, LoadErrors& errors)
 
 LoadResult finish(Table table, LoadErrors errors)
 {
-    std::stable_sort(errors.begin(), errors.end(), [](const LoadError& a, const LoadError& b) { return a.line < b.line; });
+    std::sort(errors.begin(), errors.end(), [](const LoadError& a, const LoadError& b)
+              { return std::tie(a.line, a.column, a.path, a.sentence) < std::tie(b.line, b.column, b.path, b.sentence); });
     if (errors.size() > max_errors)
         errors.resize(max_errors);
     if (!errors.empty())
