@@ -1,6 +1,7 @@
 #include "lab/panels.h"
 
 #include "lab/stage_plot.h"
+#include "view/impact_panel.h"
 
 #include <imgui.h>
 

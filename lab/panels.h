@@ -5,6 +5,7 @@
 
 #include "lab/run.h"
 #include "view/window.h"
+#include "view/xray.h"
 
 namespace carom::lab {
 

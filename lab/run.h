@@ -5,7 +5,7 @@
 
 #include "scenes/scenes.h"
 #include "view/impact_story.h"
-#include "view/xray.h"
+#include "view/substep_scrubber.h"
 
 #include <deque>
 

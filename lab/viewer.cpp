@@ -3,6 +3,7 @@
 #include "lab/hand.h"
 #include "lab/panels.h"
 #include "lab/run.h"
+#include "view/impact_panel.h"
 #include "view/shape_art.h"
 #include "view/window.h"
 

@@ -1,111 +1,12 @@
 #include "view/canvas.h"
 
-#include "view/mesher.h"
+#include "view/line_maker.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace carom::view {
-namespace {
-
-ImVec2 to_imgui(Vec2 v) { return {v.x, v.y}; }
-
-Color color_at(const Paint& paint, Position p)
-{
-    if (!paint.gradient)
-        return paint.from;
-    const Vec2 axis = paint.end - paint.start;
-    const float squared = dot(axis, axis);
-    const float t = squared > 0 ? dot(p - paint.start, axis) / squared : 0;
-    return mix(paint.from, paint.to, std::clamp(t, 0.0f, 1.0f));
-}
-
-std::vector<PathPoint> to_points(const Camera& camera, std::span<const Position> path, const Paint& paint)
-{
-    std::vector<PathPoint> points;
-    points.reserve(path.size());
-    for (const Position p : path)
-        points.push_back({to_imgui(camera.to_screen(p)), color_at(paint, p)});
-    return points;
-}
-
-float distance(ImVec2 a, ImVec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-// Points so close that the direction between them is noise would turn the line's edge inside out.
-void drop_doubles(std::vector<PathPoint>& points, bool closed)
-{
-    const auto same = [](const PathPoint& a, const PathPoint& b) { return distance(a.at, b.at) < 0.02f; };
-    points.erase(std::unique(points.begin(), points.end(), same), points.end());
-    if (closed && points.size() > 2 && same(points.front(), points.back()))
-        points.pop_back();
-}
-
-float heading(ImVec2 a, ImVec2 b) { return std::atan2(b.y - a.y, b.x - a.x); }
-
-bool is_sharp(const PathPoint& before, const PathPoint& at, const PathPoint& after, float limit)
-{
-    float bend = std::abs(heading(at.at, after.at) - heading(before.at, at.at));
-    if (bend > pi)
-        bend = 2 * pi - bend;
-    return bend > limit;
-}
-
-/// Lines with round ends; corners too sharp for a miter become round joints.
-class LineMaker
-{
-public:
-    LineMaker(Mesher& mesher, Profile profile, float sharp) : m_mesher(mesher), m_profile(profile), m_sharp(sharp) {}
-
-    void open(std::span<const PathPoint> p)
-    {
-        cap(p[1], p[0]);
-        run(p);
-        cap(p[p.size() - 2], p.back());
-    }
-
-    void closed(std::vector<PathPoint> p)
-    {
-        const std::size_t n = p.size();
-        for (std::size_t i = 0; i < n; ++i)
-        {
-            if (!is_sharp(p[(i + n - 1) % n], p[i], p[(i + 1) % n], m_sharp))
-                continue;
-            std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i), p.end());
-            p.push_back(p.front());
-            joint(p.front());
-            return run(p);
-        }
-        m_mesher.sweep(p, m_profile, true);
-    }
-
-private:
-    void run(std::span<const PathPoint> p)
-    {
-        std::size_t first = 0;
-        for (std::size_t i = 1; i + 1 < p.size(); ++i)
-        {
-            if (!is_sharp(p[i - 1], p[i], p[i + 1], m_sharp))
-                continue;
-            m_mesher.sweep(p.subspan(first, i + 1 - first), m_profile, false);
-            joint(p[i]);
-            first = i;
-        }
-        m_mesher.sweep(p.subspan(first), m_profile, false);
-    }
-
-    void joint(const PathPoint& at) { m_mesher.revolve(at, m_profile, 0, 2 * pi); }
-    void cap(const PathPoint& inside, const PathPoint& end)
-    {
-        m_mesher.revolve(end, m_profile, heading(inside.at, end.at) - pi / 2, pi);
-    }
-
-    Mesher& m_mesher;
-    Profile m_profile;
-    float m_sharp;
-};
-
-} // namespace
 
 OutlineMesh::OutlineMesh(std::span<const Vec2> outline) : m_outline(outline.begin(), outline.end())
 {
@@ -130,9 +31,7 @@ Path Canvas::world_arc(Position center, float radius, float start_angle, float s
 
 void Canvas::fill_convex(std::span<const Position> outline, const Paint& paint)
 {
-    auto points = to_points(m_camera, outline, paint);
-    drop_doubles(points, true);
-    Mesher(*m_list).convex(points, 1 / m_pixel_scale);
+    Mesher(*m_list).convex(to_line(m_camera, outline, paint, true), 1 / m_pixel_scale);
 }
 
 void Canvas::fill_circle(Position center, float radius, const Paint& paint)
@@ -181,9 +80,7 @@ void Canvas::fill_outline(const OutlineMesh& mesh, const Paint& paint, const Pos
     };
     Mesher mesher(*m_list);
     mesher.triangles(placed(mesh.triangles()));
-    auto edge = placed(mesh.outline());
-    drop_doubles(edge, true);
-    mesher.fringe(edge, 1 / m_pixel_scale);
+    mesher.fringe(placed(mesh.outline()), 1 / m_pixel_scale);
 }
 
 void Canvas::fill_radial(Position center, float radius, Color inner, Color outer, Vec2 focus)
@@ -206,8 +103,7 @@ void Canvas::ball(Position center, float radius, Rotation rotation, Color color)
 
 void Canvas::stroke(std::span<const Position> path, const Pen& pen, bool closed)
 {
-    auto points = to_points(m_camera, path, pen.paint);
-    drop_doubles(points, closed);
+    auto points = to_line(m_camera, path, pen.paint, closed);
     if (points.size() < 2)
         return;
     const float pixel = 1 / m_pixel_scale;
@@ -339,62 +235,6 @@ Vec2 Canvas::text_size(std::string_view utf8, const TextStyle& style) const
     const auto [font, size] = m_fonts->get(style.face, style.size);
     const ImVec2 box = font->CalcTextSizeA(size, 1e9f, 0, utf8.data(), utf8.data() + utf8.size());
     return {box.x, box.y};
-}
-
-// ---- light --------------------------------------------------------------------------------------------------------------
-
-namespace {
-
-// (1 - d)² from the inner radius out: looks like light and ends without an edge.
-std::vector<Profile::Step> falloff(float inner, float outer)
-{
-    std::vector<Profile::Step> steps;
-    constexpr int count = 8;
-    for (int i = 0; i <= count; ++i)
-    {
-        const float d = static_cast<float>(i) / count;
-        steps.push_back({inner + (outer - inner) * d, (1 - d) * (1 - d)});
-    }
-    return steps;
-}
-
-} // namespace
-
-void Canvas::glow(Position center, float inner_radius, float radius, Color color)
-{
-    begin_additive();
-    const auto steps = falloff(points(inner_radius), points(inner_radius + radius));
-    Mesher(*m_list).revolve({to_imgui(m_camera.to_screen(center)), color}, {steps}, 0, 2 * pi);
-    end_additive();
-}
-
-void Canvas::glow_line(Position a, Position b, float radius, Color color)
-{
-    const std::array<Position, 2> path{a, b};
-    ribbon(path, radius, color, false);
-}
-
-void Canvas::glow_path(std::span<const Position> path, float radius, Color color, bool closed)
-{
-    ribbon(path, radius, color, closed);
-}
-
-void Canvas::ribbon(std::span<const Position> path, float radius, Color color, bool closed)
-{
-    auto points_of_path = to_points(m_camera, path, color);
-    drop_doubles(points_of_path, closed);
-    if (points_of_path.size() < 2)
-        return;
-    begin_additive();
-    const auto steps = falloff(0, points(radius));
-    Mesher mesher(*m_list);
-    // No round joints: light laid twice shines twice.
-    LineMaker lines(mesher, {steps}, 10);
-    if (closed && points_of_path.size() > 2)
-        lines.closed(std::move(points_of_path));
-    else
-        lines.open(points_of_path);
-    end_additive();
 }
 
 } // namespace carom::view

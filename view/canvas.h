@@ -82,9 +82,15 @@ public:
     void glow(Position center, float inner_radius, float radius, Color color);
     void glow_line(Position a, Position b, float radius, Color color);
     void glow_path(std::span<const Position> path, float radius, Color color, bool closed = false);
+    /// What a moving thing leaves behind: the path from its newest point to its oldest, ever thinner and fainter.
+    void trail(std::span<const Position> newest_first, float radius, Color color);
     /// Everything drawn between the two calls is added as light.
     void begin_additive();
     void end_additive();
+
+    // Shade. The same soft edges, laid over what is below: shadows that give depth.
+    void shade(Position center, float inner_radius, float radius, Color color);
+    void shade_path(std::span<const Position> path, float radius, Color color, bool closed = false);
 
     // Text.
     void text(Position at, std::string_view utf8, const TextStyle& style);
@@ -95,11 +101,9 @@ public:
     void pop_clip();
 
 private:
-    friend class Mesher;
     [[nodiscard]] Path world_arc(Position center, float radius, float start_angle, float sweep) const;
     void fill_convex(std::span<const Position> outline, const Paint& paint);
     void stroke(std::span<const Position> path, const Pen& pen, bool closed);
-    void ribbon(std::span<const Position> path, float radius, Color color, bool closed);
 
     ImDrawList* m_list;
     Camera m_camera;

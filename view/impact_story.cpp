@@ -1,7 +1,5 @@
 #include "view/impact_story.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -226,80 +224,6 @@ void ImpactWatch::observe(const Scene& scene)
     if (fresh && m_last->event.impulse >= strongest->impulse)
         return;
     m_last = record_impact(scene, *strongest, m_namer);
-}
-
-namespace {
-
-void line_widget(Fonts& fonts, const StoryLine& line)
-{
-    struct Look
-    {
-        Face face;
-        float size;
-        Color color;
-        float indent;
-    };
-    static constexpr Look looks[] = {{Face::Bold, 16, rgb(0xffffff), 0},
-                                     {Face::Bold, 13, rgb(0x9fc3ff), 0},
-                                     {Face::Sans, 13, rgb(0xc6d0e0), 10},
-                                     {Face::Mono, 13, rgb(0xffe3a3), 10},
-                                     {Face::Bold, 13, rgb(0x8ce99a), 10}};
-    const Look& look = looks[static_cast<std::size_t>(line.kind)];
-    const SizedFont sized = fonts.get(look.face, look.size);
-    if (line.kind == Kind::Step)
-        ImGui::Spacing();
-    ImGui::PushFont(sized.font);
-    if (look.indent > 0)
-        ImGui::Indent(look.indent);
-    ImGui::PushStyleColor(ImGuiCol_Text, pack(look.color));
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(line.text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-    if (look.indent > 0)
-        ImGui::Unindent(look.indent);
-    ImGui::PopFont();
-}
-
-} // namespace
-
-void impact_widgets(Fonts& fonts, const std::optional<ImpactRecord>& record)
-{
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 3});
-    if (!record)
-        ImGui::TextWrapped("Nothing has been hit yet. The next impact is written out here, step by step.");
-    else
-        for (const StoryLine& line : impact_story(*record))
-            line_widget(fonts, line);
-    ImGui::PopStyleVar();
-}
-
-void draw_impact(Canvas& canvas, const ImpactRecord& record)
-{
-    const ImpactEvent& e = record.event;
-    const float pixel = canvas.camera().meters(1);
-    const std::array<Position, 2> axis{e.point - e.normal * (90 * pixel), e.point + e.normal * (90 * pixel)};
-    canvas.dashed(axis, {rgb(0xffffff, 0.5f), 1});
-    canvas.stroke_circle(e.point, 7 * pixel, {rgb(0xffffff), 1.5f});
-    // The faster one gets 55 points.
-    const float scale = 55 * pixel / std::max({std::abs(e.speed_a), std::abs(e.speed_b), 1e-9f});
-    const Vec2 side = perp(e.normal) * (5 * pixel);
-    const auto speed = [&](float v, Vec2 shift, Color color)
-    {
-        if (std::abs(v) * scale > 3 * pixel)
-            canvas.arrow(e.point + shift, e.point + shift + e.normal * (v * scale), {color, 2.5f}, 10);
-    };
-    speed(e.speed_a, side, party_a_color);
-    speed(e.speed_b, -side, party_b_color);
-    const TextStyle style{.size = 13, .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};
-    const auto label = [&](const ImpactParty& p, const char* index, float direction, Color color)
-    {
-        TextStyle own = style;
-        own.color = color;
-        canvas.text(e.point + e.normal * (direction * 104 * pixel), p.name + index, own);
-    };
-    label(record.a, " (1)", -1, party_a_color);
-    label(record.b, " (2)", 1, party_b_color);
 }
 
 } // namespace carom::view

@@ -5,8 +5,6 @@
 /// approach, and how the blow follows from that:
 ///     j = (1+e)·m₁·m₂/(m₁+m₂)·(v₁−v₂)    with point masses    m = 1 / (1/m + r²/I)
 
-#include "view/canvas.h"
-
 #include "carom/event.h"
 #include "carom/scene.h"
 
@@ -81,14 +79,5 @@ private:
     double m_hold;
     std::optional<ImpactRecord> m_last;
 };
-
-/// The story as text in the present Dear ImGui window, wrapped to its width.
-void impact_widgets(Fonts& fonts, const std::optional<ImpactRecord>& record);
-
-/// The blow in the picture: the line of the hit, both speeds, both parties named.
-void draw_impact(Canvas& canvas, const ImpactRecord& record);
-
-inline constexpr Color party_a_color = rgb(0xffa94d);
-inline constexpr Color party_b_color = rgb(0x74c0fc);
 
 } // namespace carom::view

@@ -157,6 +157,29 @@ void Mesher::sweep(std::span<const PathPoint> p, Profile profile, bool closed)
         }
 }
 
+void Mesher::taper(std::span<const PathPoint> p, float radius)
+{
+    const auto n = static_cast<unsigned>(p.size());
+    const auto [base] = reserve(3 * n, 12 * (n - 1));
+    for (unsigned i = 0; i < n; ++i)
+    {
+        const ImVec2 before = i > 0 ? p[i - 1].at : p[i].at - (p[i + 1].at - p[i].at);
+        const ImVec2 after = i + 1 < n ? p[i + 1].at : p[i].at + (p[i].at - p[i - 1].at);
+        const float left = 1 - static_cast<float>(i) / static_cast<float>(n - 1);
+        // The direction alone: a miter at a bounce would throw a spike.
+        const ImVec2 side = turned(unit(after - before)) * (radius * (0.3f + 0.7f * left));
+        vertex(p[i].at - side, fade(p[i].color, 0));
+        vertex(p[i].at, fade(p[i].color, left * left));
+        vertex(p[i].at + side, fade(p[i].color, 0));
+    }
+    for (unsigned i = 0; i + 1 < n; ++i)
+        for (unsigned k = 0; k < 2; ++k)
+        {
+            const unsigned a = base + 3 * i + k;
+            quad(a, a + 1, a + 4, a + 3);
+        }
+}
+
 void Mesher::revolve(const PathPoint& center, Profile profile, float start_angle, float sweep_angle)
 {
     const auto rings = static_cast<unsigned>(profile.steps.size());

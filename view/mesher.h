@@ -42,6 +42,8 @@ public:
     void fringe(std::span<const PathPoint> outline, float width);
     /// The profile swept along the path without breaks.
     void sweep(std::span<const PathPoint> path, Profile profile, bool closed);
+    /// A soft band that narrows from its first point, where it is `radius` wide to each side, and fades to nothing at its last.
+    void taper(std::span<const PathPoint> path, float radius);
     /// The profile turned about a point, by pi (a cap that looks in `direction`) or all the way round.
     void revolve(const PathPoint& center, Profile profile, float start_angle, float sweep);
     /// Rings of colour between a point and a circle.

@@ -19,6 +19,7 @@ struct Window::Native
     ImGuiContext* imgui = nullptr;
     bool video = false;
     bool offscreen = false;
+    bool paced = true; ///< by the display, or on purpose by nothing
 
     ~Native()
     {
@@ -109,7 +110,7 @@ Window::Window(const WindowDef& def) : m_native(std::make_unique<Native>()), m_b
     m_native->gl = SDL_GL_CreateContext(m_native->window);
     if (m_native->gl == nullptr)
         fail("no OpenGL 3.3");
-    SDL_GL_SetSwapInterval(def.vertical_sync && !m_native->offscreen ? 1 : 0);
+    m_native->paced = SDL_GL_SetSwapInterval(def.vertical_sync && !m_native->offscreen ? 1 : 0) == 0 || m_native->offscreen;
     m_native->imgui = ImGui::CreateContext();
     start_imgui(m_native->window, m_native->gl);
     if (def.fullscreen)
@@ -161,6 +162,9 @@ void Window::end_frame(Image* capture)
     if (capture != nullptr)
         read_pixels(*capture);
     SDL_GL_SwapWindow(m_native->window);
+    // A display that cannot pace frames would let the loop eat a whole core.
+    if (!m_native->paced)
+        SDL_Delay(4);
 }
 
 void Window::read_pixels(Image& image) const
@@ -207,20 +211,5 @@ bool Window::is_fullscreen() const { return (SDL_GetWindowFlags(m_native->window
 Canvas Window::canvas(const Camera& camera) { return make_canvas(ImGui::GetBackgroundDrawList(), camera, *this); }
 Canvas Window::canvas() { return canvas(Camera::screen(size())); }
 Canvas Window::foreground() { return make_canvas(ImGui::GetForegroundDrawList(), Camera::screen(size()), *this); }
-
-// ---- additive light: the canvas's only OpenGL, kept beside the window that owns the context --------------------------------
-
-void Canvas::begin_additive()
-{
-    const auto add = [](const ImDrawList*, const ImDrawCmd*) { glBlendFunc(GL_SRC_ALPHA, GL_ONE); };
-    if (m_additive++ == 0)
-        m_list->AddCallback(add, nullptr);
-}
-
-void Canvas::end_additive()
-{
-    if (--m_additive == 0)
-        m_list->AddCallback(ImDrawCallback_ResetRenderState, nullptr);
-}
 
 } // namespace carom::view

@@ -1,17 +1,15 @@
 #pragma once
 
 /// @file
-/// The x-ray: what the engine knows, over the picture. Contacts, normals, impulses, velocities, triggers, boxes, sleep,
-/// and the sub-steps of the last step.
+/// The x-ray: what the engine knows, over the picture. Contacts, normals, impulses, velocities, triggers, boxes, sleep.
 
 #include "view/canvas.h"
 
 #include "carom/debug_draw.h"
 #include "carom/scene.h"
 
-#include <map>
-#include <optional>
-#include <vector>
+#include <span>
+#include <string_view>
 
 namespace carom::view {
 
@@ -55,46 +53,6 @@ private:
     void outline(DrawRole role, Path path);
     Canvas* m_canvas = nullptr;
     float m_strongest = 0; ///< N s, fades
-};
-
-/// Goes back and forth within the last step: poses at the ends of its sub-steps (Scene::set_record_substeps) and the
-/// impacts at their own times.
-class SubstepScrubber
-{
-public:
-    /// Call after the step to look into.
-    void capture(const Scene& scene);
-    void clear();
-    [[nodiscard]] bool empty() const { return m_times.size() < 2; }
-    [[nodiscard]] int substeps() const { return static_cast<int>(m_times.size()) - 1; }
-
-    /// 0 is the start of the step, substeps() its end.
-    void select(int index);
-    [[nodiscard]] int selected() const { return m_selected; }
-    [[nodiscard]] float time() const
-    {
-        return empty() ? 0 : m_times[static_cast<std::size_t>(m_selected)];
-    } ///< within the step, s
-    /// Where a body was at the selected time; empty if it did not move in that step.
-    [[nodiscard]] std::optional<Pose> pose(BodyId body) const;
-
-    /// A slider and what happened up to there. Into the present Dear ImGui window.
-    void widgets();
-    /// The ways of all bodies through the step, their outlines at the selected time, and the impacts so far.
-    void draw(Canvas& canvas, const Scene& scene) const;
-
-private:
-    struct Hit
-    {
-        float time = 0;
-        Position point{};
-        Vec2 normal{};
-        float impulse = 0;
-    };
-    std::vector<float> m_times;                  ///< start of the step, then the end of each sub-step
-    std::map<BodyId, std::vector<Pose>> m_poses; ///< one for each time
-    std::vector<Hit> m_hits;
-    int m_selected = 0;
 };
 
 /// The colour of a role in the overlay.
