@@ -44,10 +44,7 @@ public:
     void before_step(Playfield& field) override
     {
         press(field, m_enabled && (m_def.input == Side::Left ? field.buttons().left : field.buttons().right));
-        const float before = m_torque;
-        const float most = field.h() * m_def.coil_torque / std::max(m_def.coil_rise, field.h());
-        m_torque += std::clamp(target_torque() - m_torque, -most, most);
-        const float mean = 0.5f * (before + m_torque);
+        const float mean = move_torque(field.h());
         field.scene().body(state.body).apply_torque(m_stroke > 0 ? mean : -mean);
     }
 
@@ -79,6 +76,15 @@ private:
         if (on != state.down)
             field.emit({.kind = EventKind::FlipperCoil, .element = index(), .point = m_def.pivot, .value = on ? 1 : 0});
         state.down = on;
+    }
+
+    // The coil's rise: the torque goes to its target in a straight line. Gives the mean over the step.
+    [[nodiscard]] float move_torque(float h)
+    {
+        const float before = m_torque;
+        const float most = m_def.coil_rise > 0 ? h * m_def.coil_torque / m_def.coil_rise : 2 * m_def.coil_torque;
+        m_torque += std::clamp(target_torque() - m_torque, -most, most);
+        return m_def.coil_rise > 0 ? 0.5f * (before + m_torque) : m_torque;
     }
 
     // Positive towards the upper stop.

@@ -32,7 +32,7 @@ void show_progress(const Stats& stats, int balls, bool last)
                  stats.mean_ball_time(), stats.escaped(), stats.stuck(), stats.mean_step_us(), last ? "\n" : "");
 }
 
-void play(Run& run, int balls)
+void play(HeadlessRun& run, int balls)
 {
     constexpr std::int64_t steps_between_lines = 50'000;
     const bool on_terminal = isatty(STDERR_FILENO) != 0;
@@ -71,7 +71,7 @@ int run_headless(const HeadlessOptions& options)
         return 1;
     interrupted = 0;
     const auto before = std::signal(SIGINT, on_interrupt);
-    Run run(*table, options.seed);
+    HeadlessRun run(*table, options.seed);
     play(run, options.balls);
     run.finish();
     std::signal(SIGINT, before);

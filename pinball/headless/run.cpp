@@ -18,10 +18,10 @@ double microseconds_of(auto&& work)
 
 } // namespace
 
-Run::Run(const Table& table, std::uint64_t seed) : m_table(table), m_seed(seed), m_stats(table) { new_session(); }
+HeadlessRun::HeadlessRun(const Table& table, std::uint64_t seed) : m_table(table), m_seed(seed), m_stats(table) { new_session(); }
 
 // A lost ball is not repaired: the game it was lost in is given up, and the next one has its own seed.
-void Run::new_session()
+void HeadlessRun::new_session()
 {
     Random seeds(m_seed + static_cast<std::uint64_t>(m_sessions++));
     m_game.emplace(m_table, Options{.seed = seeds.next()});
@@ -33,7 +33,7 @@ void Run::new_session()
         m_captive_homes.push_back(ball.position);
 }
 
-void Run::step()
+void HeadlessRun::step()
 {
     const Input input = m_player->play(*m_game);
     m_stats.note_step(microseconds_of([&] { m_game->step(input); }));
@@ -41,7 +41,7 @@ void Run::step()
     watch();
 }
 
-void Run::hear()
+void HeadlessRun::hear()
 {
     for (const GameEvent& event : m_game->events())
     {
@@ -58,7 +58,7 @@ void Run::hear()
     }
 }
 
-void Run::watch()
+void HeadlessRun::watch()
 {
     for (const BallState& ball : m_game->balls())
     {
@@ -72,13 +72,13 @@ void Run::watch()
     }
 }
 
-bool Run::captive_is_out(const BallState& ball) const
+bool HeadlessRun::captive_is_out(const BallState& ball) const
 {
     const auto serial = static_cast<std::size_t>(ball.serial);
     return ball.captive && length(ball.position - m_captive_homes[serial]) > captive_reach;
 }
 
-void Run::lose(const char* how, const BallState& ball)
+void HeadlessRun::lose(const char* how, const BallState& ball)
 {
     m_stats.note_lost({.how = how, .step = m_game->step_count(), .position = ball.position, .velocity = ball.velocity});
     new_session();

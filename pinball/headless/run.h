@@ -11,11 +11,11 @@
 
 namespace carom::pinball {
 
-class Run
+class HeadlessRun
 {
 public:
     /// The table must outlive the run.
-    Run(const Table& table, std::uint64_t seed);
+    HeadlessRun(const Table& table, std::uint64_t seed);
 
     /// One step of the game.
     void step();
