@@ -2,6 +2,7 @@
 
 #include "pinball/table/loader.h"
 
+#include "pinball/table/checker.h"
 #include "pinball/table/load_path.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -193,6 +196,33 @@ TEST(TableLoader, ColorsAreRead)
 {
     const Table table = load(table_with(replaced(std::string(post), "0.004", R"(0.004, "color": "#ffd40a")")));
     EXPECT_EQ(table.elements[1].color, (Color{255, 212, 10}));
+}
+
+std::string documentation()
+{
+    std::ifstream stream(std::filesystem::path(CAROM_SOURCE_DIR) / "docs/table-format.md");
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST(TableLoader, TheExampleOfTheReferenceLoadsAndHasNoFinding)
+{
+    const std::string text = documentation();
+    const std::size_t start = text.find("```json\n");
+    ASSERT_NE(start, std::string::npos);
+    const std::size_t end = text.find("```", start + 8);
+    const LoadResult result = load_table(text.substr(start + 8, end - start - 8));
+    ASSERT_TRUE(result.table.has_value()) << to_string(result.errors[0]);
+    for (const Finding& finding : check(*result.table))
+        ADD_FAILURE() << to_string(finding);
+}
+
+TEST(TableLoader, TheReferenceNamesEveryTypeAndFinding)
+{
+    const std::string text = documentation();
+    for (const std::string_view type : type_names)
+        EXPECT_NE(text.find("**`" + std::string(type) + "`**"), std::string::npos) << type;
+    for (int kind = 0; kind <= static_cast<int>(FindingKind::Plunger); ++kind)
+        EXPECT_NE(text.find("| " + std::string(name(static_cast<FindingKind>(kind))) + " |"), std::string::npos) << kind;
 }
 
 // --- Syntax -------------------------------------------------------------------------------------------------------
