@@ -1,5 +1,5 @@
-// The skill shot: one lane flashes while the ball waits and flies; it pays if it is the first thing of worth that the ball
-// meets. The flippers move it.
+// The skill shot: one lane flashes while the ball waits and flies. The flippers move it. It is missed when the ball comes
+// into another lane or strikes anything that is made to be struck; rollovers on the way there do not count.
 
 #include "pinball/rules/rule.h"
 
@@ -39,8 +39,7 @@ public:
             return;
         if (event.element == lanes(desk)[m_lane])
             pay(desk, event.element);
-        const bool of_worth = desk.table().elements[event.element].score > 0;
-        if (of_worth && is_playfield_switch(desk.table(), event))
+        else if (misses(desk, event.element))
         {
             m_open = false;
             show(desk);
@@ -56,6 +55,12 @@ public:
 
 private:
     [[nodiscard]] const std::vector<Index>& lanes(const Desk& desk) const { return desk.table().groups[m_rule.group].members; }
+
+    [[nodiscard]] bool misses(const Desk& desk, Index element) const
+    {
+        const bool is_sensor = std::holds_alternative<Sensor>(desk.table().elements[element].part);
+        return !is_sensor || desk.table().elements[element].group == m_rule.group;
+    }
 
     void show(Desk& desk) const { desk.flashing = m_open ? lanes(desk)[m_lane] : none; }
 

@@ -378,10 +378,11 @@ TEST(Rules, TheSkillShotPaysOnlyAsTheFirstThing)
     ASSERT_NE(lane, none);
     m.tell(EventKind::Entered, m.shooter);
     m.tell(EventKind::Entered, m.orbit);
-    EXPECT_EQ(m.desk().flashing, lane) << "worthless switches on the way do not end it";
+    m.tell(EventKind::Entered, m.inlane);
+    EXPECT_EQ(m.desk().flashing, lane) << "rollovers on the way do not end it";
     m.tell(EventKind::Entered, lane);
     EXPECT_TRUE(m.announced(EventKind::SkillShot));
-    EXPECT_EQ(m.desk().score, 25'000 + 250);
+    EXPECT_EQ(m.desk().score, 25'000 + 250 + 100);
     EXPECT_EQ(m.desk().flashing, none);
 
     Machine other;
