@@ -150,6 +150,24 @@ TEST_F(WindowTest, GlowAddsLightAndFadesToNothing)
     EXPECT_EQ(brightness(image, 50, 95), 3 * 0x20);
 }
 
+TEST_F(WindowTest, ShadeDarkensAndATrailFadesAlongItsWay)
+{
+    Window window({.width = 200, .height = 100, .background = rgb(0x606060)});
+    Path way;
+    for (int x = 180; x >= 20; x -= 4)
+        way.emplace_back(x, 70);
+    const Image image = photograph(window,
+                                   [&]
+                                   {
+                                       window.canvas().shade({50, 25}, 5, 20, rgb(0, 0.5f));
+                                       window.canvas().trail(way, 8, rgb(0xffffff));
+                                   });
+    EXPECT_NEAR(brightness(image, 50, 25), 3 * 0x30, 6);
+    EXPECT_GT(brightness(image, 170, 70), brightness(image, 120, 70) + 60);
+    EXPECT_GT(brightness(image, 120, 70), brightness(image, 60, 70) + 60);
+    EXPECT_EQ(brightness(image, 100, 50), 3 * 0x60);
+}
+
 TEST_F(WindowTest, TextIsDrawnWithSoftEdgesAndNamedGlyphs)
 {
     Window window({.width = 300, .height = 100, .background = rgb(0)});
