@@ -76,12 +76,13 @@ void world_controls(LabState& state)
 void number_row(const char* name, const std::string& value)
 {
     ImGui::TextUnformatted(name);
-    ImGui::SameLine(150);
+    ImGui::SameLine(135);
     ImGui::TextUnformatted(value.c_str());
 }
 
 void numbers(const Run& run)
 {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 2});
     const StepReport& r = run.scene().report();
     const auto n = [](int value) { return std::to_string(value); };
     number_row("time", view::number(static_cast<float>(run.scene().time())) + " s");
@@ -94,6 +95,8 @@ void numbers(const Run& run)
     number_row("bulk impacts", n(r.bulk_impacts));
     if (r.flags != 0)
         ImGui::TextColored({1, 0.6f, 0.4f, 1}, "step flags: %u", r.flags);
+    stage_plot(run.history());
+    ImGui::PopStyleVar();
 }
 
 void xray_panel(Run& run, LabState& state)
@@ -118,14 +121,11 @@ void wide_panels(view::Window& window, Run& run, LabState& state)
         scene_list(run, state);
     if (ImGui::CollapsingHeader("World"))
         world_controls(state);
+    if (ImGui::CollapsingHeader("Numbers", ImGuiTreeNodeFlags_DefaultOpen))
+        numbers(run);
     ImGui::End();
 
     begin_at("knowledge", {size.x - story_width, 0}, {story_width, size.y});
-    if (ImGui::CollapsingHeader("Numbers", ImGuiTreeNodeFlags_DefaultOpen))
-    {
-        numbers(run);
-        stage_plot(run.history());
-    }
     if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen))
         xray_panel(run, state);
     if (state.xray && ImGui::CollapsingHeader("Last impact", ImGuiTreeNodeFlags_DefaultOpen))
@@ -153,12 +153,7 @@ void narrow_panels(view::Window& window, Run& run, LabState& state)
     {
         tab("Scenes", [&] { scene_list(run, state); });
         tab("X-ray", [&] { xray_panel(run, state); });
-        tab("Numbers",
-            [&]
-            {
-                numbers(run);
-                stage_plot(run.history());
-            });
+        tab("Numbers", [&] { numbers(run); });
         tab("Impact", [&] { view::impact_widgets(window.fonts(), run.impacts.last()); });
         tab("World", [&] { world_controls(state); });
         ImGui::EndTabBar();

@@ -57,9 +57,13 @@ void legend(const std::deque<StageTimes>& history)
             sum += static_cast<double>(t.*stage.value);
         const double mean = history.empty() ? 0 : sum / static_cast<double>(history.size());
         const view::Color& c = stage.color;
-        if (shown++ % 2 != 0)
-            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x / 2);
-        ImGui::TextColored({c.r, c.g, c.b, 1}, "%-9s%.3f ms", stage.name, mean);
+        const float half = ImGui::GetWindowContentRegionMax().x / 2;
+        const float left = shown++ % 2 == 0 ? ImGui::GetStyle().WindowPadding.x : half + 4;
+        if (left > half)
+            ImGui::SameLine(left);
+        ImGui::TextColored({c.r, c.g, c.b, 1}, "%s", stage.name);
+        ImGui::SameLine(left + 68);
+        ImGui::TextColored({c.r, c.g, c.b, 1}, "%.3f", mean);
     }
 }
 
@@ -80,8 +84,8 @@ void stage_plot(const std::deque<StageTimes>& history)
         column(list, times, {x, at.y + height}, wide + 0.1f, height, scale);
         x += wide;
     }
-    char label[32];
-    std::snprintf(label, sizeof label, "%.2f ms a step", static_cast<double>(scale));
+    char label[64];
+    std::snprintf(label, sizeof label, "up to %.2f ms a step; means below", static_cast<double>(scale));
     list.AddText({at.x + 5, at.y + 3}, view::pack(view::rgb(0xb8c4d8)), label);
     ImGui::Dummy({width, height});
     legend(history);

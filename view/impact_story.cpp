@@ -201,7 +201,7 @@ std::vector<StoryLine> impact_story(const ImpactRecord& record)
     std::vector<StoryLine> story;
     story.push_back({Kind::Title, record.a.name + " (1) hits " + record.b.name + " (2)"});
     story.push_back({Kind::Step, "How heavy does each feel where it is hit?"});
-    story.push_back({Kind::Formula, "m = 1 / (1/m + r²/I)"});
+    story.push_back({Kind::Formula, "point mass = 1 / (1/m + r²/I)"});
     tell_mass(story, record.a, e.effective_mass_a, true);
     tell_mass(story, record.b, e.effective_mass_b, false);
     tell_speed(story, e);

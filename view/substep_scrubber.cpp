@@ -71,7 +71,8 @@ void SubstepScrubber::widgets()
 
 void SubstepScrubber::draw(Canvas& canvas, const Scene& scene) const
 {
-    if (empty())
+    // At the end of the step the picture itself is what is seen.
+    if (empty() || m_selected == substeps())
         return;
     const float pixel = canvas.camera().meters(1);
     for (const auto& [body, poses] : m_poses)

@@ -36,7 +36,8 @@ public:
 
     /// A slider and what happened up to there. Into the present Dear ImGui window.
     void widgets();
-    /// The ways of all bodies through the step, their outlines at the selected time, and the impacts so far.
+    /// The ways of all bodies through the step, their outlines at the selected time, and the impacts so far. Nothing while
+    /// the end of the step is selected.
     void draw(Canvas& canvas, const Scene& scene) const;
 
 private:

@@ -165,23 +165,40 @@ void toggle(const char* label, bool& value, DrawRole role, const char* help)
 
 void XrayOverlay::widgets()
 {
-    XrayToggles& t = toggles;
-    toggle("outlines", t.outlines, DrawRole::AwakeShape,
-           "Shapes as the engine sees them. Sleeping bodies are pale:\nthey rest and cost nothing until something touches them.");
-    toggle("contact points", t.contacts, DrawRole::Contact, "Where two shapes touch.");
-    toggle("normals", t.normals, DrawRole::ContactNormal, "The direction in which two shapes push each other.");
-    toggle("impulses", t.impulses, DrawRole::Impulse, "How hard they pushed in the last step: force times time.");
-    toggle("friction", t.friction, DrawRole::Friction, "The part of the push along the surface.");
-    toggle("velocities", t.velocities, DrawRole::Velocity, "The way a body goes in the time below.");
-    toggle("triggers", t.triggers, DrawRole::Trigger, "Areas that report who is inside and stop nobody.");
-    toggle("joints", t.joints, DrawRole::Joint, "Springs, ropes, hinges and sliders.");
-    toggle("boxes", t.boxes, DrawRole::Box, "Only shapes whose boxes overlap are looked at more closely.");
-    toggle("centers of mass", t.centers, DrawRole::CenterOfMass, "The point that moves as if all mass were there.");
-    toggle("islands", t.islands, DrawRole::Island, "Bodies that must be solved together because they touch.");
-    ImGui::SetNextItemWidth(110);
-    ImGui::SliderFloat("velocity time", &t.velocity_time, 0.005f, 1, "%.3f s", ImGuiSliderFlags_Logarithmic);
-    ImGui::SetNextItemWidth(110);
-    ImGui::SliderFloat("impulse arrow", &t.impulse_points, 10, 200, "%.0f px");
+    struct Row
+    {
+        const char* label;
+        bool XrayToggles::* value;
+        DrawRole role;
+        const char* help;
+    };
+    static constexpr Row rows[] = {
+        {"outlines", &XrayToggles::outlines, DrawRole::AwakeShape,
+         "Shapes as the engine sees them. Sleeping bodies are pale:\nthey rest and cost nothing until something touches them."},
+        {"velocities", &XrayToggles::velocities, DrawRole::Velocity, "The way a body goes in the time below."},
+        {"contacts", &XrayToggles::contacts, DrawRole::Contact, "Where two shapes touch."},
+        {"normals", &XrayToggles::normals, DrawRole::ContactNormal, "The direction in which two shapes push each other."},
+        {"impulses", &XrayToggles::impulses, DrawRole::Impulse, "How hard they pushed in the last step: force times time."},
+        {"friction", &XrayToggles::friction, DrawRole::Friction, "The part of the push along the surface."},
+        {"triggers", &XrayToggles::triggers, DrawRole::Trigger, "Areas that report who is inside and stop nobody."},
+        {"joints", &XrayToggles::joints, DrawRole::Joint, "Springs, ropes, hinges and sliders."},
+        {"boxes", &XrayToggles::boxes, DrawRole::Box, "Only shapes whose boxes overlap are looked at more closely."},
+        {"centers", &XrayToggles::centers, DrawRole::CenterOfMass,
+         "Centers of mass: a body moves as if all its mass were there."},
+        {"islands", &XrayToggles::islands, DrawRole::Island, "Bodies that must be solved together because they touch."},
+    };
+    const float column = ImGui::GetContentRegionAvail().x / 2;
+    int shown = 0;
+    for (const Row& row : rows)
+    {
+        if (shown++ % 2 != 0)
+            ImGui::SameLine(column + ImGui::GetStyle().WindowPadding.x);
+        toggle(row.label, toggles.*row.value, row.role, row.help);
+    }
+    ImGui::SetNextItemWidth(column - 20);
+    ImGui::SliderFloat("velocity time", &toggles.velocity_time, 0.005f, 1, "%.3f s", ImGuiSliderFlags_Logarithmic);
+    ImGui::SetNextItemWidth(column - 20);
+    ImGui::SliderFloat("impulse arrow", &toggles.impulse_points, 10, 200, "%.0f px");
 }
 
 } // namespace carom::view

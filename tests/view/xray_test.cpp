@@ -144,6 +144,8 @@ TEST_F(XrayTest, ScrubberDrawsGhostsAndTakesPartInAnyFrame)
     const auto ghosts = [&] { return count_color(photograph([&](Canvas& c) { scrubber.draw(c, scene); }), rgb(0xffe066)); };
     EXPECT_EQ(ghosts(), 0);
     scrubber.capture(scene);
+    EXPECT_EQ(ghosts(), 0);
+    scrubber.select(1);
     EXPECT_GT(ghosts(), 50);
     scene.destroy(flyer);
     EXPECT_GT(ghosts(), 0);
