@@ -14,8 +14,10 @@ constexpr std::size_t max_errors = 1'000; ///< a file made to be refused must no
 
 std::string describe(Range range)
 {
-    const std::string unit = range.unit.empty() ? "" : " " + std::string(range.unit);
-    return "between " + short_number(range.least) + " and " + short_number(range.most) + unit;
+    std::string text = "between " + short_number(range.least) + " and " + short_number(range.most);
+    if (!range.unit.empty())
+        text.append(1, ' ').append(range.unit);
+    return text;
 }
 
 std::optional<std::uint8_t> hex_byte(std::string_view digits)
@@ -68,8 +70,9 @@ void FieldReader::fail(const JsonNode& where, std::string_view key, std::string 
     if (m_errors.size() >= max_errors)
         return;
     std::string path = m_path;
-    if (!key.empty())
-        path += (path.empty() ? "" : ".") + std::string(key);
+    if (!key.empty() && !path.empty())
+        path.append(1, '.');
+    path.append(key);
     m_errors.push_back({m_element, std::move(path), where.line, where.column, std::move(sentence)});
 }
 
