@@ -117,6 +117,7 @@ bool moves_on(const Element& element)
     return std::holds_alternative<Flipper>(element.part) || std::holds_alternative<Plunger>(element.part);
 }
 
+/// Not by a kicker: it fires once, and only while it is lit.
 bool is_taken_away(const CheckContext& context, Point p)
 {
     return std::any_of(context.table.elements.begin(), context.table.elements.end(),
@@ -124,10 +125,8 @@ bool is_taken_away(const CheckContext& context, Point p)
                        {
                            const Sensor* sensor = std::get_if<Sensor>(&element.part);
                            const Saucer* saucer = std::get_if<Saucer>(&element.part);
-                           const Kicker* kicker = std::get_if<Kicker>(&element.part);
                            return (sensor != nullptr && sensor->kills && touches(*sensor, p, context.ball_radius)) ||
-                                  (saucer != nullptr && length(p - saucer->pos) < saucer->radius) ||
-                                  (kicker != nullptr && box_distance(kicker->pos, kicker->half, p) < context.ball_radius);
+                                  (saucer != nullptr && length(p - saucer->pos) < saucer->radius);
                        });
 }
 
