@@ -20,7 +20,7 @@ constexpr float press_time = 0.130f;    // s
 constexpr float rearm_time = 0.120f;    // s
 constexpr float plunge_wait = 0.4f;     // s before a ball that lies still is launched
 
-int steps(float seconds, float step) { return static_cast<int>(seconds / step + 0.5f); }
+int steps(float seconds, float step) { return static_cast<int>(std::lround(seconds / step)); }
 
 } // namespace
 

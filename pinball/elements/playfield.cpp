@@ -324,7 +324,7 @@ ShapeDef Playfield::moving_surface(Index element) const
     return def;
 }
 
-ShapeDef Playfield::trigger(Index element) const
+ShapeDef Playfield::trigger(Index element)
 {
     ShapeDef def;
     def.trigger = true;

@@ -87,7 +87,7 @@ public:
     /// The same for something that moves by itself.
     [[nodiscard]] ShapeDef moving_surface(Index element) const;
     /// A trigger that balls set off.
-    [[nodiscard]] ShapeDef trigger(Index element) const;
+    [[nodiscard]] static ShapeDef trigger(Index element);
     /// A ball at rest; a captive one belongs to an element.
     Ball& add_ball(Vec2 position, Index captive_element = none);
     /// Takes a ball out of the world at a place, and lets it back in from there.

@@ -73,7 +73,7 @@ private:
         field.hold(ball, m_def.pos);
         m_held = ball.state.body;
         m_keep = false;
-        m_steps_left = static_cast<int>(m_def.hold / field.h() + 0.5f);
+        m_steps_left = static_cast<int>(std::lround(m_def.hold / field.h()));
         state.down = true;
         report_hit(field, {.kind = EventKind::Captured, .point = m_def.pos, .speed = speed, .ball = ball.state.serial});
     }

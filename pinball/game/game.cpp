@@ -130,7 +130,7 @@ bool Game::State::auto_pull()
 {
     if (plunger == none)
         return false;
-    const Plunger& rod = std::get<Plunger>(table.elements[plunger].part);
+    const auto& rod = std::get<Plunger>(table.elements[plunger].part);
     const int pull_steps = static_cast<int>(1.2f * rod.stroke / (rod.pull_speed * table.physics.step));
     return session->auto_plunger.step(lane_is_occupied(), pull_steps);
 }

@@ -9,6 +9,18 @@ namespace {
 // A captive ball's lane is shorter than this.
 constexpr float captive_reach = 0.12f; // m
 
+const char* name_of(Verdict verdict)
+{
+    switch (verdict)
+    {
+    case Verdict::Fine: return "fine";
+    case Verdict::Escaped: return "escaped";
+    case Verdict::Stuck: return "stuck";
+    case Verdict::Endless: return "endless";
+    }
+    return "";
+}
+
 double microseconds_of(auto&& work)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -63,10 +75,12 @@ void HeadlessRun::watch()
     for (const BallState& ball : m_game->balls())
     {
         const Verdict verdict = m_judge->look(ball, m_game->step_count());
-        if (verdict != Verdict::Fine)
-            return lose(verdict == Verdict::Escaped ? "escaped" : verdict == Verdict::Stuck ? "stuck" : "endless", ball);
-        if (captive_is_out(ball))
-            return lose("captive out", ball);
+        const char* fault = verdict != Verdict::Fine ? name_of(verdict) : captive_is_out(ball) ? "captive out" : nullptr;
+        if (fault)
+        {
+            lose(fault, ball);
+            return; // and with it the game that we were looking at
+        }
         if (!ball.captive && !ball.held && !m_judge->in_lane(ball.position))
             m_stats.note_speed(length(ball.velocity));
     }

@@ -1,13 +1,14 @@
 #include "pinball/rules/desk.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace carom::pinball {
 
 Desk::Desk(const Table& table) : lamps(table.elements.size(), LampState::Off), m_table(&table) {}
 
-std::int64_t Desk::steps(float seconds) const { return static_cast<std::int64_t>(seconds / m_table->physics.step + 0.5f); }
+std::int64_t Desk::steps(float seconds) const { return std::lround(seconds / m_table->physics.step); }
 
 void Desk::say(std::string text, int priority, float seconds)
 {
