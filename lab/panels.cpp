@@ -59,6 +59,7 @@ void time_controls(Run& run, LabState& state)
     ImGui::SetNextItemWidth(160);
     if (ImGui::SliderFloat("speed", &speed, 0.01f, 2, "%.2f", ImGuiSliderFlags_Logarithmic))
         run.speed = static_cast<double>(speed);
+    ImGui::Checkbox("x-ray (X)", &state.xray);
 }
 
 // They hold from the next start, so that a scene stays the same from its first step on.
@@ -101,15 +102,24 @@ void numbers(const Run& run)
 
 void xray_panel(Run& run, LabState& state)
 {
-    ImGui::Checkbox("x-ray (X)", &state.xray);
-    if (state.xray)
-        state.overlay.widgets();
+    state.overlay.widgets();
     ImGui::Separator();
     ImGui::TextUnformatted("within the last step");
     if (run.paused)
         run.scrubber.widgets();
     else
         ImGui::TextDisabled("pause to look into it");
+}
+
+void knowledge_panel(view::Window& window, Run& run, LabState& state)
+{
+    const Vec2 size = window.size();
+    begin_at("knowledge", {size.x - story_width, 0}, {story_width, size.y});
+    if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen))
+        xray_panel(run, state);
+    if (ImGui::CollapsingHeader("Last impact", ImGuiTreeNodeFlags_DefaultOpen))
+        view::impact_widgets(window.fonts(), run.impacts.last());
+    ImGui::End();
 }
 
 void wide_panels(view::Window& window, Run& run, LabState& state)
@@ -125,12 +135,8 @@ void wide_panels(view::Window& window, Run& run, LabState& state)
         numbers(run);
     ImGui::End();
 
-    begin_at("knowledge", {size.x - story_width, 0}, {story_width, size.y});
-    if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen))
-        xray_panel(run, state);
-    if (state.xray && ImGui::CollapsingHeader("Last impact", ImGuiTreeNodeFlags_DefaultOpen))
-        view::impact_widgets(window.fonts(), run.impacts.last());
-    ImGui::End();
+    if (state.xray)
+        knowledge_panel(window, run, state);
 }
 
 void tab(const char* name, const auto& content)
@@ -146,7 +152,7 @@ void tab(const char* name, const auto& content)
 void narrow_panels(view::Window& window, Run& run, LabState& state)
 {
     const Vec2 size = window.size();
-    const float top = picture_area(size).max.y;
+    const float top = picture_area(size, state.xray).max.y;
     begin_at("tabs", {0, top}, {size.x, size.y - top});
     time_controls(run, state);
     if (ImGui::BeginTabBar("tabs"))
@@ -163,11 +169,11 @@ void narrow_panels(view::Window& window, Run& run, LabState& state)
 
 } // namespace
 
-Viewport picture_area(Vec2 window)
+Viewport picture_area(Vec2 window, bool xray)
 {
     if (is_narrow(window))
         return {{0, 0}, {window.x, std::max(window.y * 0.55f, 100.0f)}};
-    return {{side_width, 0}, {window.x - story_width, window.y}};
+    return {{side_width, 0}, {window.x - (xray ? story_width : 0), window.y}};
 }
 
 void draw_panels(view::Window& window, Run& run, LabState& state)

@@ -15,7 +15,6 @@ struct LabState
     const scenes::SceneEntry* wanted = nullptr; ///< a scene to load before the next frame; also the present one, to restart it
     SceneDef base{};                            ///< for the next start
     bool xray = false;
-    bool show_story = true;
     view::XrayOverlay overlay;
 };
 
@@ -25,7 +24,7 @@ struct Viewport
     Vec2 min{};
     Vec2 max{};
 };
-[[nodiscard]] Viewport picture_area(Vec2 window);
+[[nodiscard]] Viewport picture_area(Vec2 window, bool xray);
 void draw_panels(view::Window& window, Run& run, LabState& state);
 
 } // namespace carom::lab

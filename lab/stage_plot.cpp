@@ -5,7 +5,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 namespace carom::lab {
@@ -71,6 +70,7 @@ void legend(const std::deque<StageTimes>& history)
 
 void stage_plot(const std::deque<StageTimes>& history)
 {
+    ImGui::TextDisabled("ms a stage, means; the plot is %.2f ms high", static_cast<double>(scale_of(history)));
     const float width = ImGui::GetContentRegionAvail().x;
     constexpr float height = 70;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -84,9 +84,6 @@ void stage_plot(const std::deque<StageTimes>& history)
         column(list, times, {x, at.y + height}, wide + 0.1f, height, scale);
         x += wide;
     }
-    char label[64];
-    std::snprintf(label, sizeof label, "up to %.2f ms a step; means below", static_cast<double>(scale));
-    list.AddText({at.x + 5, at.y + 3}, view::pack(view::rgb(0xb8c4d8)), label);
     ImGui::Dummy({width, height});
     legend(history);
 }

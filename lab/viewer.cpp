@@ -132,7 +132,7 @@ private:
 
     void frame()
     {
-        const Viewport area = picture_area(m_window.size());
+        const Viewport area = picture_area(m_window.size(), m_state.xray);
         if (!m_own_camera)
             m_camera = view::Camera::fit(m_run->entry().view, area.min, area.max, 16);
         m_camera.viewport_min = area.min;

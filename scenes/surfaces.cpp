@@ -78,12 +78,12 @@ BuiltScene arc_loop(const SceneDef& base)
     add_static(scene, half_pipe, track);
     add_dynamic(scene, {-1.7, 4.5}, Circle{.radius = 0.3f}, track);
 
-    const Chain stadium{.start = {7, 1},
-                        .pieces = {{{10, 1}, 0}, {{10, 5}, pi}, {{7, 5}, 0}, {{7, 1}, pi}},
+    const Chain stadium{.start = {8, 1},
+                        .pieces = {{{11, 1}, 0}, {{11, 5}, pi}, {{8, 5}, 0}, {{8, 1}, pi}},
                         .closed = true,
                         .sides = Sides::Left};
     add_static(scene, stadium, track);
-    add_rolling(scene, {8.5, 1.3}, 9);
+    add_rolling(scene, {9.5, 1.3}, 9);
     return built;
 }
 
@@ -101,7 +101,7 @@ constexpr SceneEntry entries[] = {
      .create = arc_loop,
      .h = 1.0f / 240,
      .frames = 2400,
-     .view = {{-11, -1}, {13, 7}}},
+     .view = {{-11, -1}, {14, 7}}},
 };
 
 } // namespace

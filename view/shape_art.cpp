@@ -107,8 +107,10 @@ struct ShapeArtist
         const Vec2 along = perp(normal) * reach;
         const std::array<Position, 4> solid{foot - along, foot + along, foot + along - normal * (2 * reach),
                                             foot - along - normal * (2 * reach)};
+        // Darker with depth: it has no end, and what is written over it stays readable.
+        const Color deep = mix(look.fill, rgb(0x10141c, look.fill.a), 0.8f);
         if (filled())
-            canvas.fill_polygon(solid, look.fill);
+            canvas.fill_polygon(solid, Paint::linear(foot, look.fill, foot - normal * (0.12f * reach), deep));
         canvas.line(solid[0], solid[1], edge());
     }
 };
