@@ -32,6 +32,7 @@ void begin_at(const char* name, Vec2 at, Vec2 size)
 
 void scene_list(Run& run, LabState& state)
 {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 4});
     for (const scenes::SceneEntry& entry : scenes::all_scenes())
     {
         const bool chosen = &entry == &run.entry();
@@ -40,6 +41,7 @@ void scene_list(Run& run, LabState& state)
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%s", std::string(entry.description).c_str());
     }
+    ImGui::PopStyleVar();
 }
 
 void time_controls(Run& run, LabState& state)
@@ -56,10 +58,11 @@ void time_controls(Run& run, LabState& state)
     if (ImGui::Button("Restart", {76, 0}))
         state.wanted = &run.entry();
     auto speed = static_cast<float>(run.speed);
-    ImGui::SetNextItemWidth(160);
+    ImGui::SetNextItemWidth(90);
     if (ImGui::SliderFloat("speed", &speed, 0.01f, 2, "%.2f", ImGuiSliderFlags_Logarithmic))
         run.speed = static_cast<double>(speed);
-    ImGui::Checkbox("x-ray (X)", &state.xray);
+    ImGui::SameLine(168);
+    ImGui::Checkbox("x-ray", &state.xray);
 }
 
 // They hold from the next start, so that a scene stays the same from its first step on.

@@ -70,7 +70,7 @@ void legend(const std::deque<StageTimes>& history)
 
 void stage_plot(const std::deque<StageTimes>& history)
 {
-    ImGui::TextDisabled("ms a stage, means; the plot is %.2f ms high", static_cast<double>(scale_of(history)));
+    ImGui::TextDisabled("mean ms; plot up to %.2f ms", static_cast<double>(scale_of(history)));
     const float width = ImGui::GetContentRegionAvail().x;
     constexpr float height = 70;
     const ImVec2 at = ImGui::GetCursorScreenPos();
