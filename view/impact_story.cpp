@@ -75,7 +75,16 @@ void tell_mass(std::vector<StoryLine>& story, const ImpactParty& p, float effect
         tell_free(story, p, effective, first);
 }
 
-std::string bracketed(float value) { return value < 0 ? "(" + number(value) + ")" : number(value); }
+// Not "(" + number(value): g++ 12 warns of an overlap that is none.
+std::string bracketed(float value)
+{
+    std::string text = number(value);
+    if (value >= 0)
+        return text;
+    text.insert(text.begin(), '(');
+    text += ')';
+    return text;
+}
 
 void tell_speed(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
