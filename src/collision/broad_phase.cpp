@@ -1,0 +1,138 @@
+#include "collision/broad_phase.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+void BroadPhase::insert(int item, const FloatBox& box, Layer layer, bool unbounded)
+{
+    if (item >= static_cast<int>(m_places.size()))
+        m_places.resize(static_cast<std::size_t>(item) + 1);
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    place = {box, layer, unbounded, -1, -1};
+    if (unbounded)
+        m_unbounded.insert(std::lower_bound(m_unbounded.begin(), m_unbounded.end(), item), item);
+    else
+        add_recent(item, layer);
+}
+
+void BroadPhase::remove(int item)
+{
+    if (!has(item))
+        return;
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    if (place.unbounded)
+        std::erase(m_unbounded, item);
+    else
+        take_out(item);
+    place = {};
+}
+
+void BroadPhase::move_to(int item, Layer layer)
+{
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    if (place.layer == layer)
+        return;
+    if (!place.unbounded) {
+        take_out(item);
+        add_recent(item, layer);
+    }
+    place.layer = layer;
+}
+
+void BroadPhase::set_box(int item, const FloatBox& box)
+{
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    place.box = box;
+    if (!place.unbounded && place.tree >= 0)
+        m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(place.tree)].update(place.index, box);
+}
+
+void BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
+{
+    Forest& forest = m_forests[0];
+    std::size_t total = forest.recent.size();
+    for (const BoxTree& tree : forest.trees)
+        total += static_cast<std::size_t>(tree.live_count());
+    // Sorting costs about as much as widening a quarter of the paths, and leaves a better tree.
+    const bool many = items.size() * 4 > total;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (many)
+            m_places[static_cast<std::size_t>(items[i])].box = boxes[i];
+        else
+            set_box(items[i], boxes[i]);
+    }
+    if (many)
+        rebuild(forest, 0);
+}
+
+void BroadPhase::add_recent(int item, Layer layer)
+{
+    Forest& forest = m_forests[static_cast<std::size_t>(layer)];
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    place.tree = -1;
+    place.index = static_cast<std::int32_t>(forest.recent.size());
+    forest.recent.push_back(item);
+    if (forest.recent.size() > recent_limit)
+        merge_recent(forest);
+}
+
+void BroadPhase::take_out(int item)
+{
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    Forest& forest = m_forests[static_cast<std::size_t>(place.layer)];
+    if (place.tree < 0) {
+        const auto index = static_cast<std::size_t>(place.index);
+        forest.recent[index] = forest.recent.back();
+        m_places[static_cast<std::size_t>(forest.recent[index])].index = place.index;
+        forest.recent.pop_back();
+        return;
+    }
+    const auto t = static_cast<std::size_t>(place.tree);
+    BoxTree& tree = forest.trees[t];
+    tree.remove(place.index);
+    place.tree = place.index = -1;
+    if (tree.live_count() * 2 < tree.leaf_count())
+        rebuild(forest, t);
+}
+
+// Takes along every tree that is not at least twice as large as all that is merged after it.
+void BroadPhase::merge_recent(Forest& forest)
+{
+    std::size_t from = forest.trees.size();
+    std::size_t size = forest.recent.size();
+    while (from > 0 && static_cast<std::size_t>(forest.trees[from - 1].live_count()) < 2 * size)
+        size += static_cast<std::size_t>(forest.trees[--from].live_count());
+    rebuild(forest, from);
+}
+
+void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
+{
+    std::vector<TreeLeaf> leaves;
+    for (std::size_t t = from_tree; t < forest.trees.size(); ++t) {
+        const BoxTree& tree = forest.trees[t];
+        for (int i = 0; i < tree.leaf_count(); ++i) {
+            const std::int32_t item = tree.item(i);
+            const Place& place = m_places[static_cast<std::size_t>(item)];
+            // A leaf that was taken out leaves its item's place pointing elsewhere.
+            if (place.layer != Layer::None && place.tree == static_cast<std::int32_t>(t) && place.index == i && &m_forests[static_cast<std::size_t>(place.layer)] == &forest)
+                leaves.push_back({place.box, item});
+        }
+    }
+    for (const std::int32_t item : forest.recent)
+        leaves.push_back({box(item), item});
+    forest.recent.clear();
+    forest.trees.resize(from_tree);
+    if (leaves.empty())
+        return;
+    forest.trees.emplace_back();
+    BoxTree& tree = forest.trees.back();
+    tree.build(leaves);
+    for (int i = 0; i < tree.leaf_count(); ++i) {
+        Place& place = m_places[static_cast<std::size_t>(tree.item(i))];
+        place.tree = static_cast<std::int32_t>(from_tree);
+        place.index = i;
+    }
+}
+
+} // namespace carom::internal

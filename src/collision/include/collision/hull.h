@@ -1,0 +1,82 @@
+#pragma once
+
+// Everything convex with corners is one thing to the manifold code: points with radii and the outward normals of the edges between
+// them. A capsule or segment is a hull of two points and two edges.
+
+#include "geometry/leaf.h"
+#include "geometry/surface.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace carom::internal {
+
+class Hull
+{
+public:
+    explicit Hull(const LeafView& v)
+    {
+        if (v.leaf->type == LeafType::Polygon) {
+            m_points = v.points;
+            m_normals = v.normals;
+            m_count = v.leaf->count;
+            m_radii[0] = m_radii[1] = v.leaf->r0;
+            return;
+        }
+        const CapsuleSides sides = capsule_sides(*v.leaf);
+        for (int i = 0; i < 2; ++i) {
+            m_buffer[i] = sides.points[i];
+            m_buffer[2 + i] = sides.normals[i];
+            m_radii[i] = sides.radii[i];
+        }
+        m_points = m_buffer;
+        m_normals = m_buffer + 2;
+        m_count = 2;
+    }
+
+    /// The same hull seen from another frame.
+    template <class Pose>
+    Hull(const LeafView& v, const Pose& pose) : Hull(v)
+    {
+        Vec2* store = m_buffer;
+        if (2 * m_count > buffer_size) {
+            m_large.resize(static_cast<std::size_t>(2 * m_count));
+            store = m_large.data();
+        }
+        Vec2* normals = store + m_count; // a two-point hull already lies there in its own frame: each entry is read before it is written
+        for (int i = 0; i < m_count; ++i) {
+            store[i] = pose.to_a(m_points[i]);
+            normals[i] = rotate(pose.rotation, m_normals[i]);
+        }
+        m_points = store;
+        m_normals = normals;
+    }
+    Hull(const Hull&) = delete;
+    Hull& operator=(const Hull&) = delete;
+
+    [[nodiscard]] int count() const { return m_count; }
+    [[nodiscard]] int next(int i) const { return i + 1 < m_count ? i + 1 : 0; }
+    [[nodiscard]] Vec2 point(int i) const { return m_points[i]; }
+    [[nodiscard]] Vec2 normal(int i) const { return m_normals[i]; }
+    [[nodiscard]] float radius(int i) const { return m_radii[i & (m_count == 2)]; }
+    [[nodiscard]] float offset(int edge) const { return dot(m_normals[edge], m_points[edge]) + radius(edge); }
+    [[nodiscard]] Vec2 center() const
+    {
+        Vec2 sum{};
+        for (int i = 0; i < m_count; ++i)
+            sum += m_points[i];
+        return (1.0f / static_cast<float>(m_count)) * sum;
+    }
+
+private:
+    static constexpr int buffer_size = 16; // boxes to octagons without an allocation
+
+    Vec2 m_buffer[buffer_size];
+    std::vector<Vec2> m_large;
+    const Vec2* m_points = nullptr;
+    const Vec2* m_normals = nullptr;
+    int m_count = 0;
+    float m_radii[2] = {};
+};
+
+} // namespace carom::internal

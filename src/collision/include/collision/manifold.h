@@ -1,0 +1,61 @@
+#pragma once
+
+// Contact manifolds: where and how two leaves touch, in the body frame of the first. Separation is negative where they overlap.
+// Each point has an anchor on either surface: for round shapes the lever arms are then exact (r x t = R), at any gap.
+
+#include "carom/math.h"
+#include "geometry/leaf.h"
+
+#include <cstdint>
+
+namespace carom::internal {
+
+/// Frame of body b as seen from body a. Taken in double, exact far from the world's origin.
+struct RelativePose
+{
+    Vec2 position{};
+    Rotation rotation{};
+
+    [[nodiscard]] Vec2 to_a(Vec2 in_b) const { return position + rotate(rotation, in_b); }
+    [[nodiscard]] Vec2 to_b(Vec2 in_a) const { return inverse_rotate(rotation, in_a - position); }
+};
+
+[[nodiscard]] inline RelativePose relative_pose(const Pose& a, const Pose& b)
+{
+    return {inverse_rotate(a.rotation, b.position - a.position), inverse(a.rotation) * b.rotation};
+}
+
+struct LocalPoint
+{
+    Vec2 on_a{}; ///< on a's surface, in a's frame
+    Vec2 on_b{}; ///< on b's surface, in a's frame
+    float separation = 0;
+    std::uint32_t feature = 0;
+};
+
+struct LocalManifold
+{
+    Vec2 normal{}; ///< from a to b, in a's frame
+    LocalPoint points[2];
+    int count = 0;
+
+    void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature) { points[count++] = {on_a, on_b, separation, feature}; }
+};
+
+/// Fills the manifold with points whose separation is at most margin.
+using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+
+/// The table over leaf types, row 2 of the design: every permutation that can meet is there; null where both types are massless
+/// or both are half-spaces. One implementation per unordered pair, mirrored for the other order.
+[[nodiscard]] CollideFunction collide_function(LeafType a, LeafType b);
+
+/// The whole contact of two leaves; an empty manifold where they do not meet.
+[[nodiscard]] LocalManifold collide(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin);
+
+// The implementations, one file each.
+void collide_surface_circle(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+void collide_half_space_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+
+} // namespace carom::internal

@@ -1,0 +1,96 @@
+// An arc against a hull. On the hollow side the hull's corners touch, the two deepest of them; on the round side and at the ends it is the hull's
+// surface that touches, a circle as the hull sees it.
+
+#include "collision/hull.h"
+#include "collision/manifold.h"
+
+namespace carom::internal {
+
+namespace {
+
+bool in_sweep(const Leaf& arc, Vec2 from_center) { return dot(from_center, arc.p1) >= length(from_center) * arc.cos_half_sweep; }
+
+bool faces(const Leaf& arc, bool inside)
+{
+    return arc.sides == Sides::Both || arc.sides == ((inside == (arc.sweep > 0)) ? Sides::Left : Sides::Right);
+}
+
+struct Corner
+{
+    int index = -1;
+    float separation = 3e38f;
+};
+
+// Corners inside the circle of the arc, by how near they are to it.
+void collide_hollow_side(const Leaf& arc, const Hull& hull, float margin, LocalManifold& out)
+{
+    Corner corners[2];
+    for (int i = 0; i < hull.count(); ++i) {
+        const Vec2 r = hull.point(i) - arc.p0;
+        const float separation = arc.arc_radius - arc.r0 - hull.radius(i) - length(r);
+        if (!in_sweep(arc, r) || separation > margin)
+            continue;
+        if (separation < corners[0].separation) {
+            corners[1] = corners[0];
+            corners[0] = {i, separation};
+        } else if (separation < corners[1].separation) {
+            corners[1] = {i, separation};
+        }
+    }
+    if (corners[0].index < 0)
+        return;
+    Vec2 middle = hull.point(corners[0].index) - arc.p0;
+    if (corners[1].index >= 0)
+        middle += hull.point(corners[1].index) - arc.p0;
+    const Vec2 n = -normalize(middle); // one normal for both corners, across their chord
+    out.normal = n;
+    for (const Corner& c : corners) {
+        if (c.index < 0)
+            continue;
+        const Vec2 on_b = hull.point(c.index) - hull.radius(c.index) * n;
+        out.add(on_b - c.separation * n, on_b, c.separation, static_cast<std::uint32_t>(c.index));
+    }
+}
+
+// A circle of the arc (its whole outside, or the round cap of an end) against the hull's surface.
+struct Round
+{
+    Vec2 center;
+    float radius;
+    std::uint32_t feature;
+};
+
+void collide_round(const LeafView& hull, const RelativePose& pose, const Round& circle, float margin, LocalManifold& out)
+{
+    const Vec2 c = pose.to_b(circle.center);
+    const std::optional<Surface<float>> s = surface_at<float>(hull, c.x, c.y);
+    if (!s || s->distance - circle.radius > margin)
+        return;
+    const Vec2 n = -rotate(pose.rotation, {s->nx, s->ny});
+    out.normal = n;
+    out.add(circle.center + circle.radius * n, circle.center + s->distance * n, s->distance - circle.radius, circle.feature);
+}
+
+} // namespace
+
+void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
+{
+    const Leaf& arc = *a.leaf;
+    const Hull hull(b, pose);
+    const bool inside = length(hull.center() - arc.p0) < arc.arc_radius;
+    if (!faces(arc, inside))
+        return;
+    if (inside) {
+        collide_hollow_side(arc, hull, margin, out);
+    } else {
+        collide_round(b, pose, {arc.p0, arc.arc_radius + arc.r0, 0x100}, margin, out);
+        if (out.count > 0 && !in_sweep(arc, out.points[0].on_a - arc.p0))
+            out.count = 0;
+    }
+    if (out.count == 0 && !arc.has_previous)
+        collide_round(b, pose, {arc.arc_start, arc.r0, 0x101}, margin, out);
+    if (out.count == 0 && !arc.has_next)
+        collide_round(b, pose, {arc.arc_end, arc.r0, 0x102}, margin, out);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,236 @@
+// Hull against hull: separating axes over the edge normals of both, then the incident edge clipped to the reference edge; corner against
+// corner where the closest features are two corners. Radii ride along: every offset carries the radius of its point.
+//
+// Pieces of chains have two rules more. A normal that leans over a seam belongs to the neighbour, so it is replaced by the piece's own
+// (no ghost bumps); and a one-sided piece looks only at hulls whose center is on its solid side.
+
+#include "collision/hull.h"
+#include "collision/manifold.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+namespace {
+
+struct Axis
+{
+    int edge = 0;
+    float separation = -3e38f;
+};
+
+float lowest(const Hull& hull, Vec2 n)
+{
+    float low = 3e38f;
+    for (int i = 0; i < hull.count(); ++i)
+        low = std::min(low, dot(n, hull.point(i)) - hull.radius(i));
+    return low;
+}
+
+Axis best_axis(const Hull& reference, const Hull& other)
+{
+    Axis best;
+    for (int i = 0; i < reference.count(); ++i) {
+        const float s = lowest(other, reference.normal(i)) - reference.offset(i);
+        if (s > best.separation)
+            best = {i, s};
+    }
+    return best;
+}
+
+int most_opposed_edge(const Hull& hull, Vec2 n)
+{
+    int edge = 0;
+    float least = 3e38f;
+    for (int i = 0; i < hull.count(); ++i) {
+        const float d = dot(n, hull.normal(i));
+        if (d < least) {
+            least = d;
+            edge = i;
+        }
+    }
+    return edge;
+}
+
+std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
+{
+    return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) | static_cast<std::uint32_t>(incident_point);
+}
+
+// A point of the incident edge: its core and the radius there.
+struct ClipPoint
+{
+    Vec2 core;
+    float radius;
+    int id;
+};
+
+// Keeps the part of the edge on the side of the plane where dot(n, p) >= offset.
+void clip(ClipPoint points[2], Vec2 n, float offset)
+{
+    const float d0 = dot(n, points[0].core) - offset;
+    const float d1 = dot(n, points[1].core) - offset;
+    if ((d0 < 0) == (d1 < 0))
+        return;
+    const float t = d0 / (d0 - d1);
+    const ClipPoint cut{points[0].core + t * (points[1].core - points[0].core), points[0].radius + t * (points[1].radius - points[0].radius), 0};
+    ClipPoint& outside = d0 < 0 ? points[0] : points[1];
+    outside = {cut.core, cut.radius, outside.id};
+}
+
+struct Reference
+{
+    const Hull& hull;
+    const Hull& other;
+    bool flipped; ///< the reference is b
+};
+
+void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& out)
+{
+    // Reference edge: between the points where it touches its two circles.
+    const Vec2 n = ref.hull.normal(edge);
+    const int next = ref.hull.next(edge);
+    const Vec2 start = ref.hull.point(edge) + ref.hull.radius(edge) * n;
+    const Vec2 end = ref.hull.point(next) + ref.hull.radius(next) * n;
+    const Vec2 tangent = normalize(end - start);
+    // Incident edge, clipped to the reference's ends.
+    const int i0 = most_opposed_edge(ref.other, n);
+    const int i1 = ref.other.next(i0);
+    ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
+    clip(points, tangent, dot(tangent, start));
+    clip(points, -tangent, -dot(tangent, end));
+    // Keep what is near.
+    const float offset = ref.hull.offset(edge);
+    out.normal = ref.flipped ? -n : n;
+    for (const ClipPoint& p : points) {
+        const float separation = dot(n, p.core) - p.radius - offset;
+        if (separation > margin)
+            continue;
+        const Vec2 on_other = p.core - p.radius * n;
+        const Vec2 on_reference = on_other - separation * n;
+        out.add(ref.flipped ? on_other : on_reference, ref.flipped ? on_reference : on_other, separation, feature_id(ref.flipped, edge, p.id));
+    }
+}
+
+// Closest points of two line segments at their corners, where both are corners; -1 otherwise.
+struct Corners
+{
+    int a = -1;
+    int b = -1;
+};
+
+Corners nearest_corners(const Hull& a, int edge_a, const Hull& b, int edge_b)
+{
+    const auto beyond = [](Vec2 p, Vec2 from, Vec2 to) {
+        const float along = dot(p - from, to - from);
+        return along <= 0 ? -1 : (along >= dot(to - from, to - from) ? 1 : 0);
+    };
+    const int ends_a[2] = {edge_a, a.next(edge_a)};
+    const int ends_b[2] = {edge_b, b.next(edge_b)};
+    Corners best;
+    float least = 3e38f;
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            const Vec2 p = a.point(ends_a[i]);
+            const Vec2 q = b.point(ends_b[j]);
+            const bool a_corner = beyond(q, a.point(edge_a), a.point(a.next(edge_a))) == (i == 0 ? -1 : 1);
+            const bool b_corner = beyond(p, b.point(edge_b), b.point(b.next(edge_b))) == (j == 0 ? -1 : 1);
+            const float d = dot(q - p, q - p);
+            if (a_corner && b_corner && d < least) {
+                least = d;
+                best = {ends_a[i], ends_b[j]};
+            }
+        }
+    }
+    return best;
+}
+
+bool collide_corners(const Hull& a, const Hull& b, Corners c, float margin, LocalManifold& out)
+{
+    const Vec2 d = b.point(c.b) - a.point(c.a);
+    const float l = length(d);
+    if (!(l > 0))
+        return false;
+    const Vec2 n = (1 / l) * d;
+    const float separation = l - a.radius(c.a) - b.radius(c.b);
+    out.normal = n;
+    if (separation <= margin)
+        out.add(a.point(c.a) + a.radius(c.a) * n, b.point(c.b) - b.radius(c.b) * n, separation, feature_id(false, 0x4000 + c.a, c.b));
+    return true;
+}
+
+// The general case; no chain neighbours.
+void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out)
+{
+    const Axis axis_a = best_axis(a, b);
+    const Axis axis_b = best_axis(b, a);
+    // A little in favour of a, so that the choice does not flicker between equals.
+    const float bias = 1e-4f * (std::fabs(axis_a.separation) + 1e-3f);
+    const bool flipped = axis_b.separation > axis_a.separation + bias;
+    const Hull& reference = flipped ? b : a;
+    const Hull& incident = flipped ? a : b;
+    const Axis axis = flipped ? axis_b : axis_a;
+    if (axis.separation > margin)
+        return;
+    // Where even the cores are apart, the closest features may be two corners.
+    const float core_gap = axis.separation + reference.radius(axis.edge) + incident.radius(0);
+    if (core_gap > 1e-6f) {
+        const int opposed = most_opposed_edge(incident, reference.normal(axis.edge));
+        const Corners c = flipped ? nearest_corners(a, opposed, b, axis.edge) : nearest_corners(a, axis.edge, b, opposed);
+        if (c.a >= 0 && collide_corners(a, b, c, margin, out))
+            return;
+    }
+    clip_to_edge({reference, incident, flipped}, axis.edge, margin, out);
+}
+
+// Does the seam at this end leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner.
+bool leans_over(Vec2 normal, Vec2 into_piece, Vec2 into_neighbour)
+{
+    return dot(normal, into_piece) < -1e-3f && dot(normal, into_neighbour) > 1e-3f;
+}
+
+// Piece and hull in one frame. The manifold's normal runs from the piece to the hull.
+void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float margin, LocalManifold& out)
+{
+    const Vec2 tangent = normalize(edge.point(1) - edge.point(0));
+    const float side = cross(tangent, hull.center() - edge.point(0));
+    if ((piece.sides == Sides::Left && side < 0) || (piece.sides == Sides::Right && side > 0)) {
+        out.count = 0;
+        return;
+    }
+    if (out.count == 0)
+        return;
+    const bool over_start = piece.has_previous && leans_over(out.normal, tangent, -piece.previous_tangent);
+    const bool over_end = piece.has_next && leans_over(out.normal, -tangent, piece.next_tangent);
+    if (!over_start && !over_end)
+        return;
+    out.count = 0;
+    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out);
+}
+
+} // namespace
+
+void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
+{
+    const Hull hull_a(a);
+    const Hull hull_b(b, pose);
+    collide_free(hull_a, hull_b, margin, out);
+    const Leaf& piece = *b.leaf;
+    if (piece.type != LeafType::Segment || !(piece.has_previous || piece.has_next || piece.sides != Sides::Both))
+        return;
+    // The table gives segments as b; the rules of pieces are written with the piece first, in its own frame.
+    const RelativePose swapped{pose.to_b({}), inverse(pose.rotation)};
+    const Hull edge(b);
+    const Hull hull(a, swapped);
+    LocalManifold m;
+    m.normal = -inverse_rotate(pose.rotation, out.normal);
+    for (int i = 0; i < out.count; ++i)
+        m.add(pose.to_b(out.points[i].on_b), pose.to_b(out.points[i].on_a), out.points[i].separation, out.points[i].feature);
+    keep_to_piece(piece, edge, hull, margin, m);
+    out.count = 0;
+    out.normal = -rotate(pose.rotation, m.normal);
+    for (int i = 0; i < m.count; ++i)
+        out.add(pose.to_a(m.points[i].on_b), pose.to_a(m.points[i].on_a), m.points[i].separation, m.points[i].feature);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,67 @@
+#pragma once
+
+// Objects in numbered slots: a plain array, generations, and a free list, so that a copy of a pool is a copy of memory and
+// ids stay good in it. A slot's generation is odd while it is alive.
+
+#include "core/assert.h"
+
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace carom::internal {
+
+template <class T>
+class Pool
+{
+    static_assert(std::is_trivially_copyable_v<T>, "simulation state is copied as memory");
+
+public:
+    int create(const T& value)
+    {
+        int slot;
+        if (m_free.empty()) {
+            slot = static_cast<int>(m_items.size());
+            m_items.push_back(value);
+            m_generations.push_back(1);
+        } else {
+            slot = m_free.back();
+            m_free.pop_back();
+            m_items[static_cast<std::size_t>(slot)] = value;
+            ++m_generations[static_cast<std::size_t>(slot)];
+        }
+        ++m_count;
+        return slot;
+    }
+
+    void destroy(int slot)
+    {
+        CAROM_ASSERT(is_live(slot), "a slot is destroyed once");
+        ++m_generations[static_cast<std::size_t>(slot)];
+        m_free.push_back(slot);
+        --m_count;
+    }
+
+    [[nodiscard]] bool is_live(int slot) const
+    {
+        return slot >= 0 && slot < capacity() && (m_generations[static_cast<std::size_t>(slot)] & 1u) != 0;
+    }
+    [[nodiscard]] bool is_live(int slot, std::uint32_t generation) const
+    {
+        return is_live(slot) && m_generations[static_cast<std::size_t>(slot)] == generation;
+    }
+    [[nodiscard]] std::uint32_t generation(int slot) const { return m_generations[static_cast<std::size_t>(slot)]; }
+    [[nodiscard]] int count() const { return m_count; }
+    [[nodiscard]] int capacity() const { return static_cast<int>(m_items.size()); }
+
+    T& operator[](int slot) { return m_items[static_cast<std::size_t>(slot)]; }
+    const T& operator[](int slot) const { return m_items[static_cast<std::size_t>(slot)]; }
+
+private:
+    std::vector<T> m_items;
+    std::vector<std::uint32_t> m_generations;
+    std::vector<int> m_free;
+    int m_count = 0;
+};
+
+} // namespace carom::internal

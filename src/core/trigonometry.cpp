@@ -1,0 +1,129 @@
+#include "core/trigonometry.h"
+
+#include "carom/math.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace carom {
+namespace internal {
+
+namespace {
+
+constexpr double half_pi = 1.57079632679489661923;
+// pi/2 in two pieces (Cody and Waite): the first has 33 bits, so that n * high is exact for |n| < 2^20.
+constexpr double half_pi_high = 1.57079632673412561417;
+constexpr double half_pi_low = 6.07710050650619224932e-11;
+
+// Taylor polynomials: on |x| <= pi/4 the terms left out are below 1e-17.
+double sin_polynomial(double x)
+{
+    const double z = x * x;
+    const double p =
+        1.0 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0 + z * (-1.0 / 1307674368000.0)))))));
+    return x * p;
+}
+
+double cos_polynomial(double x)
+{
+    const double z = x * x;
+    return 1.0 + z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200.0 + z * (1.0 / 20922789888000.0))))))));
+}
+
+// atan on |x| <= tan(pi/16): alternating series, the terms left out are below 1e-17.
+double atan_small(double x)
+{
+    const double z = x * x;
+    double sum = 0;
+    for (int k = 23; k >= 1; k -= 2) {
+        const double term = 1.0 / k;
+        sum = (k % 4 == 1 ? term : -term) + z * sum;
+    }
+    return x * sum;
+}
+
+// Two halvings of the angle, atan(x) = 2 atan(x / (1 + sqrt(1 + x²))), bring |x| <= 1 under tan(pi/16).
+double atan_unit(double x)
+{
+    const double half = x / (1.0 + std::sqrt(1.0 + x * x));
+    const double quarter = half / (1.0 + std::sqrt(1.0 + half * half));
+    return 4.0 * atan_small(quarter);
+}
+
+} // namespace
+
+SinCos sin_cos(double radians)
+{
+    // Clamped before the conversion to integer: beyond it the angle has lost its meaning, but the result stays defined.
+    double turns = radians * (1.0 / half_pi);
+    turns = turns > 1e15 ? 1e15 : (turns < -1e15 ? -1e15 : turns);
+    const auto n = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
+    const auto count = static_cast<double>(n);
+    double x = (radians - count * half_pi_high) - count * half_pi_low;
+    x = x > 1 ? 1 : (x < -1 ? -1 : x);
+    const double s = sin_polynomial(x);
+    const double c = cos_polynomial(x);
+    switch (static_cast<std::uint64_t>(n) & 3u) {
+    case 0:
+        return {s, c};
+    case 1:
+        return {c, -s};
+    case 2:
+        return {-s, -c};
+    default:
+        return {-c, s};
+    }
+}
+
+double arc_tangent(double y, double x)
+{
+    const double ax = x < 0 ? -x : x;
+    const double ay = y < 0 ? -y : y;
+    if (ax == 0 && ay == 0)
+        return 0;
+    const double angle = ay <= ax ? atan_unit(ay / ax) : half_pi - atan_unit(ax / ay);
+    const double upper = x < 0 ? 2 * half_pi - angle : angle;
+    return y < 0 ? -upper : upper;
+}
+
+double exponential(double x)
+{
+    if (!(x > -700))
+        return 0;
+    if (x > 700)
+        x = 700;
+    constexpr double ln2 = 0.69314718055994530942;
+    const double turns = x / ln2;
+    const auto n = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
+    const double r = x - static_cast<double>(n) * ln2;
+    double sum = 1;
+    for (int k = 14; k >= 1; --k)
+        sum = 1 + sum * r / k;
+    return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52);
+}
+
+} // namespace internal
+
+float length(Vec2 a) { return std::sqrt(dot(a, a)); }
+
+Vec2 normalize(Vec2 a)
+{
+    // Scaled first, so that neither tiny nor huge vectors lose their direction.
+    const float m = std::fabs(a.x) > std::fabs(a.y) ? std::fabs(a.x) : std::fabs(a.y);
+    if (!(m > 0))
+        return {};
+    const Vec2 b = {a.x / m, a.y / m};
+    const float l = length(b);
+    return {b.x / l, b.y / l};
+}
+
+Rotation Rotation::from_angle(float radians)
+{
+    const internal::SinCos sc = internal::sin_cos(radians);
+    return {static_cast<float>(sc.cos), static_cast<float>(sc.sin)};
+}
+
+float Rotation::angle() const { return static_cast<float>(internal::arc_tangent(s, c)); }
+
+} // namespace carom

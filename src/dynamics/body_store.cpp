@@ -1,0 +1,108 @@
+#include "dynamics/body_store.h"
+
+#include "geometry/bounds.h"
+#include "geometry/mass.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+namespace {
+
+LeafMass total_mass(const SceneState& state, int body)
+{
+    LeafMass total;
+    for_each_leaf(state, body, [&](int shape) {
+        const ShapeRecord& record = state.shapes[shape];
+        if (record.trigger)
+            return;
+        const LeafMass part = leaf_mass(leaf_view(state, shape), record.density);
+        total.mass += part.mass;
+        total.center_x += part.mass * part.center_x;
+        total.center_y += part.mass * part.center_y;
+        total.inertia += part.inertia + part.mass * (part.center_x * part.center_x + part.center_y * part.center_y);
+    });
+    if (total.mass > 0) {
+        total.center_x /= total.mass;
+        total.center_y /= total.mass;
+        total.inertia -= total.mass * (total.center_x * total.center_x + total.center_y * total.center_y);
+    }
+    return total;
+}
+
+void move_center(BodySim& sim, Vec2 local_center)
+{
+    if (local_center == sim.local_center)
+        return;
+    const Pose pose = sim.pose();
+    const Position center = transform(pose, local_center);
+    const Vec2 shift = center - sim.center;
+    sim.velocity += cross(sim.angular_velocity, shift);
+    sim.previous_center += shift;
+    sim.center = center;
+    sim.local_center = local_center;
+}
+
+} // namespace
+
+void update_inverse_mass(SceneState& state, int body)
+{
+    const BodyRecord& record = state.bodies[body];
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    const bool dynamic = record.type == BodyType::Dynamic;
+    const float inverse = dynamic && sim.mass > 0 ? 1 / sim.mass : 0;
+    sim.inverse_mass = {record.locks.linear_x ? 0 : inverse, record.locks.linear_y ? 0 : inverse};
+    sim.inverse_inertia = dynamic && sim.inertia > 0 && !record.locks.angular ? 1 / sim.inertia : 0;
+}
+
+void update_mass(SceneState& state, int body)
+{
+    const BodyRecord& record = state.bodies[body];
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    if (record.type != BodyType::Dynamic) {
+        // Static and kinematic bodies turn about the origin of their frame.
+        sim.mass = 0;
+        sim.inertia = 0;
+        move_center(sim, {});
+    } else if (!record.mass_overridden) {
+        const LeafMass total = total_mass(state, body);
+        // A dynamic body without mass weighs 1 kg and does not turn, so that it can be moved before it gets its shapes.
+        sim.mass = total.mass > 0 ? static_cast<float>(total.mass) : 1;
+        sim.inertia = static_cast<float>(total.inertia);
+        move_center(sim, {static_cast<float>(total.center_x), static_cast<float>(total.center_y)});
+    }
+    update_inverse_mass(state, body);
+    sim.extent = 0;
+    for_each_leaf(state, body, [&](int shape) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, shape), sim.local_center)); });
+}
+
+FloatBox fat_box(const SceneData& scene, int shape)
+{
+    const SceneState& state = scene.state;
+    const ShapeRecord& record = state.shapes[shape];
+    const BodySim& sim = state.sims[static_cast<std::size_t>(record.body)];
+    const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
+    return state.bodies[record.body].type == BodyType::Static ? tight : grow(tight, scene.tolerances.box_margin);
+}
+
+void add_to_broad_phase(SceneData& scene, int shape)
+{
+    SceneState& state = scene.state;
+    const ShapeRecord& record = state.shapes[shape];
+    const Layer layer = state.bodies[record.body].awake_index != none ? Layer::Moving : Layer::Resting;
+    state.broad_phase.insert(shape, fat_box(scene, shape), layer, record.leaf.type == LeafType::HalfSpace);
+    state.fresh_shapes.push_back(shape);
+}
+
+void refresh_boxes(SceneData& scene, int body)
+{
+    SceneState& state = scene.state;
+    for_each_leaf(state, body, [&](int shape) {
+        if (!state.broad_phase.has(shape))
+            return;
+        state.broad_phase.set_box(shape, fat_box(scene, shape));
+        state.fresh_shapes.push_back(shape);
+    });
+}
+
+} // namespace carom::internal

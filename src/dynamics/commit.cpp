@@ -1,0 +1,297 @@
+// Stage 6, commit and sleep: the step's result goes back into the records, in the order of the units; deferred impulses, triggers, sleep.
+
+#include "core/refuse.h"
+#include "core/trigonometry.h"
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/stages.h"
+#include "dynamics/wake.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
+
+Rotation renormalized(Rotation q)
+{
+    const float l = std::sqrt(q.c * q.c + q.s * q.s);
+    return l > 0 ? Rotation{q.c / l, q.s / l} : Rotation{};
+}
+
+// --- poses ---------------------------------------------------------------------------------------------------------------------------
+
+void commit_kinematic(const StepContext& ctx, BodyRecord& record, BodySim& sim)
+{
+    sim.previous_center = sim.center;
+    sim.previous_rotation = sim.rotation;
+    if (record.has_target) {
+        sim.center = sim.target_center;
+        sim.rotation = sim.target_rotation;
+        return;
+    }
+    sim.center += ctx.dt * sim.velocity;
+    if (sim.angular_velocity != 0)
+        sim.rotation = renormalized(Rotation::from_angle(ctx.dt * sim.angular_velocity) * sim.rotation);
+}
+
+bool is_sound(const BodyState& s, double x, double y)
+{
+    return is_finite(s.velocity) && is_finite(s.angular_velocity) && is_finite(x) && is_finite(y) && is_finite(s.delta_rotation.c) && is_finite(s.delta_rotation.s);
+}
+
+void quarantine(StepContext& ctx, int body)
+{
+    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    sim.velocity = {};
+    sim.angular_velocity = 0;
+    sim.force = {};
+    sim.torque = 0;
+    ctx.report.quarantined.push_back(body_id(ctx.state, body));
+    ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::BodyQuarantined);
+}
+
+void commit_state(StepContext& ctx, std::int32_t index)
+{
+    const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
+    const int body = ctx.scratch.state_bodies[static_cast<std::size_t>(index)];
+    if (body == none || (s.flags & body_flag::dynamic) == 0)
+        return;
+    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    double x = s.delta_position.x;
+    double y = s.delta_position.y;
+    if (const std::int32_t f = ctx.scratch.flier_of_state[static_cast<std::size_t>(index)]; f != none) {
+        const Flier& flier = ctx.scratch.fliers[static_cast<std::size_t>(f)];
+        x = flier.landed ? x : flier.x; // the path itself, in double
+        y = flier.landed ? y : flier.y;
+    }
+    if (!is_sound(s, x, y)) {
+        quarantine(ctx, body);
+        return;
+    }
+    sim.previous_center = sim.center;
+    sim.previous_rotation = sim.rotation;
+    sim.center.x += x;
+    sim.center.y += y;
+    if (s.delta_rotation != Rotation{})
+        sim.rotation = renormalized(s.delta_rotation * sim.rotation);
+    sim.velocity = s.velocity;
+    sim.angular_velocity = s.angular_velocity;
+}
+
+// --- contacts and joints ---------------------------------------------------------------------------------------------------------------
+
+void commit_row(StepContext& ctx, const ContactRow& row)
+{
+    Contact& contact = ctx.state.contacts[row.contact];
+    Manifold& m = contact.manifold;
+    m.normal = row.n;
+    m.count = row.count;
+    m.rolling_impulse = row.rolling_impulse;
+    contact.flags &= ~contact_flag::loaded;
+    for (int i = 0; i < row.count; ++i) {
+        const RowPoint& p = row.points[i];
+        m.points[i].anchor_a = p.ra;
+        m.points[i].anchor_b = p.rb;
+        m.points[i].normal_impulse = p.normal_impulse;
+        m.points[i].tangent_impulse = p.tangent_impulse;
+        m.points[i].total_impulse = p.total_impulse;
+        m.points[i].total_tangent = p.total_tangent;
+        if (p.normal_impulse > 0)
+            contact.flags |= contact_flag::loaded;
+    }
+}
+
+void clear_unsolved_impulses(StepContext& ctx)
+{
+    for (const std::int32_t index : ctx.state.awake_contacts) {
+        Contact& contact = ctx.state.contacts[index];
+        if (contact.color != none)
+            continue;
+        contact.flags &= ~contact_flag::loaded;
+        for (ManifoldPoint& p : contact.manifold.points)
+            p.normal_impulse = p.tangent_impulse = p.total_impulse = p.total_tangent = 0;
+    }
+}
+
+void commit_joint(StepContext& ctx, const JointWork& work)
+{
+    JointRecord& joint = ctx.state.joints[work.joint];
+    joint.force = (1 / ctx.dt) * work.force_sum;
+    joint.torque = work.torque_sum / ctx.dt;
+}
+
+// --- what flight left to be done in order ------------------------------------------------------------------------------------------------
+
+void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
+{
+    wake_body(ctx.scene, d.body);
+    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(d.body)];
+    sim.velocity.x += sim.inverse_mass.x * d.impulse.x;
+    sim.velocity.y += sim.inverse_mass.y * d.impulse.y;
+    sim.angular_velocity += sim.inverse_inertia * cross(d.arm, d.impulse);
+}
+
+// A bounce within the step: touching at neither end, it begins and ends in it.
+void end_bounces(StepContext& ctx, const UnitOutput& output)
+{
+    for (const RawTouch& touch : output.begins) {
+        const SceneState& state = ctx.state;
+        if (touch.contact == none) {
+            ctx.scene.events.ends.push_back({shape_id(state, touch.shape_a), shape_id(state, touch.shape_b), body_id(state, state.shapes[touch.shape_a].body),
+                                             body_id(state, state.shapes[touch.shape_b].body), touch.time});
+            continue;
+        }
+        Contact& contact = ctx.state.contacts[touch.contact];
+        const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
+        if (m.count == 0)
+            end_touch(ctx.scene, contact, ctx.scene.events, ctx.dt);
+    }
+}
+
+void merge_output(StepContext& ctx, const UnitOutput& output)
+{
+    const SceneState& state = ctx.state;
+    for (const ContactRow& row : output.late_rows)
+        commit_row(ctx, row);
+    for (const RawTouch& t : output.begins) {
+        ctx.scene.events.begins.push_back({shape_id(state, t.shape_a), shape_id(state, t.shape_b), body_id(state, state.shapes[t.shape_a].body),
+                                           body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
+        ctx.state.graph_dirty = true;
+    }
+    for (const RawImpact& raw : output.impacts) {
+        ImpactEvent event = raw.event;
+        event.shape_a = shape_id(state, raw.shape_a);
+        event.shape_b = shape_id(state, raw.shape_b);
+        event.body_a = body_id(state, state.shapes[raw.shape_a].body);
+        event.body_b = body_id(state, state.shapes[raw.shape_b].body);
+        ctx.scene.events.impacts.push_back(event);
+    }
+    for (const DeferredImpulse& d : output.deferred)
+        apply_deferred(ctx, d);
+    for (const std::int32_t shape : output.kicked_shapes)
+        ctx.state.shapes[shape].kick_ready = ctx.state.time + static_cast<double>(ctx.state.shapes[shape].kick.cooldown);
+    for (const RecordedPose& p : output.poses)
+        ctx.report.substep_poses.push_back({body_id(state, p.body), p.time, p.pose});
+    ctx.report.flight_impacts += output.flight_impacts;
+    ctx.report.bulk_impacts += output.bulk_impacts;
+    if (output.capped)
+        ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ImpactsCapped);
+    end_bounces(ctx, output);
+}
+
+// --- sleep -------------------------------------------------------------------------------------------------------------------------------
+
+void update_sleep_time(const StepContext& ctx, int body)
+{
+    const BodyRecord& record = ctx.state.bodies[body];
+    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    const float speed = std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent);
+    const float limit = record.type == BodyType::Kinematic ? 0.0f : ctx.scene.tolerances.sleep_speed;
+    sim.sleep_time = speed <= limit && record.can_sleep && !record.has_target ? sim.sleep_time + ctx.dt : 0;
+}
+
+// What leans on a moving kinematic body is carried by it, however slowly.
+void keep_carried_awake(const StepContext& ctx)
+{
+    const SceneState& state = ctx.state;
+    for (const std::int32_t index : state.awake_contacts) {
+        const Contact& contact = state.contacts[index];
+        if ((contact.flags & contact_flag::touching) == 0)
+            continue;
+        const int sides[2] = {contact.body_a, contact.body_b};
+        for (int i = 0; i < 2; ++i) {
+            const BodySim& carrier = state.sims[static_cast<std::size_t>(sides[i])];
+            if (state.bodies[sides[i]].type == BodyType::Kinematic && (carrier.velocity != Vec2{} || carrier.angular_velocity != 0))
+                ctx.state.sims[static_cast<std::size_t>(sides[1 - i])].sleep_time = 0;
+        }
+    }
+}
+
+void put_to_sleep(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    for (const std::int32_t body : state.awake_bodies)
+        update_sleep_time(ctx, body);
+    if (!ctx.scene.def.sleeping)
+        return;
+    keep_carried_awake(ctx);
+    // The least sleep time of each island, at the place of its label.
+    std::vector<float> least(state.awake_bodies.size(), 3e38f);
+    const auto label_of = [&](int body) {
+        const int island = state.bodies[body].type == BodyType::Dynamic ? state.bodies[body].island : body;
+        return island != none ? state.bodies[island].awake_index : none;
+    };
+    for (const std::int32_t body : state.awake_bodies) {
+        const int label = label_of(body);
+        const float time = label == none ? 0 : state.sims[static_cast<std::size_t>(body)].sleep_time;
+        float& slot = least[static_cast<std::size_t>(label == none ? state.bodies[body].awake_index : label)];
+        slot = std::min(slot, time);
+    }
+    std::vector<std::int32_t>& sleepers = ctx.scratch.order;
+    sleepers.clear();
+    for (const std::int32_t body : state.awake_bodies) {
+        const int label = label_of(body);
+        if (label != none && least[static_cast<std::size_t>(label)] >= time_to_sleep)
+            sleepers.push_back(body);
+    }
+    for (const std::int32_t body : sleepers)
+        sleep_body(ctx.scene, body);
+}
+
+void disable_quarantined(StepContext& ctx)
+{
+    for (const BodyId id : ctx.report.quarantined) {
+        const int body = static_cast<int>(id.slot) - 1;
+        for_each_contact(ctx.state, body, [&](int contact) { destroy_contact(ctx.scene, contact, ctx.scene.events, ctx.dt); });
+        leave_awake(ctx.scene, body);
+        ctx.state.bodies[body].enabled = false;
+        for_each_leaf(ctx.state, body, [&](int shape) { ctx.state.broad_phase.remove(shape); });
+    }
+}
+
+void clear_forces(StepContext& ctx)
+{
+    for (const std::int32_t body : ctx.state.awake_bodies) {
+        BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+        if (!ctx.scene.keep_forces) {
+            sim.force = {};
+            sim.torque = 0;
+        }
+        if (ctx.state.bodies[body].has_target) {
+            ctx.state.bodies[body].has_target = false;
+            sim.velocity = {};
+            sim.angular_velocity = 0;
+        }
+    }
+}
+
+} // namespace
+
+void commit_and_sleep(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    for (const std::int32_t body : ctx.state.awake_bodies) {
+        if (ctx.state.bodies[body].type == BodyType::Kinematic)
+            commit_kinematic(ctx, ctx.state.bodies[body], ctx.state.sims[static_cast<std::size_t>(body)]);
+    }
+    for (std::size_t i = 0; i < scratch.states.size(); ++i)
+        commit_state(ctx, static_cast<std::int32_t>(i));
+    clear_unsolved_impulses(ctx);
+    for (const ContactRow& row : scratch.rows)
+        commit_row(ctx, row);
+    for (const JointWork& work : scratch.joints)
+        commit_joint(ctx, work);
+    for (std::size_t u = 0; u < scratch.units.size(); ++u)
+        merge_output(ctx, scratch.outputs[u]);
+    update_triggers(ctx);
+    disable_quarantined(ctx);
+    put_to_sleep(ctx);
+    clear_forces(ctx);
+}
+
+} // namespace carom::internal

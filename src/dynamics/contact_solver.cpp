@@ -1,0 +1,153 @@
+// Contacts as soft constraints, solved by sequential impulses over sub-steps ("Soft Step", Catto 2023).
+//
+//   C  = n · (pb + rb - pa - ra) >= 0          separation, along the normal from a to b
+//   dC = n · (vb + wb x rb - va - wa x ra)     J = (-n, -ra x n, n, rb x n)
+//   impulse = -m mass_scale (dC + bias) - impulse_scale accumulated, accumulated impulse >= 0,   m = 1 / (J M^-1 J^T)
+//
+// Apart (C > 0) the bias is C / h: the bodies may close the gap in this sub-step but not more. Overlapping, it is the soft constraint's
+// bias_rate C, no faster than the push speed. Friction: |tangent impulse| <= mu normal impulse, towards the surface speed.
+//
+// Rows of round shapes in small units also carry predicted_bend: what the straight-line prediction of C misses over the sub-step because
+// the surfaces curve. It is corrected rigidly, C / h style; with the fresh normal of the relaxation that makes the pair of passes the
+// RATTLE integrator, which neither gains nor loses energy around a curve.
+
+#include "dynamics/contact_solver.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+void apply_impulse(BodyState& s, const StateConstants& c, Vec2 arm, Vec2 impulse)
+{
+    s.velocity.x += c.inverse_mass.x * impulse.x;
+    s.velocity.y += c.inverse_mass.y * impulse.y;
+    s.angular_velocity += c.inverse_inertia * cross(arm, impulse);
+}
+
+namespace {
+
+struct Pair
+{
+    BodyState& sa;
+    BodyState& sb;
+    const StateConstants& ca;
+    const StateConstants& cb;
+
+    Pair(const SolverView& view, const ContactRow& row)
+        : sa(view.states[row.a]), sb(view.states[row.b]), ca(view.constants[row.a]), cb(view.constants[row.b])
+    {
+    }
+
+    [[nodiscard]] Vec2 relative_velocity(const RowPoint& p) const
+    {
+        return sb.velocity + cross(sb.angular_velocity, p.rb) - sa.velocity - cross(sa.angular_velocity, p.ra);
+    }
+
+    void apply(const RowPoint& p, Vec2 impulse) const
+    {
+        apply_impulse(sa, ca, p.ra, -impulse);
+        apply_impulse(sb, cb, p.rb, impulse);
+    }
+};
+
+void solve_rolling(const Pair& pair, ContactRow& row)
+{
+    float load = 0;
+    for (int i = 0; i < row.count; ++i)
+        load += row.points[i].normal_impulse;
+    const float limit = row.rolling * load;
+    const float wanted = row.rolling_impulse + row.rolling_mass * (pair.sa.angular_velocity - pair.sb.angular_velocity);
+    const float clamped = std::clamp(wanted, -limit, limit);
+    const float change = clamped - row.rolling_impulse;
+    row.rolling_impulse = clamped;
+    pair.sa.angular_velocity -= pair.ca.inverse_inertia * change;
+    pair.sb.angular_velocity += pair.cb.inverse_inertia * change;
+}
+
+void solve_friction(const Pair& pair, const ContactRow& row, RowPoint& p)
+{
+    const Vec2 t = perp(row.n);
+    const float slip = dot(pair.relative_velocity(p), t) - row.surface_speed;
+    const float limit = row.friction * p.normal_impulse;
+    const float clamped = std::clamp(p.tangent_impulse - p.tangent_mass * slip, -limit, limit);
+    const float change = clamped - p.tangent_impulse;
+    p.tangent_impulse = clamped;
+    pair.apply(p, change * t);
+}
+
+struct NormalTarget
+{
+    float bias;
+    float mass_scale;
+    float impulse_scale;
+};
+
+NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& p, bool use_bias)
+{
+    const float separation = row_separation(view, row, p);
+    if (!use_bias)
+        return {std::max(separation, 0.0f) * view.inverse_h, 1, 0};
+    const float ahead = separation + p.predicted_bend;
+    if (ahead > 0)
+        return {ahead * view.inverse_h, 1, 0};
+    const float soft = std::max(row.softness.bias_rate * std::min(separation, 0.0f), -view.push_speed);
+    if (row.refreshed)
+        return {soft + (separation > 0 ? ahead : p.predicted_bend) * view.inverse_h, 1, 0};
+    return {soft, row.softness.mass_scale, row.softness.impulse_scale};
+}
+
+void solve_normal(const SolverView& view, const Pair& pair, const ContactRow& row, RowPoint& p, bool use_bias)
+{
+    const NormalTarget target = normal_target(view, row, p, use_bias);
+    const float speed = dot(pair.relative_velocity(p), row.n);
+    const float change = -p.normal_mass * target.mass_scale * (speed + target.bias) - target.impulse_scale * p.normal_impulse;
+    const float clamped = std::max(p.normal_impulse + change, 0.0f); // contacts push and never pull
+    const float applied = clamped - p.normal_impulse;
+    p.normal_impulse = clamped;
+    pair.apply(p, applied * row.n);
+}
+
+} // namespace
+
+float row_separation(const SolverView& view, const ContactRow& row, const RowPoint& p)
+{
+    const BodyState& a = view.states[row.a];
+    const BodyState& b = view.states[row.b];
+    const Vec2 d = b.delta_position + rotate(b.delta_rotation, p.rb0) - a.delta_position - rotate(a.delta_rotation, p.ra0);
+    return p.base + dot(d, row.n);
+}
+
+void warm_start(const SolverView& view, std::span<ContactRow> rows)
+{
+    for (ContactRow& row : rows) {
+        const Pair pair(view, row);
+        for (int i = 0; i < row.count; ++i) {
+            const RowPoint& p = row.points[i];
+            pair.apply(p, p.normal_impulse * row.n + p.tangent_impulse * perp(row.n));
+        }
+        pair.sa.angular_velocity -= pair.ca.inverse_inertia * row.rolling_impulse;
+        pair.sb.angular_velocity += pair.cb.inverse_inertia * row.rolling_impulse;
+    }
+}
+
+void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias)
+{
+    for (ContactRow& row : rows) {
+        const Pair pair(view, row);
+        if (row.rolling > 0)
+            solve_rolling(pair, row);
+        for (int i = 0; i < row.count; ++i)
+            solve_friction(pair, row, row.points[i]);
+        for (int i = 0; i < row.count; ++i)
+            solve_normal(view, pair, row, row.points[i], use_bias);
+    }
+}
+
+void note_approach(const SolverView& view, ContactRow& row)
+{
+    const Pair pair(view, row);
+    for (int i = 0; i < row.count; ++i)
+        row.points[i].approach = -dot(pair.relative_velocity(row.points[i]), row.n);
+}
+
+} // namespace carom::internal

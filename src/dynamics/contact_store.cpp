@@ -1,0 +1,225 @@
+#include "dynamics/contact_store.h"
+
+#include "collision/manifold.h"
+#include "dynamics/material.h"
+#include "dynamics/wake.h"
+
+namespace carom::internal {
+
+BodyId body_id(const SceneState& state, int slot)
+{
+    if (slot < 0)
+        return {};
+    return {static_cast<std::uint32_t>(slot) + 1, state.bodies.generation(slot)};
+}
+
+ShapeId shape_id(const SceneState& state, int slot)
+{
+    if (slot < 0)
+        return {};
+    const int owner = state.shapes[slot].owner;
+    return {static_cast<std::uint32_t>(owner) + 1, state.shapes.generation(owner)};
+}
+
+JointId joint_id(const SceneState& state, int slot)
+{
+    if (slot < 0)
+        return {};
+    return {static_cast<std::uint32_t>(slot) + 1, state.joints.generation(slot)};
+}
+
+namespace {
+
+bool filters_agree(const Filter& a, const Filter& b)
+{
+    if (a.group != 0 && a.group == b.group)
+        return a.group > 0;
+    return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
+}
+
+bool joint_forbids(const SceneState& state, int body_a, int body_b)
+{
+    for (int edge = state.bodies[body_a].first_joint; edge != none;) {
+        const JointRecord& joint = state.joints[edge >> 1];
+        edge = joint.next[edge & 1];
+        const bool joins = (joint.body_a == body_a && joint.body_b == body_b) || (joint.body_a == body_b && joint.body_b == body_a);
+        if (joins && !joint.collide_connected)
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+
+bool may_collide(const SceneState& state, int shape_a, int shape_b)
+{
+    const ShapeRecord& a = state.shapes[shape_a];
+    const ShapeRecord& b = state.shapes[shape_b];
+    if (a.body == b.body || (a.trigger && b.trigger) || !filters_agree(a.filter, b.filter))
+        return false;
+    if (collide_function(a.leaf.type, b.leaf.type) == nullptr)
+        return false;
+    const bool trigger = a.trigger || b.trigger;
+    const BodyRecord& body_a = state.bodies[a.body];
+    const BodyRecord& body_b = state.bodies[b.body];
+    if (!trigger && body_a.type != BodyType::Dynamic && body_b.type != BodyType::Dynamic)
+        return false;
+    if (state.ignored.contains(pair_key(a.body, b.body)))
+        return false;
+    return trigger || !(joint_forbids(state, a.body, b.body));
+}
+
+void mix_materials(const SceneData& scene, Contact& contact)
+{
+    const ShapeRecord& a = scene.state.shapes[contact.shape_a];
+    const ShapeRecord& b = scene.state.shapes[contact.shape_b];
+    contact.friction = mixed_friction(scene, contact.shape_a, contact.shape_b);
+    contact.rolling_resistance = a.rolling_resistance > b.rolling_resistance ? a.rolling_resistance : b.rolling_resistance;
+    contact.surface_speed = a.surface_speed + b.surface_speed;
+}
+
+namespace {
+
+void link_contact(SceneState& state, int index)
+{
+    Contact& contact = state.contacts[index];
+    for (int side = 0; side < 2; ++side) {
+        BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
+        contact.next[side] = body.first_contact;
+        contact.previous[side] = none;
+        if (body.first_contact != none)
+            state.contacts[body.first_contact >> 1].previous[body.first_contact & 1] = index * 2 + side;
+        body.first_contact = index * 2 + side;
+    }
+}
+
+void unlink_contact(SceneState& state, int index)
+{
+    Contact& contact = state.contacts[index];
+    for (int side = 0; side < 2; ++side) {
+        BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
+        const int next = contact.next[side];
+        const int previous = contact.previous[side];
+        if (next != none)
+            state.contacts[next >> 1].previous[next & 1] = previous;
+        if (previous != none)
+            state.contacts[previous >> 1].next[previous & 1] = next;
+        else
+            body.first_contact = next;
+    }
+}
+
+} // namespace
+
+void add_awake_contact(SceneState& state, int index)
+{
+    Contact& contact = state.contacts[index];
+    if (contact.awake_index != none || (contact.flags & contact_flag::trigger) != 0)
+        return;
+    contact.awake_index = static_cast<std::int32_t>(state.awake_contacts.size());
+    state.awake_contacts.push_back(index);
+}
+
+void remove_awake_contact(SceneState& state, int index)
+{
+    Contact& contact = state.contacts[index];
+    if (contact.awake_index == none)
+        return;
+    const bool trigger = (contact.flags & contact_flag::trigger) != 0;
+    std::vector<std::int32_t>& list = trigger ? state.trigger_contacts : state.awake_contacts;
+    const auto place = static_cast<std::size_t>(contact.awake_index);
+    list[place] = list.back();
+    state.contacts[list[place]].awake_index = contact.awake_index;
+    list.pop_back();
+    contact.awake_index = none;
+}
+
+void create_contact(SceneData& scene, int shape_a, int shape_b)
+{
+    SceneState& state = scene.state;
+    // The first shape is the trigger, or the one whose type comes first in the table: then every pair is computed one way.
+    const ShapeRecord* a = &state.shapes[shape_a];
+    const ShapeRecord* b = &state.shapes[shape_b];
+    const bool trigger = a->trigger || b->trigger;
+    if (trigger ? b->trigger : a->leaf.type > b->leaf.type) {
+        std::swap(shape_a, shape_b);
+        std::swap(a, b);
+    }
+    Contact contact;
+    contact.shape_a = shape_a;
+    contact.shape_b = shape_b;
+    contact.body_a = a->body;
+    contact.body_b = b->body;
+    contact.flags = contact_flag::fresh | (trigger ? contact_flag::trigger : 0u);
+    if (a->leaf.type == LeafType::Circle || b->leaf.type == LeafType::Circle)
+        contact.flags |= contact_flag::round;
+    const int index = state.contacts.create(contact);
+    state.pairs.insert(pair_key(shape_a, shape_b));
+    link_contact(state, index);
+    mix_materials(scene, state.contacts[index]);
+    if (trigger) {
+        state.contacts[index].awake_index = static_cast<std::int32_t>(state.trigger_contacts.size());
+        state.trigger_contacts.push_back(index);
+    } else if (is_awake(state, contact.body_a) || is_awake(state, contact.body_b)) {
+        add_awake_contact(state, index);
+    }
+}
+
+void end_touch(SceneData& scene, Contact& contact, Events& events, float time)
+{
+    if ((contact.flags & contact_flag::touching) == 0)
+        return;
+    contact.flags &= ~contact_flag::touching;
+    const SceneState& state = scene.state;
+    const ShapeId a = shape_id(state, contact.shape_a);
+    const ShapeId b = shape_id(state, contact.shape_b);
+    const BodyId body_a = body_id(state, contact.body_a);
+    const BodyId body_b = body_id(state, contact.body_b);
+    if ((contact.flags & contact_flag::trigger) != 0) {
+        events.exits.push_back({a, b, body_a, body_b, time});
+    } else {
+        events.ends.push_back({a, b, body_a, body_b, time});
+        scene.state.graph_dirty = true;
+    }
+}
+
+void destroy_contact(SceneData& scene, int index, Events& events, float time)
+{
+    SceneState& state = scene.state;
+    end_touch(scene, state.contacts[index], events, time);
+    remove_awake_contact(state, index);
+    unlink_contact(state, index);
+    state.pairs.erase(pair_key(state.contacts[index].shape_a, state.contacts[index].shape_b));
+    state.contacts.destroy(index);
+}
+
+namespace {
+
+// Whatever rested on the body must notice that it is gone.
+void destroy_and_wake(SceneData& scene, int index, int body)
+{
+    const Contact contact = scene.state.contacts[index];
+    const bool leaned = (contact.flags & contact_flag::touching) != 0 && (contact.flags & contact_flag::trigger) == 0;
+    destroy_contact(scene, index, scene.pending, 0);
+    if (leaned)
+        wake_body(scene, other_body(contact, body));
+}
+
+} // namespace
+
+void destroy_contacts_of_shape(SceneData& scene, int shape)
+{
+    const int body = scene.state.shapes[shape].body;
+    for_each_contact(scene.state, body, [&](int index) {
+        const Contact& contact = scene.state.contacts[index];
+        if (contact.shape_a == shape || contact.shape_b == shape)
+            destroy_and_wake(scene, index, body);
+    });
+}
+
+void destroy_contacts_of_body(SceneData& scene, int body)
+{
+    for_each_contact(scene.state, body, [&](int index) { destroy_and_wake(scene, index, body); });
+}
+
+} // namespace carom::internal

@@ -1,0 +1,147 @@
+// Stage 3, contacts: manifolds of awake pairs, begins and ends. The first pass writes only to its own contact and may run on any thread; the
+// second goes through the results in order.
+
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/half_space_box.h"
+#include "dynamics/material.h"
+#include "dynamics/stages.h"
+#include "dynamics/wake.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
+{
+    const LocalManifold local =
+        collide(leaf_view(state, contact.shape_a), leaf_view(state, contact.shape_b), relative_pose(a.frame(), b.frame()), margin);
+    Manifold m;
+    m.count = local.count;
+    m.normal = rotate(a.rotation, local.normal);
+    const Vec2 center_b = inverse_rotate(a.rotation, b.center - a.frame().position); // in a's frame
+    for (int i = 0; i < local.count; ++i) {
+        const LocalPoint& p = local.points[i];
+        m.points[i].anchor_a = rotate(a.rotation, p.on_a - a.local_center);
+        m.points[i].anchor_b = rotate(a.rotation, p.on_b - center_b);
+        m.points[i].separation = p.separation;
+        m.points[i].feature = p.feature;
+    }
+    return m;
+}
+
+void carry_impulses(const Manifold& old, Manifold& fresh)
+{
+    fresh.rolling_impulse = fresh.count > 0 ? old.rolling_impulse : 0;
+    for (int i = 0; i < fresh.count; ++i) {
+        for (int j = 0; j < old.count; ++j) {
+            if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1)) {
+                fresh.points[i].normal_impulse = old.points[j].normal_impulse;
+                fresh.points[i].tangent_impulse = old.points[j].tangent_impulse;
+            }
+        }
+    }
+}
+
+namespace {
+
+float motion_of(const StepContext& ctx, int body)
+{
+    const int place = ctx.state.bodies[body].awake_index;
+    return place == none ? 0 : ctx.scratch.motion[static_cast<std::size_t>(place)];
+}
+
+bool is_one_way(const SceneState& state, const Contact& contact)
+{
+    return state.shapes[contact.shape_a].one_way != Vec2{} || state.shapes[contact.shape_b].one_way != Vec2{};
+}
+
+// What comes from behind passes until it is free of the shape; so does what already overlaps deeply.
+void update_passing(const StepContext& ctx, Contact& contact)
+{
+    const float least = least_separation(contact.manifold);
+    const float slop = ctx.scene.tolerances.slop;
+    const bool behind = lets_pass(ctx.scene, contact.shape_a, contact.shape_b, contact.manifold.normal);
+    if (least > slop)
+        contact.flags = behind ? contact.flags | contact_flag::passing : contact.flags & ~contact_flag::passing;
+    else if ((contact.flags & contact_flag::touching) == 0 && (behind || least < -4 * slop))
+        contact.flags |= contact_flag::passing;
+}
+
+void update_manifold(const StepContext& ctx, Contact& contact)
+{
+    const SceneState& state = ctx.state;
+    const float margin = ctx.scene.tolerances.speculation + motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b);
+    const Manifold old = contact.manifold;
+    contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), margin);
+    carry_impulses(old, contact.manifold);
+    if (is_one_way(state, contact))
+        update_passing(ctx, contact);
+}
+
+bool should_touch(const StepContext& ctx, const Contact& contact)
+{
+    if ((contact.flags & contact_flag::passing) != 0)
+        return false;
+    // Twice the distance to part: contacts at the edge do not flicker.
+    const float limit = (contact.flags & contact_flag::touching) != 0 ? 2 * ctx.scene.tolerances.slop : ctx.scene.tolerances.slop;
+    return least_separation(contact.manifold) <= limit;
+}
+
+void begin_touch(StepContext& ctx, Contact& contact)
+{
+    SceneState& state = ctx.state;
+    contact.flags |= contact_flag::touching;
+    state.graph_dirty = true;
+    const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
+    ctx.scene.events.begins.push_back({shape_id(state, contact.shape_a), shape_id(state, contact.shape_b), body_id(state, contact.body_a),
+                                       body_id(state, contact.body_b), point, contact.manifold.normal, 0});
+    wake_body(ctx.scene, contact.body_a);
+    wake_body(ctx.scene, contact.body_b);
+}
+
+// A ball that will hit a sleeper in this step wakes it before the units are built.
+bool will_hit(const StepContext& ctx, const Contact& contact)
+{
+    const bool moves = motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) > ctx.scene.tolerances.speculation;
+    return moves && contact.manifold.count > 0;
+}
+
+void settle_contact(StepContext& ctx, int index)
+{
+    SceneState& state = ctx.state;
+    if (!boxes_meet(state, state.contacts[index].shape_a, state.contacts[index].shape_b)) {
+        destroy_contact(ctx.scene, index, ctx.scene.events, 0);
+        return;
+    }
+    Contact& contact = state.contacts[index];
+    contact.flags &= ~contact_flag::fresh;
+    const bool touches = should_touch(ctx, contact);
+    if (touches && (contact.flags & contact_flag::touching) == 0) {
+        begin_touch(ctx, contact);
+    } else if (!touches && (contact.flags & contact_flag::touching) != 0) {
+        end_touch(ctx.scene, contact, ctx.scene.events, 0);
+    } else if (will_hit(ctx, contact) && (contact.flags & contact_flag::passing) == 0) {
+        wake_body(ctx.scene, contact.body_a);
+        wake_body(ctx.scene, contact.body_b);
+    }
+}
+
+} // namespace
+
+void update_contacts(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    for (const std::int32_t index : state.awake_contacts)
+        update_manifold(ctx, state.contacts[index]);
+    // Settling may destroy contacts and wake others, which changes the list: go through a copy. Woken contacts keep the manifold they
+    // slept with; it is still true.
+    std::vector<std::int32_t>& order = ctx.scratch.order;
+    order.assign(state.awake_contacts.begin(), state.awake_contacts.end());
+    for (const std::int32_t index : order)
+        settle_contact(ctx, index);
+    ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
+    ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
+}
+
+} // namespace carom::internal

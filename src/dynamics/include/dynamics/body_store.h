@@ -1,0 +1,41 @@
+#pragma once
+
+// Bodies and their shapes as objects: mass, boxes, and the walks over a body's leaves.
+
+#include "dynamics/scene_data.h"
+
+namespace carom::internal {
+
+/// Calls visit(shape slot) for every leaf of the body: its shapes, and the pieces of its chains.
+template <class Visit>
+void for_each_leaf(const SceneState& state, int body, Visit&& visit)
+{
+    for (int shape = state.bodies[body].first_shape; shape != none; shape = state.shapes[shape].next_shape) {
+        if (state.shapes[shape].has_leaf) {
+            visit(shape);
+            continue;
+        }
+        for (int piece = state.shapes[shape].next_piece; piece != none; piece = state.shapes[piece].next_piece)
+            visit(piece);
+    }
+}
+
+[[nodiscard]] inline LeafView leaf_view(const SceneState& state, int shape) { return view(state.shapes[shape].leaf, state.vertices); }
+
+/// Mass, centre and inertia from the shapes (unless overridden), inverse masses from type and locks, and the extent.
+/// The velocity of the centre follows when the centre moves.
+void update_mass(SceneState& state, int body);
+
+/// Inverse masses alone, after a change of type or locks.
+void update_inverse_mass(SceneState& state, int body);
+
+/// The fat box of a leaf at its body's present pose.
+[[nodiscard]] FloatBox fat_box(const SceneData& scene, int shape);
+
+/// Puts the leaf into the broad phase, or takes it out.
+void add_to_broad_phase(SceneData& scene, int shape);
+
+/// After a teleport or a change of geometry: new boxes, and a look for pairs.
+void refresh_boxes(SceneData& scene, int body);
+
+} // namespace carom::internal

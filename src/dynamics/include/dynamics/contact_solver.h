@@ -1,0 +1,33 @@
+#pragma once
+
+// The passes over contact rows. Each takes the rows of one unit; h is the sub-step.
+
+#include "dynamics/step_context.h"
+
+#include <span>
+
+namespace carom::internal {
+
+struct SolverView
+{
+    BodyState* states;
+    const StateConstants* constants;
+    float h;
+    float inverse_h;
+    float push_speed;
+};
+
+void warm_start(const SolverView& view, std::span<ContactRow> rows);
+
+/// One pass of sequential impulses: rolling, friction, then the normal direction. With bias the soft constraint also removes overlap;
+/// without ("relax") it only stops approach, taking out the speed that the bias put in.
+void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias);
+
+/// Approach speeds of rows that bear nothing yet, before the sub-step's forces.
+void note_approach(const SolverView& view, ContactRow& row);
+
+[[nodiscard]] float row_separation(const SolverView& view, const ContactRow& row, const RowPoint& point);
+
+void apply_impulse(BodyState& state, const StateConstants& constants, Vec2 arm, Vec2 impulse);
+
+} // namespace carom::internal

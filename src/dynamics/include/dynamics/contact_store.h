@@ -1,0 +1,50 @@
+#pragma once
+
+// Contacts as objects: making and destroying them, and the lists they hang in.
+
+#include "dynamics/scene_data.h"
+
+namespace carom::internal {
+
+/// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
+[[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
+
+/// The pair's shapes must be allowed to collide and have no contact yet.
+void create_contact(SceneData& scene, int shape_a, int shape_b);
+
+/// Ends what has begun: the event goes to `events` at `time`. Wakes nothing.
+void destroy_contact(SceneData& scene, int contact, Events& events, float time);
+
+/// Destroys the contacts of a shape or of a body; bodies that leaned on them wake.
+void destroy_contacts_of_shape(SceneData& scene, int shape);
+void destroy_contacts_of_body(SceneData& scene, int body);
+
+/// Mixes friction, rolling resistance and surface speed of the two shapes anew.
+void mix_materials(const SceneData& scene, Contact& contact);
+
+void add_awake_contact(SceneState& state, int contact);
+void remove_awake_contact(SceneState& state, int contact);
+
+[[nodiscard]] inline int edge_contact(int edge) { return edge >> 1; }
+
+/// Calls visit(contact index) for every contact of the body; the contact visited may be destroyed meanwhile.
+template <class Visit>
+void for_each_contact(SceneState& state, int body, Visit&& visit)
+{
+    for (int edge = state.bodies[body].first_contact; edge != none;) {
+        const int contact = edge_contact(edge);
+        edge = state.contacts[contact].next[edge & 1];
+        visit(contact);
+    }
+}
+
+[[nodiscard]] inline int other_body(const Contact& contact, int body) { return contact.body_a == body ? contact.body_b : contact.body_a; }
+
+void end_touch(SceneData& scene, Contact& contact, Events& events, float time);
+
+/// Public ids of slots.
+[[nodiscard]] BodyId body_id(const SceneState& state, int slot);
+[[nodiscard]] ShapeId shape_id(const SceneState& state, int slot); ///< of the owner, for pieces of chains
+[[nodiscard]] JointId joint_id(const SceneState& state, int slot);
+
+} // namespace carom::internal

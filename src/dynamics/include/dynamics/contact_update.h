@@ -1,0 +1,40 @@
+#pragma once
+
+// The world manifold of a contact, and how old impulses find their new points.
+
+#include "collision/manifold.h"
+#include "dynamics/body_store.h"
+
+namespace carom::internal {
+
+/// Where a body stands within the step.
+struct BodyPose
+{
+    Position center{};
+    Rotation rotation{};
+    Vec2 local_center{};
+
+    [[nodiscard]] Pose frame() const { return {center - rotate(rotation, local_center), rotation}; }
+};
+
+/// Anchors from the centers of mass, world axes; impulses 0.
+[[nodiscard]] Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin);
+
+/// Points with the feature of an old one take over its impulses; a single point in a single point's place does too.
+void carry_impulses(const Manifold& old, Manifold& fresh);
+
+[[nodiscard]] inline BodyPose pose_at_start(const SceneState& state, int body)
+{
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    return {sim.center, sim.rotation, sim.local_center};
+}
+
+[[nodiscard]] inline float least_separation(const Manifold& m)
+{
+    float least = 3e38f;
+    for (int i = 0; i < m.count; ++i)
+        least = m.points[i].separation < least ? m.points[i].separation : least;
+    return least;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,95 @@
+#pragma once
+
+// A scene: its state, what lives beside the state (user data, callbacks, geometry as given), the events of the last step, and
+// scratch memory that keeps its capacity from step to step.
+
+#include "carom/scene.h"
+#include "dynamics/scene_state.h"
+#include "dynamics/step_context.h"
+
+#include <optional>
+#include <vector>
+
+namespace carom::internal {
+
+/// Lengths and speeds below which things count as equal, from SceneDef::length_scale.
+struct Tolerances
+{
+    float slop = 0;            ///< overlap that is left alone; shapes this near touch
+    float speculation = 0;     ///< gap within which quiet pairs get rows
+    float box_margin = 0;      ///< how fat boxes are
+    float push_speed = 0;      ///< overlap is removed no faster
+    float sleep_speed = 0;
+    float rest_speed = 0;      ///< approach slower than this is not an impact
+};
+
+/// What an impact leaves for the events stage; ids are made there.
+struct RawImpact
+{
+    std::int32_t shape_a = none;
+    std::int32_t shape_b = none;
+    ImpactEvent event{};
+};
+
+struct RawTouch
+{
+    std::int32_t contact = none;  ///< none: the pair has no contact, and the touch ends in the step it began
+    std::int32_t shape_a = none;
+    std::int32_t shape_b = none;
+    Position point{};
+    Vec2 normal{};
+    float time = 0;
+};
+
+struct Events
+{
+    std::vector<ContactBeginEvent> begins;
+    std::vector<ContactEndEvent> ends;
+    std::vector<ImpactEvent> impacts;
+    std::vector<TriggerEvent> enters;
+    std::vector<TriggerEvent> exits;
+
+    void clear()
+    {
+        begins.clear();
+        ends.clear();
+        impacts.clear();
+        enters.clear();
+        exits.clear();
+    }
+};
+
+/// Beside the state, by slot: restored snapshots keep it.
+struct BodyExtra
+{
+    std::uint64_t user_data = 0;
+};
+struct ShapeExtra
+{
+    std::uint64_t user_data = 0;
+    Geometry geometry{};
+    std::optional<ShapeCallbacks> callbacks{};
+};
+struct JointExtra
+{
+    std::uint64_t user_data = 0;
+};
+
+struct SceneData
+{
+    SceneDef def{};
+    Tolerances tolerances{};
+    SceneState state{};
+    std::vector<BodyExtra> body_extras;
+    std::vector<ShapeExtra> shape_extras;
+    std::vector<JointExtra> joint_extras;
+    Events events{};
+    Events pending{};   ///< ends and exits that user verbs cause between steps; delivered with the next step
+    StepReport report{};
+    Scratch scratch{};
+    int callback_count = 0; ///< shapes that have callbacks
+    bool stepping = false;
+    bool keep_forces = false; ///< inside update(): forces act in every step of the frame
+};
+
+} // namespace carom::internal

@@ -1,0 +1,39 @@
+#pragma once
+
+// The stages of a step, in order. Each stands in a file of its own name; step.cpp is their table of contents.
+
+#include "dynamics/scene_data.h"
+#include "dynamics/step_context.h"
+
+namespace carom::internal {
+
+const StepReport& step(SceneData& scene, float dt);
+
+/// Velocities of kinematic bodies with a target; boxes of what moves, wide enough for its path in this step.
+void sweep_paths(StepContext& ctx);
+
+/// Contacts for new pairs of overlapping boxes.
+void find_pairs(StepContext& ctx);
+
+/// Manifolds of awake contacts; begins and ends of touching; wakes what is touched.
+void update_contacts(StepContext& ctx);
+
+/// Islands, units, states, colours and rows.
+void build_units(StepContext& ctx);
+
+/// All sub-steps of all units.
+void solve_units(StepContext& ctx);
+
+/// New poses and velocities, deferred impulses, triggers, sleep.
+void commit_and_sleep(StepContext& ctx);
+
+/// Enter, inside and exit of trigger shapes along the paths of this step.
+void update_triggers(StepContext& ctx);
+
+/// Sorts the events of the step and makes the public ones of raw impacts and touches.
+void publish_events(StepContext& ctx);
+
+/// Runs the users' callbacks from the events.
+void run_callbacks(SceneData& scene, Scene& owner);
+
+} // namespace carom::internal

@@ -1,0 +1,27 @@
+// Prismatic: with u the axis (turning with body a) and n = perp(u), C1 = n · gap and C2 = the relative angle are held; the translation u · gap is free.
+// Because u turns with a, a's lever arm reaches to anchor b: dC1 = n · (vb - va) + (rb x n) wb - ((ra + gap) x n) wa.
+
+#include "dynamics/joint_rows.h"
+
+namespace carom::internal {
+
+namespace {
+
+JointRow slider_row(Vec2 d, const JointPose& pose, float error, RowKind kind, JointSlot slot)
+{
+    JointRow row = line_row(d, pose, error, kind, slot);
+    row.arm_a = cross(pose.ra + pose.gap, d);
+    return row;
+}
+
+} // namespace
+
+void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
+{
+    const Vec2 n = perp(pose.axis);
+    out.add(slider_row(n, pose, dot(n, pose.gap), RowKind::Hold, slot_x));
+    out.add(angle_row(pose.angle, RowKind::Hold, slot_lock));
+    add_free_axis(joint, slider_row(pose.axis, pose, 0, RowKind::Motor, slot_motor), dot(pose.axis, pose.gap), h, out);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,15 @@
+// Revolute: the anchors coincide, C = gap (two rows, solved as one block), and the angle may be limited, driven or sprung.
+
+#include "dynamics/joint_rows.h"
+
+namespace carom::internal {
+
+void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
+{
+    out.add(line_row({1, 0}, pose, pose.gap.x, RowKind::Hold, slot_x));
+    out.add(line_row({0, 1}, pose, pose.gap.y, RowKind::Hold, slot_y));
+    out.block = true;
+    add_free_axis(joint, angle_row(0, RowKind::Motor, slot_motor), pose.angle, h, out);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,125 @@
+#include "dynamics/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+struct Side
+{
+    float value;
+    bool yields;
+    std::uint64_t user_data;
+};
+
+float mix(const SceneDef& def, MixedValue what, const Side& a, const Side& b)
+{
+    switch (what == MixedValue::Friction ? def.friction_rule : def.restitution_rule) {
+    case MixRule::Average:
+        return 0.5f * (a.value + b.value);
+    case MixRule::GeometricMean:
+        return std::sqrt(a.value * b.value);
+    case MixRule::Minimum:
+        return std::min(a.value, b.value);
+    case MixRule::Maximum:
+        return std::max(a.value, b.value);
+    case MixRule::Product:
+        return a.value * b.value;
+    case MixRule::OtherDecides:
+        return a.yields == b.yields ? 0.5f * (a.value + b.value) : (a.yields ? b.value : a.value);
+    case MixRule::Function:
+        return def.mix_function(what, a.value, a.user_data, b.value, b.user_data);
+    }
+    return 0;
+}
+
+std::uint64_t user_data_of(const SceneData& scene, int shape)
+{
+    return scene.shape_extras[static_cast<std::size_t>(scene.state.shapes[shape].owner)].user_data;
+}
+
+float restitution_at(const ShapeRecord& shape, float speed)
+{
+    const std::uint32_t n = shape.curve.count;
+    if (n == 0)
+        return shape.restitution;
+    const auto& p = shape.curve.points;
+    if (speed <= p[0].speed)
+        return p[0].restitution;
+    for (std::uint32_t i = 1; i < n; ++i) {
+        if (speed < p[i].speed) {
+            const float t = (speed - p[i - 1].speed) / (p[i].speed - p[i - 1].speed);
+            return p[i - 1].restitution + t * (p[i].restitution - p[i - 1].restitution);
+        }
+    }
+    return p[n - 1].restitution;
+}
+
+float greatest_restitution(const ShapeRecord& shape)
+{
+    float greatest = shape.curve.count == 0 ? shape.restitution : 0;
+    for (std::uint32_t i = 0; i < shape.curve.count; ++i)
+        greatest = std::max(greatest, shape.curve.points[i].restitution);
+    return greatest;
+}
+
+bool fires(const SceneState& state, const ShapeRecord& shape, float speed)
+{
+    return shape.kick.speed > 0 && speed > shape.kick.threshold && state.time >= shape.kick_ready;
+}
+
+bool stops_short(const SceneState& state, const ShapeRecord& shape, Vec2 outward)
+{
+    if (shape.one_way == Vec2{})
+        return false;
+    const Vec2 direction = rotate(state.sims[static_cast<std::size_t>(shape.body)].rotation, shape.one_way);
+    return dot(outward, direction) <= 0;
+}
+
+} // namespace
+
+float mixed_friction(const SceneData& scene, int shape_a, int shape_b)
+{
+    const ShapeRecord& a = scene.state.shapes[shape_a];
+    const ShapeRecord& b = scene.state.shapes[shape_b];
+    const float value = mix(scene.def, MixedValue::Friction, {a.friction, a.yields_material, user_data_of(scene, shape_a)},
+                            {b.friction, b.yields_material, user_data_of(scene, shape_b)});
+    return value > 0 ? std::min(value, 1e6f) : 0;
+}
+
+float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float speed)
+{
+    const ShapeRecord& a = scene.state.shapes[shape_a];
+    const ShapeRecord& b = scene.state.shapes[shape_b];
+    const float value = mix(scene.def, MixedValue::Restitution, {restitution_at(a, speed), a.yields_material, user_data_of(scene, shape_a)},
+                            {restitution_at(b, speed), b.yields_material, user_data_of(scene, shape_b)});
+    return value > 0 ? std::min(value, 1.0f) : 0;
+}
+
+bool may_bounce(const SceneData& scene, int shape_a, int shape_b)
+{
+    const ShapeRecord& a = scene.state.shapes[shape_a];
+    const ShapeRecord& b = scene.state.shapes[shape_b];
+    return greatest_restitution(a) > 0 || greatest_restitution(b) > 0 || a.kick.speed > 0 || b.kick.speed > 0 ||
+           scene.def.restitution_rule == MixRule::Function;
+}
+
+KickResult kick_speed(const SceneData& scene, int shape_a, int shape_b, float speed)
+{
+    const SceneState& state = scene.state;
+    const ShapeRecord& a = state.shapes[shape_a];
+    const ShapeRecord& b = state.shapes[shape_b];
+    KickResult result{0, fires(state, a, speed), fires(state, b, speed)};
+    result.speed = (result.a_fired ? a.kick.speed : 0) + (result.b_fired ? b.kick.speed : 0);
+    return result;
+}
+
+bool lets_pass(const SceneData& scene, int shape_a, int shape_b, Vec2 normal)
+{
+    const SceneState& state = scene.state;
+    return stops_short(state, state.shapes[shape_a], normal) || stops_short(state, state.shapes[shape_b], -normal);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,118 @@
+#include "dynamics/prepare.h"
+
+#include "core/trigonometry.h"
+#include "dynamics/scene_data.h"
+
+#include <cmath>
+
+namespace carom::internal {
+
+BodyState initial_state(const SceneState& state, int body)
+{
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    BodyState s;
+    s.velocity = sim.velocity;
+    s.angular_velocity = sim.angular_velocity;
+    s.flags = state.bodies[body].type == BodyType::Dynamic ? body_flag::dynamic | body_flag::unbound : 0;
+    return s;
+}
+
+namespace {
+
+float decay(float damping, float h) { return damping > 0 ? static_cast<float>(exponential(-static_cast<double>(damping) * static_cast<double>(h))) : 1.0f; }
+
+} // namespace
+
+StateConstants state_constants(const StepContext& ctx, int body)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    const MotionLocks locks = ctx.state.bodies[body].locks;
+    const Vec2 g = sim.gravity_scale * ctx.state.gravity;
+    StateConstants c;
+    c.inverse_mass = sim.inverse_mass;
+    c.inverse_inertia = sim.inverse_inertia;
+    c.acceleration = {(locks.linear_x ? 0 : g.x) + sim.inverse_mass.x * sim.force.x, (locks.linear_y ? 0 : g.y) + sim.inverse_mass.y * sim.force.y};
+    c.angular_acceleration = sim.inverse_inertia * sim.torque;
+    c.linear_decay = decay(sim.linear_damping, ctx.h);
+    c.angular_decay = decay(sim.angular_damping, ctx.h);
+    return c;
+}
+
+Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int shape)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    Flier flier;
+    flier.state = state;
+    flier.body = body;
+    flier.shape = shape;
+    flier.vx = sim.velocity.x;
+    flier.vy = sim.velocity.y;
+    return flier;
+}
+
+namespace {
+
+// 1 / (J M^-1 J^T) of a unit direction d at lever arms ra, rb.
+float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, Vec2 ra, Vec2 rb)
+{
+    const float ca = cross(ra, d);
+    const float cb = cross(rb, d);
+    const float k = d.x * d.x * (a.inverse_mass.x + b.inverse_mass.x) + d.y * d.y * (a.inverse_mass.y + b.inverse_mass.y) +
+                    ca * ca * a.inverse_inertia + cb * cb * b.inverse_inertia;
+    return k > 0 ? 1 / k : 0;
+}
+
+} // namespace
+
+void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m)
+{
+    const BodyState& sa = scratch.states[static_cast<std::size_t>(row.a)];
+    const BodyState& sb = scratch.states[static_cast<std::size_t>(row.b)];
+    const StateConstants& ca = scratch.constants[static_cast<std::size_t>(row.a)];
+    const StateConstants& cb = scratch.constants[static_cast<std::size_t>(row.b)];
+    row.n = m.normal;
+    row.count = m.count;
+    for (int i = 0; i < m.count; ++i) {
+        RowPoint& p = row.points[i];
+        p.ra = m.points[i].anchor_a;
+        p.rb = m.points[i].anchor_b;
+        p.ra0 = inverse_rotate(sa.delta_rotation, p.ra);
+        p.rb0 = inverse_rotate(sb.delta_rotation, p.rb);
+        p.base = m.points[i].separation - dot(m.normal, sb.delta_position - sa.delta_position + p.rb - p.ra);
+        p.normal_mass = effective_mass(ca, cb, m.normal, p.ra, p.rb);
+        p.tangent_mass = effective_mass(ca, cb, perp(m.normal), p.ra, p.rb);
+    }
+}
+
+ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
+{
+    const Contact& contact = ctx.state.contacts[index];
+    const StateConstants& ca = ctx.scratch.constants[static_cast<std::size_t>(a)];
+    const StateConstants& cb = ctx.scratch.constants[static_cast<std::size_t>(b)];
+    ContactRow row;
+    row.a = a;
+    row.b = b;
+    row.contact = index;
+    row.friction = contact.friction;
+    row.surface_speed = contact.surface_speed;
+    const bool immovable = ca.inverse_mass == Vec2{} || cb.inverse_mass == Vec2{};
+    row.softness = immovable ? ctx.static_softness : ctx.contact_softness;
+    set_row_geometry(ctx.scratch, row, manifold);
+    for (int i = 0; i < row.count; ++i) {
+        row.points[i].normal_impulse = manifold.points[i].normal_impulse;
+        row.points[i].tangent_impulse = manifold.points[i].tangent_impulse;
+    }
+    if (contact.rolling_resistance > 0) {
+        // The limit is a length: coefficient times the radius of what rolls.
+        const Leaf& leaf_a = ctx.state.shapes[contact.shape_a].leaf;
+        const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;
+        const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);
+        const float k = ca.inverse_inertia + cb.inverse_inertia;
+        row.rolling = contact.rolling_resistance * radius;
+        row.rolling_impulse = manifold.rolling_impulse;
+        row.rolling_mass = k > 0 ? 1 / k : 0;
+    }
+    return row;
+}
+
+} // namespace carom::internal

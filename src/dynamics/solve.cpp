@@ -1,0 +1,370 @@
+// Stage 5, solve: unit by unit, all sub-steps of one before the next, so that a small unit stays in cache. In every sub-step the soft rows
+// advance first, then the unit's balls in flight through the same interval, then everything relaxes and bounces.
+
+#include "core/task_pool.h"
+#include "core/trigonometry.h"
+#include "dynamics/contact_solver.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/flight.h"
+#include "dynamics/joint_solver.h"
+#include "dynamics/material.h"
+#include "dynamics/prepare.h"
+#include "dynamics/stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+UnitOutput::UnitOutput() = default;
+UnitOutput::~UnitOutput() = default;
+UnitOutput::UnitOutput(UnitOutput&&) noexcept = default;
+UnitOutput& UnitOutput::operator=(UnitOutput&&) noexcept = default;
+
+void UnitOutput::clear()
+{
+    impacts.clear();
+    begins.clear();
+    late_rows.clear();
+    deferred.clear();
+    kicked_shapes.clear();
+    path.clear();
+    poses.clear();
+    flight_impacts = 0;
+    bulk_impacts = 0;
+    capped = false;
+}
+
+namespace {
+
+class UnitSolver
+{
+public:
+    UnitSolver(StepContext& ctx, const Unit& unit, UnitOutput& output)
+        : m_ctx(ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
+          m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, ctx.scene.tolerances.push_speed},
+          m_rows(std::span(ctx.scratch.rows).subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
+          m_joints(std::span(ctx.scratch.joints).subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count)))
+    {
+    }
+
+    void run()
+    {
+        for (int k = 0; k < m_ctx.substeps; ++k)
+            substep(k);
+    }
+
+private:
+    void substep(int k)
+    {
+        note_approaches();
+        integrate_velocities();
+        warm_start_all();
+        predict_bends();
+        solve(true);
+        integrate_positions();
+        advance_fliers(m_ctx, m_unit, k, m_output);
+        refresh_round_rows();
+        solve(false);
+        bounce(k);
+        finish_substep(k);
+    }
+
+    [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
+    [[nodiscard]] std::span<BodyState> states() { return std::span(m_scratch.states).subspan(static_cast<std::size_t>(m_unit.first_state), static_cast<std::size_t>(m_unit.state_count)); }
+
+    void note_approaches()
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            note_approach(m_view, impact_row(i));
+        note_limit_approach(m_view, m_ctx.state, m_joints);
+    }
+
+    [[nodiscard]] ContactRow& impact_row(int i)
+    {
+        return m_scratch.rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
+    }
+
+    // v += h a, then damping. Balls in flight have their own way.
+    void integrate_velocities()
+    {
+        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i) {
+            BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
+            const StateConstants& c = m_scratch.constants[static_cast<std::size_t>(i)];
+            if ((s.flags & body_flag::dynamic) == 0 || (s.flags & body_flag::flier) != 0)
+                continue;
+            s.velocity = c.linear_decay * (s.velocity + m_ctx.h * c.acceleration);
+            s.angular_velocity = c.angular_decay * (s.angular_velocity + m_ctx.h * c.angular_acceleration);
+        }
+    }
+
+    void warm_start_all()
+    {
+        apply_springs(m_view, m_ctx.state, m_joints);
+        warm_start_joints(m_view, m_ctx.state, m_joints);
+        warm_start(m_view, m_rows);
+        warm_start(m_view, late_rows());
+    }
+
+    void solve(bool use_bias)
+    {
+        solve_joints(m_view, m_ctx.state, m_joints, m_ctx.joint_hertz, use_bias);
+        solve_rows(m_view, m_rows, use_bias);
+        solve_rows(m_view, late_rows(), use_bias);
+    }
+
+    // x += h v. What no row or joint touches moves along its exact parabola: the mean of the velocities before and after.
+    void integrate_positions()
+    {
+        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i) {
+            BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
+            if ((s.flags & body_flag::flier) != 0)
+                continue;
+            s.delta_position += m_ctx.h * s.velocity;
+            if ((s.flags & body_flag::unbound) != 0)
+                s.delta_position -= (0.5f * m_ctx.h * m_ctx.h) * m_scratch.constants[static_cast<std::size_t>(i)].acceleration;
+            if (s.angular_velocity != 0)
+                s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
+        }
+    }
+
+    // --- round contacts in small units: looked at anew in every sub-step ---------------------------------------------------------------
+
+    [[nodiscard]] BodyPose pose_of(int body, std::int32_t state, float ahead) const
+    {
+        const BodySim& sim = m_ctx.state.sims[static_cast<std::size_t>(body)];
+        const BodyState& s = m_scratch.states[static_cast<std::size_t>(state)];
+        Rotation q = s.delta_rotation;
+        if (ahead != 0 && s.angular_velocity != 0)
+            q = Rotation::from_angle(ahead * s.angular_velocity) * q;
+        return {sim.center + s.delta_position + ahead * s.velocity, q * sim.rotation, sim.local_center};
+    }
+
+    [[nodiscard]] Manifold manifold_of(const ContactRow& row, float ahead) const
+    {
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, row.a, ahead), pose_of(contact.body_b, row.b, ahead), 1e9f);
+    }
+
+    // The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
+    void predict_bends()
+    {
+        for (ContactRow& row : m_rows)
+            predict_bend(row);
+        for (ContactRow& row : late_rows())
+            predict_bend(row);
+    }
+
+    void predict_bend(ContactRow& row) const
+    {
+        if (row.refreshed == 0 || row.count != 1)
+            return;
+        RowPoint& p = row.points[0];
+        p.predicted_bend = 0;
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const float now = row_separation(m_view, row, p);
+        const float reach = m_ctx.h * (length(b.velocity - a.velocity) + std::fabs(a.angular_velocity) * length(p.ra));
+        if (now > reach)
+            return;
+        const Manifold ahead = manifold_of(row, m_ctx.h);
+        if (ahead.count != 1 || dot(ahead.normal, row.n) < 0.5f)
+            return;
+        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
+        p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
+    }
+
+    void refresh_round_rows()
+    {
+        for (ContactRow& row : m_rows)
+            refresh_row(row);
+        for (ContactRow& row : late_rows())
+            refresh_row(row);
+    }
+
+    void refresh_row(ContactRow& row)
+    {
+        if (row.refreshed == 0 || row.count != 1)
+            return;
+        Manifold m = manifold_of(row, 0);
+        if (m.count != 1)
+            return;
+        set_row_geometry(m_scratch, row, m);
+    }
+
+    // --- impacts ---------------------------------------------------------------------------------------------------------------------
+
+    void bounce(int k)
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            bounce_row(impact_row(i), k);
+        bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
+    }
+
+    void bounce_row(ContactRow& row, int k)
+    {
+        if (row.hit != 0)
+            return;
+        float approach = 0;
+        float load = 0;
+        for (int i = 0; i < row.count; ++i) {
+            load += row.points[i].normal_impulse;
+            if (row.points[i].normal_impulse > 0)
+                approach = std::max(approach, row.points[i].approach);
+        }
+        if (load <= 0)
+            return;
+        const bool first_touch = (m_ctx.state.contacts[row.contact].flags & contact_flag::touching) == 0;
+        if (first_touch)
+            begin_touch(row, k);
+        if (approach > m_ctx.rest_speed)
+            resolve_impact(row, approach, k);
+    }
+
+    void resolve_impact(ContactRow& row, float approach, int k)
+    {
+        row.hit = 1;
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        if (kick.a_fired)
+            m_output.kicked_shapes.push_back(contact.shape_a);
+        if (kick.b_fired)
+            m_output.kicked_shapes.push_back(contact.shape_b);
+        RawImpact raw{contact.shape_a, contact.shape_b, {}};
+        for (int i = 0; i < row.count; ++i)
+            bounce_point(row, row.points[i], e, kick.speed, raw.event);
+        fill_impact(row, raw.event, approach, e, kick.speed, k);
+        m_output.impacts.push_back(raw);
+        ++m_output.bulk_impacts;
+    }
+
+    void bounce_point(ContactRow& row, RowPoint& p, float e, float kick, ImpactEvent& event)
+    {
+        if (p.normal_impulse <= 0)
+            return;
+        BodyState& a = m_view.states[row.a];
+        BodyState& b = m_view.states[row.b];
+        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
+        const float wanted = e * std::max(p.approach, 0.0f) + kick;
+        const float impulse = std::max(p.normal_mass * (wanted - dot(v, row.n)), -p.normal_impulse);
+        apply_impulse(a, m_view.constants[row.a], p.ra, -impulse * row.n);
+        apply_impulse(b, m_view.constants[row.b], p.rb, impulse * row.n);
+        const float total = p.normal_impulse + impulse;
+        event.impulse += total;
+        event.friction_impulse += p.tangent_impulse;
+        event.energy_lost += 0.5f * total * (p.approach - wanted);
+        if (wanted > 0) { // what flies off is not pushed again by warm starting
+            p.total_impulse += total;
+            p.total_tangent += p.tangent_impulse;
+            p.normal_impulse = p.tangent_impulse = 0;
+        }
+    }
+
+    void fill_impact(const ContactRow& row, ImpactEvent& event, float approach, float e, float kick, int k)
+    {
+        const RowPoint& p = row.points[0];
+        const float mass_a = point_mass(m_view.constants[row.a], row.n, p.ra);
+        const float mass_b = point_mass(m_view.constants[row.b], row.n, p.rb);
+        event.normal = row.n;
+        event.point = point_of(row);
+        event.time = m_ctx.h * static_cast<float>(k + 1);
+        event.approach_speed = approach;
+        event.restitution = e;
+        event.kick_speed = kick;
+        event.effective_mass_a = mass_a;
+        event.effective_mass_b = mass_b;
+        // Speeds before the impact, from those after it and the impulse.
+        const BodyState& a = m_view.states[row.a];
+        event.speed_a = dot(a.velocity + cross(a.angular_velocity, p.ra), row.n) + (mass_a > 0 ? event.impulse / mass_a : 0);
+        event.speed_b = event.speed_a - approach;
+    }
+
+    static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
+    {
+        const float turn = cross(arm, n);
+        const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
+        return inverse > 0 ? 1 / inverse : 0;
+    }
+
+    [[nodiscard]] Position point_of(const ContactRow& row) const
+    {
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position + row.points[0].ra;
+    }
+
+    void begin_touch(const ContactRow& row, int k)
+    {
+        Contact& contact = m_ctx.state.contacts[row.contact];
+        contact.flags |= contact_flag::touching;
+        m_output.begins.push_back({row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
+    }
+
+    // --- sums over the step ------------------------------------------------------------------------------------------------------------
+
+    void finish_substep(int k)
+    {
+        for (ContactRow& row : m_rows)
+            sum_impulses(row);
+        for (ContactRow& row : late_rows())
+            sum_impulses(row);
+        finish_joint_substep(m_view, m_ctx.state, m_joints);
+        if (m_ctx.scene.def.record_substeps)
+            record_poses(k);
+    }
+
+    static void sum_impulses(ContactRow& row)
+    {
+        for (int i = 0; i < row.count; ++i) {
+            row.points[i].total_impulse += row.points[i].normal_impulse;
+            row.points[i].total_tangent += row.points[i].tangent_impulse;
+        }
+    }
+
+    void record_poses(int k);
+
+    StepContext& m_ctx;
+    Scratch& m_scratch;
+    const Unit& m_unit;
+    UnitOutput& m_output;
+    SolverView m_view;
+    std::span<ContactRow> m_rows;
+    std::span<JointWork> m_joints;
+};
+
+void UnitSolver::record_poses(int k)
+{
+    for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i) {
+        const int body = m_scratch.state_bodies[static_cast<std::size_t>(i)];
+        if (body != none && (m_scratch.states[static_cast<std::size_t>(i)].flags & body_flag::dynamic) != 0)
+            m_output.poses.push_back({body, m_ctx.h * static_cast<float>(k + 1), pose_of(body, i, 0).frame()});
+    }
+}
+
+} // namespace
+
+void solve_units(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    if (scratch.outputs.size() < scratch.units.size())
+        scratch.outputs.resize(scratch.units.size());
+    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+        scratch.outputs[i].clear();
+    // Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
+    std::vector<std::int32_t>& starts = scratch.order;
+    starts.assign(1, 0);
+    int bodies = 0;
+    for (std::size_t i = 0; i < scratch.units.size(); ++i) {
+        bodies += scratch.units[i].state_count;
+        if (bodies < 256 && i + 1 < scratch.units.size())
+            continue;
+        starts.push_back(static_cast<std::int32_t>(i) + 1);
+        bodies = 0;
+    }
+    run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1, [&](int task) {
+        for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1]; ++u)
+            UnitSolver(ctx, scratch.units[static_cast<std::size_t>(u)], scratch.outputs[static_cast<std::size_t>(u)]).run();
+    });
+}
+
+} // namespace carom::internal

@@ -1,0 +1,87 @@
+// Stage 1, sweep: paths and boxes. Reads velocities and forces, writes fat boxes of the moving layer.
+
+#include "core/trigonometry.h"
+#include "dynamics/body_store.h"
+#include "dynamics/stages.h"
+
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+// The velocity that reaches the target at the end of the step, the shorter way round.
+void aim_at_target(BodySim& sim, float dt)
+{
+    const Rotation turn = sim.target_rotation * inverse(sim.rotation);
+    sim.velocity = (1 / dt) * (sim.target_center - sim.center);
+    sim.angular_velocity = static_cast<float>(arc_tangent(turn.s, turn.c)) / dt;
+}
+
+// Displacement of the center of mass over the step, if nothing stops it.
+Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const BodySim& sim)
+{
+    if (record.type != BodyType::Dynamic)
+        return ctx.dt * sim.velocity;
+    const Vec2 a = {sim.gravity_scale * ctx.state.gravity.x + sim.inverse_mass.x * sim.force.x,
+                    sim.gravity_scale * ctx.state.gravity.y + sim.inverse_mass.y * sim.force.y};
+    return ctx.dt * sim.velocity + ctx.dt * ctx.dt * a;
+}
+
+float turn_motion(const BodySim& sim, float dt)
+{
+    const float angle = std::fabs(sim.angular_velocity) * dt;
+    return sim.extent * (angle < 2 ? angle : 2.0f);
+}
+
+FloatBox swept(const FloatBox& box, Vec2 shift, float turn)
+{
+    FloatBox s = box;
+    (shift.x < 0 ? s.lx : s.ux) += shift.x;
+    (shift.y < 0 ? s.ly : s.uy) += shift.y;
+    return grow(s, turn);
+}
+
+// A fat box that held a fast path is far too wide for a body that has slowed down.
+bool too_wide(const FloatBox& fat, const FloatBox& needed, float margin)
+{
+    return (fat.ux - fat.lx) > (needed.ux - needed.lx) + 8 * margin || (fat.uy - fat.ly) > (needed.uy - needed.ly) + 8 * margin;
+}
+
+void sweep_body(StepContext& ctx, int body, float& motion)
+{
+    SceneState& state = ctx.state;
+    BodyRecord& record = state.bodies[body];
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    if (record.has_target)
+        aim_at_target(sim, ctx.dt);
+    const Vec2 shift = predicted_shift(ctx, record, sim);
+    const float turn = turn_motion(sim, ctx.dt);
+    motion = length(shift) + turn;
+    const float margin = ctx.scene.tolerances.box_margin;
+    for_each_leaf(state, body, [&](int shape) {
+        const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
+        const FloatBox needed = swept(tight, shift, turn + 0.25f * margin);
+        const FloatBox& fat = state.broad_phase.box(shape);
+        if (contains(fat, needed) && !too_wide(fat, needed, margin))
+            return;
+        ctx.scratch.moved_items.push_back(shape);
+        ctx.scratch.moved_boxes.push_back(grow(needed, margin));
+    });
+}
+
+} // namespace
+
+void sweep_paths(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    scratch.moved_items.clear();
+    scratch.moved_boxes.clear();
+    scratch.motion.resize(ctx.state.awake_bodies.size());
+    for (std::size_t i = 0; i < ctx.state.awake_bodies.size(); ++i)
+        sweep_body(ctx, ctx.state.awake_bodies[i], scratch.motion[i]);
+    if (!scratch.moved_items.empty())
+        ctx.state.broad_phase.update_moving(scratch.moved_items, scratch.moved_boxes);
+}
+
+} // namespace carom::internal

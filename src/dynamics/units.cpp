@@ -1,0 +1,442 @@
+// Stage 4, units: who is solved together. Islands (touching contacts and joints between dynamic bodies) persist until the graph changes;
+// units are islands joined further where rows or flight paths may meet in this step. Everything a unit needs is laid side by side:
+// its states, copies of the kinematic bodies it meets, its rows sorted by colour.
+// A unit's kind depends on its content alone, never on threads or the order of other units.
+
+#include "core/trigonometry.h"
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/joint_solver.h"
+#include "dynamics/material.h"
+#include "dynamics/prepare.h"
+#include "dynamics/stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int precise_limit = 32;  // bodies: beyond it a contact more or less does not decide where a ball goes
+constexpr int color_limit = 63;    // the mask's last bit stands for "no colour left"
+
+// --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
+
+std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i)
+{
+    while (parent[static_cast<std::size_t>(i)] != i) {
+        std::int32_t& up = parent[static_cast<std::size_t>(i)];
+        up = parent[static_cast<std::size_t>(up)];
+        i = up;
+    }
+    return i;
+}
+
+// The lesser place becomes the root: the result does not depend on the order of the links.
+void link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b)
+{
+    a = find_root(parent, a);
+    b = find_root(parent, b);
+    if (a != b)
+        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+}
+
+bool is_moving_dynamic(const SceneState& state, int body)
+{
+    return body != none && state.bodies[body].type == BodyType::Dynamic && state.bodies[body].awake_index != none;
+}
+
+void link_bodies(StepContext& ctx, int a, int b)
+{
+    if (is_moving_dynamic(ctx.state, a) && is_moving_dynamic(ctx.state, b))
+        link(ctx.scratch.parent, ctx.state.bodies[a].awake_index, ctx.state.bodies[b].awake_index);
+}
+
+void reset_parents(StepContext& ctx)
+{
+    std::vector<std::int32_t>& parent = ctx.scratch.parent;
+    parent.resize(ctx.state.awake_bodies.size());
+    for (std::size_t i = 0; i < parent.size(); ++i)
+        parent[i] = static_cast<std::int32_t>(i);
+}
+
+// Islands: relabelled only when the graph has changed.
+void label_islands(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    if (!state.graph_dirty)
+        return;
+    reset_parents(ctx);
+    for (const std::int32_t index : state.awake_contacts) {
+        const Contact& contact = state.contacts[index];
+        if ((contact.flags & contact_flag::touching) != 0)
+            link_bodies(ctx, contact.body_a, contact.body_b);
+    }
+    for (int j = 0; j < state.joints.capacity(); ++j) {
+        if (state.joints.is_live(j))
+            link_bodies(ctx, state.joints[j].body_a, state.joints[j].body_b);
+    }
+    for (const std::int32_t body : state.awake_bodies) {
+        const std::int32_t root = find_root(ctx.scratch.parent, state.bodies[body].awake_index);
+        state.bodies[body].island = state.awake_bodies[static_cast<std::size_t>(root)];
+    }
+    state.graph_dirty = false;
+}
+
+// --- what is solved in this step --------------------------------------------------------------------------------------------------
+
+bool gets_rows(const SceneState& state, const Contact& contact)
+{
+    return contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0 &&
+           (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
+}
+
+// A ball: one circle about the center of mass, free to move.
+std::int32_t ball_shape(const SceneState& state, int body)
+{
+    const BodyRecord& record = state.bodies[body];
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    if (record.first_joint != none || sim.inverse_mass.x == 0 || sim.inverse_mass.y == 0)
+        return none;
+    std::int32_t ball = none;
+    for (int shape = record.first_shape; shape != none; shape = state.shapes[shape].next_shape) {
+        const ShapeRecord& s = state.shapes[shape];
+        if (s.trigger)
+            continue;
+        const bool centered = s.has_leaf && s.leaf.type == LeafType::Circle && length(s.leaf.p0 - sim.local_center) <= 1e-4f * s.leaf.r0;
+        if (ball != none || !centered)
+            return none;
+        ball = shape;
+    }
+    return ball;
+}
+
+// Nothing bears it and it overlaps nothing: then its path is its own until it hits something.
+bool is_unloaded(const StepContext& ctx, int body)
+{
+    const SceneState& state = ctx.state;
+    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+        const Contact& contact = state.contacts[edge >> 1];
+        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0 || contact.manifold.count == 0)
+            continue;
+        const bool touches = least_separation(contact.manifold) <= ctx.scene.tolerances.speculation;
+        if ((touches && (contact.flags & contact_flag::loaded) != 0) || least_separation(contact.manifold) < -ctx.scene.tolerances.slop)
+            return false;
+    }
+    return true;
+}
+
+// --- building ---------------------------------------------------------------------------------------------------------------------
+
+struct Builder
+{
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+    std::vector<std::int32_t> flier_shape; ///< by place in awake_bodies; none: not in flight
+
+    explicit Builder(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+
+    void find_fliers()
+    {
+        flier_shape.assign(state.awake_bodies.size(), none);
+        if (!ctx.scene.def.continuous)
+            return;
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i) {
+            const int body = state.awake_bodies[i];
+            if (state.bodies[body].type != BodyType::Dynamic)
+                continue;
+            const std::int32_t shape = ball_shape(state, body);
+            if (shape != none && is_unloaded(ctx, body))
+                flier_shape[i] = shape;
+        }
+    }
+
+    [[nodiscard]] bool flies(int body) const
+    {
+        return is_moving_dynamic(state, body) && flier_shape[static_cast<std::size_t>(state.bodies[body].awake_index)] != none;
+    }
+
+    // Islands first, then what this step adds.
+    void link_units()
+    {
+        reset_parents(ctx);
+        for (const std::int32_t body : state.awake_bodies) {
+            if (state.bodies[body].type == BodyType::Dynamic)
+                link_bodies(ctx, body, state.bodies[body].island);
+        }
+        for (const std::int32_t index : state.awake_contacts) {
+            const Contact& contact = state.contacts[index];
+            if (gets_rows(state, contact))
+                link_bodies(ctx, contact.body_a, contact.body_b);
+        }
+    }
+
+    // Units in the order of their first body; every dynamic body gets its unit.
+    void number_units()
+    {
+        const std::size_t n = state.awake_bodies.size();
+        scratch.units.clear();
+        scratch.unit_of.assign(n, none);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
+                continue;
+            const auto root = static_cast<std::size_t>(find_root(scratch.parent, static_cast<std::int32_t>(i)));
+            if (root == i) {
+                scratch.unit_of[i] = static_cast<std::int32_t>(scratch.units.size());
+                scratch.units.emplace_back();
+            } else {
+                scratch.unit_of[i] = scratch.unit_of[root];
+            }
+        }
+    }
+
+    [[nodiscard]] std::int32_t unit_of_pair(int a, int b) const
+    {
+        const int body = is_moving_dynamic(state, a) ? a : b;
+        return is_moving_dynamic(state, body) ? scratch.unit_of[static_cast<std::size_t>(state.bodies[body].awake_index)] : none;
+    }
+
+    // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count).
+    template <class UnitOf, class SetRange>
+    void sort_by_unit(const std::vector<std::int32_t>& items, std::vector<std::int32_t>& sorted, UnitOf&& unit_of, SetRange&& set_range)
+    {
+        std::vector<std::int32_t> starts(scratch.units.size() + 1, 0);
+        std::vector<std::int32_t> units(items.size());
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            units[i] = unit_of(items[i]);
+            if (units[i] != none)
+                ++starts[static_cast<std::size_t>(units[i]) + 1];
+        }
+        for (std::size_t u = 0; u < scratch.units.size(); ++u) {
+            set_range(scratch.units[u], starts[u], starts[u + 1]);
+            starts[u + 1] += starts[u];
+        }
+        sorted.resize(static_cast<std::size_t>(starts.back()));
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            if (units[i] != none)
+                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(units[i])]++)] = items[i];
+        }
+    }
+
+    void sort_contacts()
+    {
+        std::vector<std::int32_t> chosen;
+        for (const std::int32_t index : state.awake_contacts) {
+            Contact& contact = state.contacts[index];
+            contact.color = none;
+            // Balls in flight meet things at their own time; a row would stop them early.
+            if (gets_rows(state, contact) && !flies(contact.body_a) && !flies(contact.body_b))
+                chosen.push_back(index);
+        }
+        sort_by_unit(
+            chosen, scratch.solved_contacts, [&](int i) { return unit_of_pair(state.contacts[i].body_a, state.contacts[i].body_b); },
+            [](Unit& unit, int first, int count) {
+                unit.first_row = first;
+                unit.row_count = count;
+            });
+    }
+
+    void sort_joints()
+    {
+        std::vector<std::int32_t> chosen;
+        for (int j = 0; j < state.joints.capacity(); ++j) {
+            if (!state.joints.is_live(j))
+                continue;
+            const JointRecord& joint = state.joints[j];
+            const bool enabled = (joint.body_a == none || state.bodies[joint.body_a].enabled) && (joint.body_b == none || state.bodies[joint.body_b].enabled);
+            if (enabled && (is_moving_dynamic(state, joint.body_a) || is_moving_dynamic(state, joint.body_b)))
+                chosen.push_back(j);
+        }
+        sort_by_unit(
+            chosen, scratch.solved_joints, [&](int j) { return unit_of_pair(state.joints[j].body_a, state.joints[j].body_b); },
+            [](Unit& unit, int first, int count) {
+                unit.first_joint = first;
+                unit.joint_count = count;
+            });
+    }
+
+    // States unit by unit: dynamic bodies in awake order.
+    void lay_out_states()
+    {
+        std::vector<std::int32_t> places(state.awake_bodies.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = static_cast<std::int32_t>(i);
+        std::vector<std::int32_t> sorted;
+        sort_by_unit(
+            places, sorted, [&](int i) { return scratch.unit_of[static_cast<std::size_t>(i)]; },
+            [](Unit& unit, int first, int count) {
+                unit.first_state = first;
+                unit.state_count = count;
+            });
+        scratch.states.clear();
+        scratch.constants.clear();
+        scratch.state_bodies.clear();
+        scratch.state_of.assign(state.awake_bodies.size(), none);
+        scratch.fliers.clear();
+        for (Unit& unit : scratch.units) {
+            const int first = unit.first_state;
+            unit.first_state = static_cast<std::int32_t>(scratch.states.size());
+            unit.first_flier = static_cast<std::int32_t>(scratch.fliers.size());
+            add_fixed_state(none); // stands for every body that does not move, so that units share nothing
+            for (int i = first; i < first + unit.state_count; ++i)
+                add_dynamic_state(sorted[static_cast<std::size_t>(i)]);
+            unit.flier_count = static_cast<std::int32_t>(scratch.fliers.size()) - unit.first_flier;
+            for (int i = 0; i < unit.flier_count; ++i)
+                copy_kinematic_neighbours(unit, scratch.fliers[static_cast<std::size_t>(unit.first_flier + i)].body);
+            unit.precise = unit.state_count <= precise_limit;
+            add_rows(unit);
+            unit.state_count = static_cast<std::int32_t>(scratch.states.size()) - unit.first_state;
+        }
+    }
+
+    void add_dynamic_state(std::int32_t place)
+    {
+        const int body = state.awake_bodies[static_cast<std::size_t>(place)];
+        const auto index = static_cast<std::int32_t>(scratch.states.size());
+        scratch.state_of[static_cast<std::size_t>(place)] = index;
+        scratch.states.push_back(initial_state(state, body));
+        scratch.constants.push_back(state_constants(ctx, body));
+        scratch.state_bodies.push_back(body);
+        if (const std::int32_t shape = flier_shape[static_cast<std::size_t>(place)]; shape != none) {
+            scratch.states.back().flags |= body_flag::flier;
+            scratch.fliers.push_back(make_flier(ctx, index, body, shape));
+        }
+    }
+
+    // A ball may land on a kinematic body, which then needs its place in the unit.
+    void copy_kinematic_neighbours(const Unit& unit, int body)
+    {
+        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+            const int other = other_body(state.contacts[edge >> 1], body);
+            if (state.bodies[other].type == BodyType::Kinematic)
+                static_cast<void>(state_for(unit, other));
+        }
+    }
+
+    std::int32_t add_fixed_state(int body)
+    {
+        scratch.states.push_back(body == none ? BodyState{} : initial_state(state, body));
+        scratch.constants.emplace_back();
+        scratch.state_bodies.push_back(body);
+        return static_cast<std::int32_t>(scratch.states.size()) - 1;
+    }
+
+    // The state of a body as this unit's rows see it. Kinematic bodies are copied into every unit they meet: their path is a function of
+    // time alone, and units then share nothing that is written.
+    std::int32_t state_for(const Unit& unit, int body)
+    {
+        if (body == none || state.bodies[body].awake_index == none)
+            return unit.first_state;
+        const auto place = static_cast<std::size_t>(state.bodies[body].awake_index);
+        if (state.bodies[body].type == BodyType::Dynamic)
+            return scratch.state_of[place];
+        std::int32_t& copy = scratch.state_of[place];
+        if (copy < unit.first_state)
+            copy = add_fixed_state(body);
+        return copy;
+    }
+
+    // Rows sorted by colour: the least colour that neither moving body has yet, in the order of the contacts.
+    void add_rows(Unit& unit)
+    {
+        scratch.color_masks.resize(scratch.states.size());
+        std::fill(scratch.color_masks.begin() + unit.first_state, scratch.color_masks.end(), 0);
+        const int first = unit.first_row;
+        std::vector<std::int32_t>& order = scratch.order;
+        order.assign(scratch.solved_contacts.begin() + first, scratch.solved_contacts.begin() + first + unit.row_count);
+        for (const std::int32_t index : order)
+            assign_color(unit, state.contacts[index]);
+        std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return state.contacts[x].color < state.contacts[y].color; });
+        std::copy(order.begin(), order.end(), scratch.solved_contacts.begin() + first);
+        unit.first_impact_row = static_cast<std::int32_t>(scratch.impact_rows.size());
+        for (const std::int32_t index : order)
+            add_row(unit, index);
+        unit.impact_row_count = static_cast<std::int32_t>(scratch.impact_rows.size()) - unit.first_impact_row;
+        for (int i = 0; i < unit.joint_count; ++i)
+            add_joint(unit, scratch.solved_joints[static_cast<std::size_t>(unit.first_joint + i)]);
+    }
+
+    void assign_color(Unit& unit, Contact& contact)
+    {
+        std::uint64_t unused = 0;
+        std::uint64_t& mask_a = is_moving_dynamic(state, contact.body_a) ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_a))] : unused;
+        std::uint64_t& mask_b = is_moving_dynamic(state, contact.body_b) ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_b))] : unused;
+        int color = 0;
+        while (color < color_limit && (((mask_a | mask_b) >> color) & 1) != 0)
+            ++color;
+        contact.color = color;
+        if (color == color_limit) {
+            ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
+            return;
+        }
+        mask_a |= std::uint64_t{1} << color;
+        mask_b |= std::uint64_t{1} << color;
+        unit.colors = std::max(unit.colors, color + 1);
+    }
+
+    void add_row(const Unit& unit, std::int32_t index)
+    {
+        const Contact& contact = state.contacts[index];
+        const std::int32_t a = state_for(unit, contact.body_a);
+        const std::int32_t b = state_for(unit, contact.body_b);
+        scratch.rows.push_back(prepare_row(ctx, index, contact.manifold, a, b));
+        ContactRow& row = scratch.rows.back();
+        row.refreshed = unit.precise && (contact.flags & contact_flag::round) != 0;
+        if ((contact.flags & contact_flag::loaded) == 0)
+            scratch.impact_rows.push_back(static_cast<std::int32_t>(scratch.rows.size()) - 1);
+        scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
+        scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
+    }
+
+    void add_joint(const Unit& unit, std::int32_t joint)
+    {
+        const JointRecord& record = state.joints[joint];
+        const std::int32_t a = state_for(unit, record.body_a);
+        const std::int32_t b = state_for(unit, record.body_b);
+        scratch.joints.push_back(prepare_joint(ctx, joint, a, b));
+        scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
+        scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
+    }
+
+    void index_fliers()
+    {
+        scratch.flier_of_state.assign(scratch.states.size(), none);
+        scratch.versions.assign(scratch.states.size(), 0);
+        for (std::size_t i = 0; i < scratch.fliers.size(); ++i)
+            scratch.flier_of_state[static_cast<std::size_t>(scratch.fliers[i].state)] = static_cast<std::int32_t>(i);
+    }
+
+    void count()
+    {
+        ctx.report.units = static_cast<int>(scratch.units.size());
+        ctx.report.flight_bodies = static_cast<int>(scratch.fliers.size());
+        for (const Unit& unit : scratch.units)
+            ctx.report.colors = std::max(ctx.report.colors, static_cast<int>(unit.colors));
+        for (const std::int32_t index : state.awake_contacts)
+            ctx.report.touching += (state.contacts[index].flags & contact_flag::touching) != 0 ? 1 : 0;
+    }
+};
+
+} // namespace
+
+void build_units(StepContext& ctx)
+{
+    ctx.scratch.rows.clear();
+    ctx.scratch.impact_rows.clear();
+    ctx.scratch.joints.clear();
+    label_islands(ctx);
+    Builder builder(ctx);
+    builder.find_fliers();
+    builder.link_units();
+    builder.number_units();
+    builder.sort_contacts();
+    builder.sort_joints();
+    builder.lay_out_states();
+    builder.index_fliers();
+    builder.count();
+}
+
+} // namespace carom::internal

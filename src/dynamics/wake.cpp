@@ -1,0 +1,117 @@
+#include "dynamics/wake.h"
+
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+void enter_awake(SceneData& scene, int body)
+{
+    SceneState& state = scene.state;
+    BodyRecord& record = state.bodies[body];
+    if (record.awake_index != none)
+        return;
+    record.awake_index = static_cast<std::int32_t>(state.awake_bodies.size());
+    state.awake_bodies.push_back(body);
+    state.graph_dirty = true;
+    state.sims[static_cast<std::size_t>(body)].sleep_time = 0;
+    for_each_leaf(state, body, [&](int shape) { state.broad_phase.move_to(shape, Layer::Moving); });
+    for_each_contact(state, body, [&](int contact) { add_awake_contact(state, contact); });
+}
+
+void leave_awake(SceneData& scene, int body)
+{
+    SceneState& state = scene.state;
+    BodyRecord& record = state.bodies[body];
+    if (record.awake_index == none)
+        return;
+    const auto place = static_cast<std::size_t>(record.awake_index);
+    state.awake_bodies[place] = state.awake_bodies.back();
+    state.bodies[state.awake_bodies[place]].awake_index = record.awake_index;
+    state.awake_bodies.pop_back();
+    record.awake_index = none;
+    state.graph_dirty = true;
+    for_each_leaf(state, body, [&](int shape) { state.broad_phase.move_to(shape, Layer::Resting); });
+    for_each_contact(state, body, [&](int contact) {
+        const Contact& c = state.contacts[contact];
+        const bool trigger = (c.flags & contact_flag::trigger) != 0;
+        if (!trigger && !is_awake(state, other_body(c, body)))
+            remove_awake_contact(state, contact);
+    });
+}
+
+std::vector<std::int32_t> island_of(const SceneState& state, int body)
+{
+    std::vector<std::int32_t> island{body};
+    const auto add = [&](int other) {
+        if (other != none && state.bodies[other].type == BodyType::Dynamic && state.bodies[other].enabled &&
+            std::find(island.begin(), island.end(), other) == island.end())
+            island.push_back(other);
+    };
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        const int at = island[i];
+        if (state.bodies[at].type != BodyType::Dynamic)
+            continue;
+        for (int edge = state.bodies[at].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & (contact_flag::touching | contact_flag::trigger)) == contact_flag::touching)
+                add(other_body(contact, at));
+        }
+        for (int edge = state.bodies[at].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1]) {
+            const JointRecord& joint = state.joints[edge >> 1];
+            add(joint.body_a == at ? joint.body_b : joint.body_a);
+        }
+    }
+    return island;
+}
+
+void wake_body(SceneData& scene, int body)
+{
+    SceneState& state = scene.state;
+    if (body == none || state.bodies[body].type == BodyType::Static || !state.bodies[body].enabled)
+        return;
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    sim.sleep_time = 0;
+    const bool still = sim.velocity == Vec2{} && sim.angular_velocity == 0 && !state.bodies[body].has_target;
+    if (is_awake(state, body) || (state.bodies[body].type == BodyType::Kinematic && still))
+        return;
+    // Depth first through sleeping neighbours; entering marks a body as visited.
+    std::vector<std::int32_t> stack{body};
+    enter_awake(scene, body);
+    ++scene.report.woken;
+    const auto visit = [&](int other) {
+        if (other == none || state.bodies[other].type != BodyType::Dynamic || !state.bodies[other].enabled || is_awake(state, other))
+            return;
+        enter_awake(scene, other);
+        ++scene.report.woken;
+        stack.push_back(other);
+    };
+    while (!stack.empty()) {
+        const int at = stack.back();
+        stack.pop_back();
+        for (int edge = state.bodies[at].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & (contact_flag::touching | contact_flag::trigger)) == contact_flag::touching)
+                visit(other_body(contact, at));
+        }
+        for (int edge = state.bodies[at].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1]) {
+            const JointRecord& joint = state.joints[edge >> 1];
+            visit(joint.body_a == at ? joint.body_b : joint.body_a);
+        }
+    }
+}
+
+void sleep_body(SceneData& scene, int body)
+{
+    BodySim& sim = scene.state.sims[static_cast<std::size_t>(body)];
+    sim.velocity = {};
+    sim.angular_velocity = 0;
+    sim.previous_center = sim.center;
+    sim.previous_rotation = sim.rotation;
+    leave_awake(scene, body);
+    ++scene.report.slept;
+}
+
+} // namespace carom::internal

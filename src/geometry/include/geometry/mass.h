@@ -1,0 +1,19 @@
+#pragma once
+
+// Mass, centre and inertia of a leaf, exact for every shape that has any.
+
+#include "geometry/leaf.h"
+
+namespace carom::internal {
+
+struct LeafMass
+{
+    double mass = 0;
+    double center_x = 0;
+    double center_y = 0;
+    double inertia = 0; ///< about the centre of mass
+};
+
+[[nodiscard]] LeafMass leaf_mass(const LeafView& view, float density);
+
+} // namespace carom::internal

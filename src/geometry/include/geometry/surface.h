@@ -1,0 +1,218 @@
+#pragma once
+
+// Distance from a point to the surface of a leaf, with the outward normal there: the one question behind circle contacts, times of
+// impact of balls, closest-point queries and point tests. Written once for float (contacts) and double (times of impact).
+//
+// Seams. Of two pieces that share a corner only one may answer for it, or a ball would be pushed twice, and only where neither
+// piece's inside region holds the point. The region beyond a piece's end is the half-plane ahead of its end tangent, for lines and
+// (near the surface) for arcs alike. So the piece before never answers for a shared end, and the piece after answers for its start only
+// when the point is also ahead of the end tangent of the piece before.
+
+#include "geometry/leaf.h"
+
+#include <cmath>
+#include <optional>
+
+namespace carom::internal {
+
+template <class R>
+struct Surface
+{
+    R distance; ///< negative inside
+    R nx;       ///< outward unit normal of the leaf at the closest point
+    R ny;
+    /// Curvature of the distance along the tangent as seen from the point: 1 / distance to the center of curvature, 0 on
+    /// straight lines, negative where the surface bends around the point (the inside of an arc).
+    R curvature;
+    int feature;
+};
+
+template <class R>
+struct PointOf
+{
+    R x;
+    R y;
+};
+
+template <class R>
+[[nodiscard]] std::optional<Surface<R>> surface_of_circle(R px, R py, R cx, R cy, R radius, int feature)
+{
+    const R dx = px - cx;
+    const R dy = py - cy;
+    const R d = std::sqrt(dx * dx + dy * dy);
+    if (!(d > 0))
+        return Surface<R>{-radius, 0, 1, 0, feature};
+    return Surface<R>{d - radius, dx / d, dy / d, 1 / d, feature};
+}
+
+/// Is the point in the region of the shared corner that the following piece answers for, on a side that is solid?
+template <class R>
+[[nodiscard]] bool start_answers(const Leaf& leaf, Vec2 tangent, R dx, R dy)
+{
+    const R left_of_start = static_cast<R>(tangent.x) * dy - static_cast<R>(tangent.y) * dx;
+    if (!leaf.has_previous) {
+        if (leaf.sides == Sides::Both)
+            return true;
+        return (leaf.sides == Sides::Left) == (left_of_start > 0);
+    }
+    if (static_cast<R>(leaf.previous_tangent.x) * dx + static_cast<R>(leaf.previous_tangent.y) * dy < 0)
+        return false;
+    const float bend = cross(leaf.previous_tangent, tangent);
+    return leaf.sides == Sides::Both || (leaf.sides == Sides::Left ? bend < 0 : bend > 0);
+}
+
+template <class R>
+[[nodiscard]] bool end_answers(const Leaf& leaf, Vec2 tangent, R dx, R dy)
+{
+    if (leaf.has_next)
+        return false;
+    if (leaf.sides == Sides::Both)
+        return true;
+    const R left_of_end = static_cast<R>(tangent.x) * dy - static_cast<R>(tangent.y) * dx;
+    return (leaf.sides == Sides::Left) == (left_of_end > 0);
+}
+
+template <class R>
+[[nodiscard]] std::optional<Surface<R>> surface_of_start(const Leaf& leaf, Vec2 tangent, R px, R py)
+{
+    const Vec2 v = start_point(leaf);
+    if (!start_answers<R>(leaf, tangent, px - v.x, py - v.y))
+        return std::nullopt;
+    return surface_of_circle<R>(px, py, v.x, v.y, leaf.r0, 1);
+}
+
+template <class R>
+[[nodiscard]] std::optional<Surface<R>> surface_of_end(const Leaf& leaf, Vec2 tangent, R px, R py)
+{
+    const Vec2 v = end_point(leaf);
+    if (!end_answers<R>(leaf, tangent, px - v.x, py - v.y))
+        return std::nullopt;
+    return surface_of_circle<R>(px, py, v.x, v.y, leaf.r0, 2);
+}
+
+template <class R>
+[[nodiscard]] std::optional<Surface<R>> surface_of_segment(const Leaf& leaf, R px, R py)
+{
+    const R ex = static_cast<R>(leaf.p1.x) - leaf.p0.x;
+    const R ey = static_cast<R>(leaf.p1.y) - leaf.p0.y;
+    const R l = std::sqrt(ex * ex + ey * ey);
+    const R ux = ex / l;
+    const R uy = ey / l;
+    const R dx = px - leaf.p0.x;
+    const R dy = py - leaf.p0.y;
+    const R along = ux * dx + uy * dy;
+    const Vec2 tangent = {static_cast<float>(ux), static_cast<float>(uy)};
+    if (along < 0)
+        return surface_of_start<R>(leaf, tangent, px, py);
+    if (along > l)
+        return surface_of_end<R>(leaf, tangent, px, py);
+    const R left = ux * dy - uy * dx;
+    if ((leaf.sides == Sides::Left && left < 0) || (leaf.sides == Sides::Right && left > 0))
+        return std::nullopt;
+    const bool on_left = left > 0 || (left == 0 && leaf.sides != Sides::Right);
+    const R sign = on_left ? R(1) : R(-1);
+    return Surface<R>{sign * left - leaf.r0, -sign * uy, sign * ux, 0, 0};
+}
+
+template <class R>
+[[nodiscard]] std::optional<Surface<R>> surface_of_arc(const Leaf& leaf, R px, R py)
+{
+    const R dx = px - leaf.p0.x;
+    const R dy = py - leaf.p0.y;
+    const R d = std::sqrt(dx * dx + dy * dy);
+    const R ahead = dx * leaf.p1.x + dy * leaf.p1.y;
+    if (d > 0 && ahead >= d * leaf.cos_half_sweep) {
+        const bool inside = d < leaf.arc_radius;
+        const Sides side = inside == (leaf.sweep > 0) ? Sides::Left : Sides::Right;
+        if (leaf.sides != Sides::Both && leaf.sides != side)
+            return std::nullopt;
+        const R sign = inside ? R(-1) : R(1);
+        return Surface<R>{sign * (d - leaf.arc_radius) - leaf.r0, sign * dx / d, sign * dy / d, sign / d, 0};
+    }
+    // Beyond the ends: the nearer corner.
+    const R sx = px - leaf.arc_start.x;
+    const R sy = py - leaf.arc_start.y;
+    const R ex = px - leaf.arc_end.x;
+    const R ey = py - leaf.arc_end.y;
+    if (sx * sx + sy * sy <= ex * ex + ey * ey)
+        return surface_of_start<R>(leaf, start_tangent(leaf), px, py);
+    return surface_of_end<R>(leaf, end_tangent(leaf), px, py);
+}
+
+/// The convex hull of the circles (point i, radius i): polygons with round corners and capsules, tapered ones included. Edge i touches the
+/// circles i and i + 1; its outward normal is given. The point is outside the edge with the greatest separation, or nearest to it.
+template <class R>
+[[nodiscard]] Surface<R> surface_of_hull(const Vec2* points, const Vec2* normals, const float radii[2], int count, R px, R py)
+{
+    int edge = 0;
+    R best = 0;
+    for (int i = 0; i < count; ++i) {
+        const R s = static_cast<R>(normals[i].x) * (px - points[i].x) + static_cast<R>(normals[i].y) * (py - points[i].y) - radii[i & (count == 2)];
+        if (i == 0 || s > best) {
+            best = s;
+            edge = i;
+        }
+    }
+    const int next = edge + 1 < count ? edge + 1 : 0;
+    const float ra = radii[edge & (count == 2)];
+    const float rb = radii[next & (count == 2)];
+    const Vec2 n = normals[edge];
+    const Vec2 a = points[edge] + ra * n; // where the edge touches the two circles
+    const Vec2 b = points[next] + rb * n;
+    const R ex = static_cast<R>(b.x) - a.x;
+    const R ey = static_cast<R>(b.y) - a.y;
+    const R along = ex * (px - a.x) + ey * (py - a.y);
+    // Deep inside, corners do not matter: the way out is over an edge.
+    const bool deep = best + (ra < rb ? ra : rb) <= 0;
+    if (!deep && along < 0)
+        return *surface_of_circle<R>(px, py, points[edge].x, points[edge].y, ra, count + edge);
+    if (!deep && along > ex * ex + ey * ey)
+        return *surface_of_circle<R>(px, py, points[next].x, points[next].y, rb, count + next);
+    return {best, n.x, n.y, 0, edge};
+}
+
+/// Outward normals of the two sides of a capsule: they tilt towards the smaller end by phi, sin(phi) = (r0 - r1) / length.
+struct CapsuleSides
+{
+    Vec2 points[2];
+    Vec2 normals[2]; ///< [0]: the edge from p0 to p1, on the right; [1]: back, on the left
+    float radii[2];
+};
+
+[[nodiscard]] inline CapsuleSides capsule_sides(const Leaf& leaf)
+{
+    const Vec2 d = leaf.p1 - leaf.p0;
+    const float l = length(d);
+    const Vec2 u = (1 / l) * d;
+    const float s = (leaf.r0 - leaf.r1) / l;
+    const float c = std::sqrt(1 - s * s);
+    return {{leaf.p0, leaf.p1}, {s * u - c * perp(u), s * u + c * perp(u)}, {leaf.r0, leaf.r1}};
+}
+
+/// The surface of a leaf as seen from a point of its body's frame; nothing where the leaf does not face the point.
+template <class R>
+[[nodiscard]] std::optional<Surface<R>> surface_at(const LeafView& v, R px, R py)
+{
+    const Leaf& leaf = *v.leaf;
+    switch (leaf.type) {
+    case LeafType::HalfSpace:
+        return Surface<R>{static_cast<R>(leaf.p0.x) * px + static_cast<R>(leaf.p0.y) * py - leaf.r0, leaf.p0.x, leaf.p0.y, 0, 0};
+    case LeafType::Circle:
+        return surface_of_circle<R>(px, py, leaf.p0.x, leaf.p0.y, leaf.r0, 0);
+    case LeafType::Polygon: {
+        const float radii[2] = {leaf.r0, leaf.r0};
+        return surface_of_hull<R>(v.points, v.normals, radii, leaf.count, px, py);
+    }
+    case LeafType::Capsule: {
+        const CapsuleSides sides = capsule_sides(leaf);
+        return surface_of_hull<R>(sides.points, sides.normals, sides.radii, 2, px, py);
+    }
+    case LeafType::Segment:
+        return surface_of_segment<R>(leaf, px, py);
+    case LeafType::Arc:
+        return surface_of_arc<R>(leaf, px, py);
+    }
+    return std::nullopt;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,525 @@
+// Bodies: making, destroying, and the verbs of carom::Body.
+
+#include "carom/scene.h"
+#include "dynamics/body_store.h"
+#include "dynamics/wake.h"
+#include "scene/access.h"
+
+#include <cmath>
+
+namespace carom {
+
+using namespace internal;
+
+namespace {
+
+bool check_body_def(const BodyDef& def)
+{
+    const Checker check{"Scene::create_body"};
+    return check.finite("BodyDef::position", def.position) && check.finite("BodyDef::angle", def.angle) && check.finite("BodyDef::velocity", def.velocity) &&
+           check.finite("BodyDef::angular_velocity", def.angular_velocity) && check.finite("BodyDef::gravity_scale", def.gravity_scale) &&
+           check.not_negative("BodyDef::linear_damping", def.linear_damping) && check.not_negative("BodyDef::angular_damping", def.angular_damping);
+}
+
+BodySim make_sim(const BodyDef& def)
+{
+    BodySim sim;
+    sim.center = sim.previous_center = def.position;
+    sim.rotation = sim.previous_rotation = Rotation::from_angle(def.angle);
+    if (def.type != BodyType::Static) {
+        sim.velocity = def.velocity;
+        sim.angular_velocity = def.angular_velocity;
+    }
+    sim.gravity_scale = def.gravity_scale;
+    sim.linear_damping = def.linear_damping;
+    sim.angular_damping = def.angular_damping;
+    return sim;
+}
+
+void remove_from_broad_phase(SceneData& data, int body)
+{
+    for_each_leaf(data.state, body, [&](int shape) { data.state.broad_phase.remove(shape); });
+}
+
+} // namespace
+
+BodyId Scene::create_body(const BodyDef& def)
+{
+    if (!check_body_def(def))
+        return {};
+    SceneState& state = m_data->state;
+    BodyRecord record;
+    record.type = def.type;
+    record.locks = def.locks;
+    record.enabled = def.enabled;
+    record.can_sleep = def.can_sleep;
+    const int slot = state.bodies.create(record);
+    const auto index = static_cast<std::size_t>(slot);
+    if (state.sims.size() <= index)
+        state.sims.resize(index + 1);
+    state.sims[index] = make_sim(def);
+    if (m_data->body_extras.size() <= index)
+        m_data->body_extras.resize(index + 1);
+    m_data->body_extras[index] = {def.user_data};
+    update_mass(state, slot);
+    if (def.awake && def.enabled && def.type != BodyType::Static)
+        enter_awake(*m_data, slot);
+    return body_id(state, slot);
+}
+
+void Scene::destroy(BodyId id)
+{
+    if (!check_live(*m_data, "Scene::destroy", "body", id))
+        return;
+    SceneState& state = m_data->state;
+    const int slot = slot_of(id);
+    destroy_contacts_of_body(*m_data, slot);
+    while (state.bodies[slot].first_joint != none)
+        destroy_joint(*m_data, state.bodies[slot].first_joint >> 1);
+    while (state.bodies[slot].first_shape != none)
+        destroy_shape(*m_data, state.bodies[slot].first_shape);
+    leave_awake(*m_data, slot);
+    for (int other = 0; other < state.bodies.capacity(); ++other)
+        state.ignored.erase(pair_key(slot, other));
+    state.bodies.destroy(slot);
+    state.graph_dirty = true;
+}
+
+Body Scene::body(BodyId id)
+{
+    const bool live = check_live(*m_data, "Scene::body", "body", id);
+    return Body(m_data.get(), live ? id : BodyId{});
+}
+
+ConstBody Scene::body(BodyId id) const
+{
+    const bool live = check_live(*m_data, "Scene::body", "body", id);
+    return ConstBody(m_data.get(), live ? id : BodyId{});
+}
+
+namespace {
+
+// References check their id at every call: a body may be destroyed under them.
+const BodyRecord* record_of(const SceneData* data, BodyId id, const char* function)
+{
+    return check_live(*data, function, "body", id) ? &data->state.bodies[slot_of(id)] : nullptr;
+}
+
+const BodySim& sim_of(const SceneData* data, BodyId id, const char* function)
+{
+    static const BodySim nothing{};
+    return check_live(*data, function, "body", id) ? data->state.sims[static_cast<std::size_t>(slot_of(id))] : nothing;
+}
+
+} // namespace
+
+BodyType ConstBody::type() const
+{
+    const BodyRecord* r = record_of(m_data, m_id, "Body::type");
+    return r != nullptr ? r->type : BodyType::Static;
+}
+Pose ConstBody::pose() const { return sim_of(m_data, m_id, "Body::pose").pose(); }
+Position ConstBody::position() const { return sim_of(m_data, m_id, "Body::position").pose().position; }
+Rotation ConstBody::rotation() const { return sim_of(m_data, m_id, "Body::rotation").rotation; }
+float ConstBody::angle() const { return sim_of(m_data, m_id, "Body::angle").rotation.angle(); }
+
+Pose ConstBody::interpolated_pose(float alpha) const
+{
+    const BodySim& sim = sim_of(m_data, m_id, "Body::interpolated_pose");
+    if (!Checker{"Body::interpolated_pose"}.in_range("alpha", alpha, 0, 1))
+        return sim.pose();
+    const float turn = (sim.rotation * inverse(sim.previous_rotation)).angle();
+    BodySim between = sim;
+    between.center = sim.previous_center + alpha * (sim.center - sim.previous_center);
+    between.rotation = Rotation::from_angle(alpha * turn) * sim.previous_rotation;
+    return between.pose();
+}
+
+Position ConstBody::center_of_mass() const { return sim_of(m_data, m_id, "Body::center_of_mass").center; }
+Vec2 ConstBody::local_center_of_mass() const { return sim_of(m_data, m_id, "Body::local_center_of_mass").local_center; }
+Vec2 ConstBody::velocity() const { return sim_of(m_data, m_id, "Body::velocity").velocity; }
+float ConstBody::angular_velocity() const { return sim_of(m_data, m_id, "Body::angular_velocity").angular_velocity; }
+
+Vec2 ConstBody::velocity_at(Position point) const
+{
+    const BodySim& sim = sim_of(m_data, m_id, "Body::velocity_at");
+    if (!Checker{"Body::velocity_at"}.finite("world_point", point))
+        return {};
+    return sim.velocity + cross(sim.angular_velocity, point - sim.center);
+}
+
+float ConstBody::mass() const { return sim_of(m_data, m_id, "Body::mass").mass; }
+float ConstBody::inertia() const { return sim_of(m_data, m_id, "Body::inertia").inertia; }
+
+float ConstBody::kinetic_energy() const
+{
+    const BodySim& sim = sim_of(m_data, m_id, "Body::kinetic_energy");
+    return 0.5f * sim.mass * dot(sim.velocity, sim.velocity) + 0.5f * sim.inertia * sim.angular_velocity * sim.angular_velocity;
+}
+
+float ConstBody::gravity_scale() const { return sim_of(m_data, m_id, "Body::gravity_scale").gravity_scale; }
+float ConstBody::linear_damping() const { return sim_of(m_data, m_id, "Body::linear_damping").linear_damping; }
+float ConstBody::angular_damping() const { return sim_of(m_data, m_id, "Body::angular_damping").angular_damping; }
+
+MotionLocks ConstBody::locks() const
+{
+    const BodyRecord* r = record_of(m_data, m_id, "Body::locks");
+    return r != nullptr ? r->locks : MotionLocks{};
+}
+bool ConstBody::is_enabled() const
+{
+    const BodyRecord* r = record_of(m_data, m_id, "Body::is_enabled");
+    return r != nullptr && r->enabled;
+}
+bool ConstBody::is_awake() const
+{
+    const BodyRecord* r = record_of(m_data, m_id, "Body::is_awake");
+    return r != nullptr && r->awake_index != none;
+}
+bool ConstBody::can_sleep() const
+{
+    const BodyRecord* r = record_of(m_data, m_id, "Body::can_sleep");
+    return r != nullptr && r->can_sleep;
+}
+std::uint64_t ConstBody::user_data() const
+{
+    return record_of(m_data, m_id, "Body::user_data") != nullptr ? m_data->body_extras[static_cast<std::size_t>(slot_of(m_id))].user_data : 0;
+}
+
+Position ConstBody::world_point(Vec2 local) const { return transform(sim_of(m_data, m_id, "Body::world_point").pose(), local); }
+Vec2 ConstBody::local_point(Position world) const { return inverse_transform(sim_of(m_data, m_id, "Body::local_point").pose(), world); }
+
+std::vector<ShapeId> ConstBody::shapes() const
+{
+    std::vector<ShapeId> ids;
+    if (const BodyRecord* r = record_of(m_data, m_id, "Body::shapes")) {
+        for (int shape = r->first_shape; shape != none; shape = m_data->state.shapes[shape].next_shape)
+            ids.push_back(shape_id(m_data->state, shape));
+    }
+    return ids;
+}
+
+std::vector<JointId> ConstBody::joints() const
+{
+    std::vector<JointId> ids;
+    if (const BodyRecord* r = record_of(m_data, m_id, "Body::joints")) {
+        for (int edge = r->first_joint; edge != none; edge = m_data->state.joints[edge >> 1].next[edge & 1])
+            ids.push_back(joint_id(m_data->state, edge >> 1));
+    }
+    return ids;
+}
+
+// ------------------------------------------------------------------------------------------------------------------------------------
+// Verbs
+
+namespace {
+
+// The body behind a verb: its record and sim, where the id is live.
+struct Target
+{
+    SceneData& data;
+    int slot;
+
+    Target(SceneData* d, BodyId id, const char* function) : data(*d), slot(check_live(*d, function, "body", id) ? slot_of(id) : none) {}
+    [[nodiscard]] explicit operator bool() const { return slot != none; }
+    [[nodiscard]] BodyRecord& record() const { return data.state.bodies[slot]; }
+    [[nodiscard]] BodySim& sim() const { return data.state.sims[static_cast<std::size_t>(slot)]; }
+
+    // Wakes for motion given by the user; kinematic bodies too.
+    void wake() const
+    {
+        if (record().type == BodyType::Kinematic && record().enabled)
+            enter_awake(data, slot);
+        wake_body(data, slot);
+    }
+    void wake_neighbours() const
+    {
+        for_each_contact(data.state, slot, [&](int contact) { wake_body(data, other_body(data.state.contacts[contact], slot)); });
+    }
+};
+
+} // namespace
+
+void Body::set_type(BodyType type)
+{
+    const Target t(m_data, m_id, "Body::set_type");
+    if (!t || t.record().type == type)
+        return;
+    if (type != BodyType::Static && type != BodyType::Kinematic) {
+        for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape) {
+            const ShapeRecord& shape = m_data->state.shapes[s];
+            const bool massless = !shape.has_leaf || shape.leaf.type == LeafType::Arc || shape.leaf.type == LeafType::HalfSpace;
+            if (!Checker{"Body::set_type"}.holds(!massless, "type", "Dynamic", "the body has an arc, chain or half-space, which carry no mass"))
+                return;
+        }
+    }
+    if (type == BodyType::Kinematic) {
+        for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape) {
+            if (!Checker{"Body::set_type"}.holds(!m_data->state.shapes[s].has_leaf || m_data->state.shapes[s].leaf.type != LeafType::HalfSpace, "type", "Kinematic",
+                                                 "the body has a half-space, which never moves"))
+                return;
+        }
+    }
+    destroy_contacts_of_body(*m_data, t.slot);
+    leave_awake(*m_data, t.slot);
+    t.record().type = type;
+    t.record().has_target = false;
+    if (type == BodyType::Static) {
+        t.sim().velocity = {};
+        t.sim().angular_velocity = 0;
+    }
+    update_mass(m_data->state, t.slot);
+    if (type != BodyType::Static && t.record().enabled)
+        enter_awake(*m_data, t.slot);
+    refresh_boxes(*m_data, t.slot);
+}
+
+void Body::teleport(Position position, float angle)
+{
+    const Target t(m_data, m_id, "Body::teleport");
+    const Checker check{"Body::teleport"};
+    if (!t || !check.finite("position", position) || !check.finite("angle", angle))
+        return;
+    t.wake_neighbours();
+    BodySim& sim = t.sim();
+    sim.rotation = sim.previous_rotation = Rotation::from_angle(angle);
+    sim.center = sim.previous_center = position + rotate(sim.rotation, sim.local_center);
+    t.record().has_target = false;
+    // Contacts that no longer meet end in the next step; the others are looked at anew, without the impulses of the old place.
+    for_each_contact(m_data->state, t.slot, [&](int index) {
+        Contact& contact = m_data->state.contacts[index];
+        contact.flags |= contact_flag::fresh;
+        contact.flags &= ~(contact_flag::passing | contact_flag::loaded);
+        contact.manifold = {};
+    });
+    refresh_boxes(*m_data, t.slot);
+    t.wake();
+    if (t.record().type == BodyType::Static) {
+        for_each_contact(m_data->state, t.slot, [&](int contact) { wake_body(*m_data, other_body(m_data->state.contacts[contact], t.slot)); });
+    }
+}
+
+void Body::set_target_pose(Position position, float angle)
+{
+    const Target t(m_data, m_id, "Body::set_target_pose");
+    const Checker check{"Body::set_target_pose"};
+    if (!t || !check.finite("position", position) || !check.finite("angle", angle) ||
+        !check.holds(t.record().type == BodyType::Kinematic, "the body", "not kinematic", "only kinematic bodies follow targets"))
+        return;
+    BodySim& sim = t.sim();
+    sim.target_rotation = Rotation::from_angle(angle);
+    sim.target_center = position + rotate(sim.target_rotation, sim.local_center);
+    t.record().has_target = true;
+    t.wake();
+    t.wake_neighbours();
+}
+
+void Body::set_velocity(Vec2 velocity)
+{
+    const Target t(m_data, m_id, "Body::set_velocity");
+    if (!t || !Checker{"Body::set_velocity"}.finite("velocity", velocity) || t.record().type == BodyType::Static)
+        return;
+    if (t.sim().velocity == velocity)
+        return;
+    t.sim().velocity = velocity;
+    t.wake();
+    if (t.record().type == BodyType::Kinematic)
+        t.wake_neighbours();
+}
+
+void Body::set_angular_velocity(float w)
+{
+    const Target t(m_data, m_id, "Body::set_angular_velocity");
+    if (!t || !Checker{"Body::set_angular_velocity"}.finite("radians_per_second", w) || t.record().type == BodyType::Static)
+        return;
+    if (t.sim().angular_velocity == w)
+        return;
+    t.sim().angular_velocity = w;
+    t.wake();
+    if (t.record().type == BodyType::Kinematic)
+        t.wake_neighbours();
+}
+
+void Body::apply_force(Vec2 force, Position point)
+{
+    const Target t(m_data, m_id, "Body::apply_force");
+    const Checker check{"Body::apply_force"};
+    if (!t || !check.finite("force", force) || !check.finite("world_point", point) || t.record().type != BodyType::Dynamic)
+        return;
+    t.sim().force += force;
+    t.sim().torque += cross(point - t.sim().center, force);
+    t.wake();
+}
+
+void Body::apply_force(Vec2 force)
+{
+    const Target t(m_data, m_id, "Body::apply_force");
+    if (!t || !Checker{"Body::apply_force"}.finite("force", force) || t.record().type != BodyType::Dynamic)
+        return;
+    t.sim().force += force;
+    t.wake();
+}
+
+void Body::apply_torque(float torque)
+{
+    const Target t(m_data, m_id, "Body::apply_torque");
+    if (!t || !Checker{"Body::apply_torque"}.finite("torque", torque) || t.record().type != BodyType::Dynamic)
+        return;
+    t.sim().torque += torque;
+    t.wake();
+}
+
+void Body::apply_impulse(Vec2 impulse, Position point)
+{
+    const Target t(m_data, m_id, "Body::apply_impulse");
+    const Checker check{"Body::apply_impulse"};
+    if (!t || !check.finite("impulse", impulse) || !check.finite("world_point", point))
+        return;
+    BodySim& sim = t.sim();
+    sim.velocity += Vec2{sim.inverse_mass.x * impulse.x, sim.inverse_mass.y * impulse.y};
+    sim.angular_velocity += sim.inverse_inertia * cross(point - sim.center, impulse);
+    t.wake();
+}
+
+void Body::apply_impulse(Vec2 impulse)
+{
+    const Target t(m_data, m_id, "Body::apply_impulse");
+    if (!t || !Checker{"Body::apply_impulse"}.finite("impulse", impulse))
+        return;
+    BodySim& sim = t.sim();
+    sim.velocity += Vec2{sim.inverse_mass.x * impulse.x, sim.inverse_mass.y * impulse.y};
+    t.wake();
+}
+
+void Body::apply_angular_impulse(float impulse)
+{
+    const Target t(m_data, m_id, "Body::apply_angular_impulse");
+    if (!t || !Checker{"Body::apply_angular_impulse"}.finite("impulse", impulse))
+        return;
+    t.sim().angular_velocity += t.sim().inverse_inertia * impulse;
+    t.wake();
+}
+
+void Body::set_gravity_scale(float scale)
+{
+    const Target t(m_data, m_id, "Body::set_gravity_scale");
+    if (!t || !Checker{"Body::set_gravity_scale"}.finite("scale", scale))
+        return;
+    t.sim().gravity_scale = scale;
+    t.wake();
+}
+
+void Body::set_linear_damping(float damping)
+{
+    const Target t(m_data, m_id, "Body::set_linear_damping");
+    if (t && Checker{"Body::set_linear_damping"}.not_negative("damping", damping))
+        t.sim().linear_damping = damping;
+}
+
+void Body::set_angular_damping(float damping)
+{
+    const Target t(m_data, m_id, "Body::set_angular_damping");
+    if (t && Checker{"Body::set_angular_damping"}.not_negative("damping", damping))
+        t.sim().angular_damping = damping;
+}
+
+void Body::set_locks(MotionLocks locks)
+{
+    const Target t(m_data, m_id, "Body::set_locks");
+    if (!t)
+        return;
+    t.record().locks = locks;
+    BodySim& sim = t.sim();
+    sim.velocity = {locks.linear_x ? 0 : sim.velocity.x, locks.linear_y ? 0 : sim.velocity.y};
+    sim.angular_velocity = locks.angular ? 0 : sim.angular_velocity;
+    update_inverse_mass(m_data->state, t.slot);
+    t.wake();
+}
+
+void Body::set_mass(const MassData& mass)
+{
+    const Target t(m_data, m_id, "Body::set_mass");
+    const Checker check{"Body::set_mass"};
+    if (!t || !check.positive("MassData::mass", mass.mass) || !check.finite("MassData::center", mass.center) || !check.not_negative("MassData::inertia", mass.inertia) ||
+        !check.holds(t.record().type == BodyType::Dynamic, "the body", "not dynamic", "only dynamic bodies have mass"))
+        return;
+    // The center moves through the same door as when shapes give it: the velocity of the material stays.
+    BodySim& sim = t.sim();
+    const Position center = transform(sim.pose(), mass.center);
+    sim.velocity += cross(sim.angular_velocity, center - sim.center);
+    sim.previous_center += center - sim.center;
+    sim.center = center;
+    sim.local_center = mass.center;
+    sim.mass = mass.mass;
+    sim.inertia = mass.inertia;
+    t.record().mass_overridden = true;
+    update_mass(m_data->state, t.slot);
+    t.wake();
+}
+
+void Body::reset_mass()
+{
+    const Target t(m_data, m_id, "Body::reset_mass");
+    if (!t)
+        return;
+    t.record().mass_overridden = false;
+    update_mass(m_data->state, t.slot);
+    t.wake();
+}
+
+void Body::set_enabled(bool enabled)
+{
+    const Target t(m_data, m_id, "Body::set_enabled");
+    if (!t || t.record().enabled == enabled)
+        return;
+    if (!enabled) {
+        destroy_contacts_of_body(*m_data, t.slot);
+        for (int edge = t.record().first_joint; edge != none; edge = m_data->state.joints[edge >> 1].next[edge & 1]) {
+            const JointRecord& joint = m_data->state.joints[edge >> 1];
+            wake_body(*m_data, joint.body_a == t.slot ? joint.body_b : joint.body_a);
+        }
+        leave_awake(*m_data, t.slot);
+        remove_from_broad_phase(*m_data, t.slot);
+        t.record().enabled = false;
+        return;
+    }
+    t.record().enabled = true;
+    t.sim().previous_center = t.sim().center;
+    t.sim().previous_rotation = t.sim().rotation;
+    for_each_leaf(m_data->state, t.slot, [&](int shape) { add_to_broad_phase(*m_data, shape); });
+    if (t.record().type != BodyType::Static)
+        enter_awake(*m_data, t.slot);
+}
+
+void Body::set_awake(bool awake)
+{
+    const Target t(m_data, m_id, "Body::set_awake");
+    if (!t || !t.record().enabled || t.record().type == BodyType::Static)
+        return;
+    if (awake) {
+        t.wake();
+        return;
+    }
+    for (const std::int32_t body : island_of(m_data->state, t.slot)) {
+        if (internal::is_awake(m_data->state, body))
+            sleep_body(*m_data, body);
+    }
+}
+
+void Body::set_can_sleep(bool can_sleep)
+{
+    const Target t(m_data, m_id, "Body::set_can_sleep");
+    if (!t)
+        return;
+    t.record().can_sleep = can_sleep;
+    if (!can_sleep)
+        t.wake();
+}
+
+void Body::set_user_data(std::uint64_t user_data)
+{
+    if (const Target t(m_data, m_id, "Body::set_user_data"); t)
+        m_data->body_extras[static_cast<std::size_t>(t.slot)].user_data = user_data;
+}
+
+} // namespace carom

@@ -1,0 +1,134 @@
+// The state hash: everything that decides the future, field by field.
+
+#include "carom/scene.h"
+#include "core/hash.h"
+#include "scene/access.h"
+
+namespace carom {
+
+using namespace internal;
+
+namespace {
+
+void add(Hasher& h, Vec2 v)
+{
+    h.add(v.x);
+    h.add(v.y);
+}
+
+void add(Hasher& h, Position p)
+{
+    h.add(p.x);
+    h.add(p.y);
+}
+
+void add(Hasher& h, Rotation q)
+{
+    h.add(q.c);
+    h.add(q.s);
+}
+
+void add(Hasher& h, const FloatBox& b)
+{
+    h.add(b.lx);
+    h.add(b.ly);
+    h.add(b.ux);
+    h.add(b.uy);
+}
+
+void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
+{
+    h.add(static_cast<int>(r.type) | (static_cast<int>(r.enabled) << 2) | (static_cast<int>(r.can_sleep) << 3) | (static_cast<int>(r.has_target) << 4) |
+          (static_cast<int>(r.locks.linear_x) << 5) | (static_cast<int>(r.locks.linear_y) << 6) | (static_cast<int>(r.locks.angular) << 7));
+    h.add(r.awake_index);
+    add(h, s.center);
+    add(h, s.rotation);
+    add(h, s.local_center);
+    add(h, s.velocity);
+    h.add(s.angular_velocity);
+    add(h, s.inverse_mass);
+    h.add(s.inverse_inertia);
+    add(h, s.force);
+    h.add(s.torque);
+    h.add(s.gravity_scale);
+    h.add(s.linear_damping);
+    h.add(s.angular_damping);
+    h.add(s.sleep_time);
+}
+
+void add_shape(Hasher& h, const SceneState& state, int shape)
+{
+    const ShapeRecord& s = state.shapes[shape];
+    h.add(s.body);
+    h.add(s.friction);
+    h.add(s.restitution);
+    h.add(s.kick_ready);
+    h.add(static_cast<int>(s.leaf.type));
+    add(h, s.leaf.p0);
+    add(h, s.leaf.p1);
+    h.add(s.leaf.r0);
+    h.add(s.leaf.r1);
+    if (s.has_leaf && state.broad_phase.has(shape))
+        add(h, state.broad_phase.box(shape));
+}
+
+void add_contact(Hasher& h, const Contact& c)
+{
+    h.add(c.shape_a);
+    h.add(c.shape_b);
+    h.add(static_cast<int>(c.flags));
+    h.add(c.manifold.count);
+    h.add(c.manifold.rolling_impulse);
+    for (int i = 0; i < c.manifold.count; ++i) {
+        h.add(c.manifold.points[i].normal_impulse);
+        h.add(c.manifold.points[i].tangent_impulse);
+        h.add(static_cast<int>(c.manifold.points[i].feature));
+    }
+}
+
+void add_joint(Hasher& h, const JointRecord& j)
+{
+    h.add(static_cast<int>(j.kind));
+    h.add(j.body_a);
+    h.add(j.body_b);
+    h.add(j.lower);
+    h.add(j.upper);
+    h.add(j.motor_speed);
+    h.add(j.max_motor);
+    for (const float impulse : j.impulses)
+        h.add(impulse);
+}
+
+} // namespace
+
+std::uint64_t Scene::state_hash() const
+{
+    const SceneState& state = m_data->state;
+    Hasher h;
+    h.add(state.step_count);
+    h.add(state.accumulator);
+    add(h, state.gravity);
+    for (int i = 0; i < state.bodies.capacity(); ++i) {
+        if (state.bodies.is_live(i))
+            add_body(h, state.bodies[i], state.sims[static_cast<std::size_t>(i)]);
+    }
+    for (int i = 0; i < state.shapes.capacity(); ++i) {
+        if (state.shapes.is_live(i))
+            add_shape(h, state, i);
+    }
+    for (int i = 0; i < state.contacts.capacity(); ++i) {
+        if (state.contacts.is_live(i))
+            add_contact(h, state.contacts[i]);
+    }
+    for (int i = 0; i < state.joints.capacity(); ++i) {
+        if (state.joints.is_live(i))
+            add_joint(h, state.joints[i]);
+    }
+    for (const std::int32_t body : state.awake_bodies)
+        h.add(body);
+    for (const std::int32_t contact : state.awake_contacts)
+        h.add(contact);
+    return h.value();
+}
+
+} // namespace carom

@@ -1,0 +1,288 @@
+// Queries: rays, overlaps, closest points, and the list of contacts. All const; each call keeps its results to itself.
+
+#include "carom/scene.h"
+#include "collision/manifold.h"
+#include "dynamics/body_store.h"
+#include "dynamics/half_space_box.h"
+#include "geometry/bounds.h"
+#include "geometry/ray.h"
+#include "geometry/surface.h"
+#include "scene/access.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+using namespace internal;
+
+namespace {
+
+bool passes(const SceneState& state, int shape, const QueryFilter& filter)
+{
+    const ShapeRecord& s = state.shapes[shape];
+    return (filter.include_triggers || !s.trigger) && (s.filter.category & filter.mask) != 0 && (filter.category & s.filter.mask) != 0;
+}
+
+Pose pose_of(const SceneState& state, int shape) { return state.sims[static_cast<std::size_t>(state.shapes[shape].body)].pose(); }
+
+// Every leaf whose fat box passes the test, half-spaces included; visit returns false to stop.
+template <class Test, class Visit>
+void visit_leaves(const SceneState& state, const QueryFilter& filter, Test&& test, Visit&& visit)
+{
+    const auto filtered = [&](int shape) { return !passes(state, shape, filter) || visit(shape); };
+    for (const std::int32_t shape : state.broad_phase.unbounded()) {
+        if (!filtered(shape))
+            return;
+    }
+    if (state.broad_phase.descend(Layer::Moving, test, filtered))
+        state.broad_phase.descend(Layer::Resting, test, filtered);
+}
+
+template <class Visit>
+void visit_box(const SceneState& state, const QueryFilter& filter, const FloatBox& box, Visit&& visit)
+{
+    visit_leaves(state, filter, [&](const FloatBox& node) { return overlaps(node, box); }, visit);
+}
+
+// Slab test of a box against a ray, conservative in floats.
+struct RayBox
+{
+    double ox;
+    double oy;
+    double dx;
+    double dy;
+    double reach = 1; ///< fraction up to which the ray still matters
+
+    bool operator()(const FloatBox& b) const
+    {
+        double low = 0;
+        double high = reach;
+        return clip(b.lx, b.ux, ox, dx, low, high) && clip(b.ly, b.uy, oy, dy, low, high);
+    }
+    static bool clip(double lower, double upper, double o, double d, double& low, double& high)
+    {
+        if (d == 0)
+            return lower <= o && o <= upper;
+        double t0 = (lower - o) / d;
+        double t1 = (upper - o) / d;
+        if (t0 > t1)
+            std::swap(t0, t1);
+        low = std::max(low, t0);
+        high = std::min(high, t1);
+        return low <= high + 1e-9;
+    }
+};
+
+bool check_ray(const char* function, Position origin, Vec2 translation)
+{
+    const Checker check{function};
+    return check.finite("origin", origin) && check.finite("translation", translation);
+}
+
+std::optional<RayHit> hit_leaf(const SceneState& state, int shape, Position origin, Vec2 translation)
+{
+    const Pose pose = pose_of(state, shape);
+    const std::optional<LeafHit> hit = ray_leaf(leaf_view(state, shape), inverse_transform(pose, origin), inverse_rotate(pose.rotation, translation));
+    if (!hit)
+        return std::nullopt;
+    return RayHit{shape_id(state, shape), origin + hit->fraction * translation, rotate(pose.rotation, hit->normal), hit->fraction};
+}
+
+bool is_nearer(const RayHit& a, const RayHit& b) { return a.fraction != b.fraction ? a.fraction < b.fraction : a.shape < b.shape; }
+
+std::vector<ShapeId> sorted_unique(std::vector<ShapeId> ids)
+{
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+}
+
+std::vector<ShapeId> overlap_leaf(const SceneState& state, const LeafView& leaf, const Pose& pose, const QueryFilter& filter)
+{
+    std::vector<ShapeId> ids;
+    const FloatBox box = round_outwards(leaf_bounds(leaf, pose));
+    visit_box(state, filter, box, [&](int shape) {
+        const LocalManifold m = collide(leaf_view(state, shape), leaf, relative_pose(pose_of(state, shape), pose), 0);
+        if (m.count > 0)
+            ids.push_back(shape_id(state, shape));
+        return true;
+    });
+    return ids;
+}
+
+} // namespace
+
+std::optional<RayHit> Scene::raycast_closest(Position origin, Vec2 translation, const QueryFilter& filter) const
+{
+    if (!check_ray("Scene::raycast_closest", origin, translation))
+        return std::nullopt;
+    const SceneState& state = m_data->state;
+    std::optional<RayHit> best;
+    RayBox ray{origin.x, origin.y, translation.x, translation.y};
+    visit_leaves(state, filter, [&](const FloatBox& b) { return ray(b); }, [&](int shape) {
+        const std::optional<RayHit> hit = hit_leaf(state, shape, origin, translation);
+        if (hit && (!best || is_nearer(*hit, *best))) {
+            best = hit;
+            ray.reach = hit->fraction;
+        }
+        return true;
+    });
+    return best;
+}
+
+std::vector<RayHit> Scene::raycast_all(Position origin, Vec2 translation, const QueryFilter& filter) const
+{
+    std::vector<RayHit> hits;
+    if (!check_ray("Scene::raycast_all", origin, translation))
+        return hits;
+    const SceneState& state = m_data->state;
+    const RayBox ray{origin.x, origin.y, translation.x, translation.y};
+    visit_leaves(state, filter, ray, [&](int shape) {
+        if (const std::optional<RayHit> hit = hit_leaf(state, shape, origin, translation))
+            hits.push_back(*hit);
+        return true;
+    });
+    // Of the pieces of a chain only the nearest hit counts: one hit a shape.
+    std::sort(hits.begin(), hits.end(), is_nearer);
+    std::vector<RayHit> first_hits;
+    for (const RayHit& hit : hits) {
+        if (std::none_of(first_hits.begin(), first_hits.end(), [&](const RayHit& h) { return h.shape == hit.shape; }))
+            first_hits.push_back(hit);
+    }
+    return first_hits;
+}
+
+bool Scene::raycast_any(Position origin, Vec2 translation, const QueryFilter& filter) const
+{
+    if (!check_ray("Scene::raycast_any", origin, translation))
+        return false;
+    const SceneState& state = m_data->state;
+    bool found = false;
+    const RayBox ray{origin.x, origin.y, translation.x, translation.y};
+    visit_leaves(state, filter, ray, [&](int shape) {
+        found = hit_leaf(state, shape, origin, translation).has_value();
+        return !found;
+    });
+    return found;
+}
+
+std::vector<ShapeId> Scene::overlap_point(Position point, const QueryFilter& filter) const
+{
+    std::vector<ShapeId> ids;
+    if (!Checker{"Scene::overlap_point"}.finite("point", point))
+        return ids;
+    const SceneState& state = m_data->state;
+    visit_box(state, filter, round_outwards(point.x, point.y, point.x, point.y), [&](int shape) {
+        const Vec2 local = inverse_transform(pose_of(state, shape), point);
+        const auto surface = surface_at<float>(leaf_view(state, shape), local.x, local.y);
+        if (surface && surface->distance <= 0)
+            ids.push_back(shape_id(state, shape));
+        return true;
+    });
+    return sorted_unique(std::move(ids));
+}
+
+std::vector<ShapeId> Scene::overlap_box(const Box& b, const QueryFilter& filter) const
+{
+    const Checker check{"Scene::overlap_box"};
+    if (!check.finite("box.lower", b.lower) || !check.finite("box.upper", b.upper) ||
+        !check.holds(b.lower.x <= b.upper.x && b.lower.y <= b.upper.y, "box.upper", internal::to_text(b.upper), "must not be below box.lower"))
+        return {};
+    const Position center{0.5 * (b.lower.x + b.upper.x), 0.5 * (b.lower.y + b.upper.y)};
+    // A box without width or height is a very thin one.
+    const Vec2 half = {std::max(static_cast<float>(0.5 * (b.upper.x - b.lower.x)), 1e-5f), std::max(static_cast<float>(0.5 * (b.upper.y - b.lower.y)), 1e-5f)};
+    return overlap_shape(carom::box(half.x, half.y), {center, {}}, filter);
+}
+
+std::vector<ShapeId> Scene::overlap_shape(const Geometry& geometry, const Pose& pose, const QueryFilter& filter) const
+{
+    constexpr const char* function = "Scene::overlap_shape";
+    const Checker check{function};
+    Geometry normal = geometry;
+    if (!check.finite("pose.position", pose.position) || !check.finite("pose.rotation", pose.rotation.c) || !check.finite("pose.rotation", pose.rotation.s) ||
+        !check.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") || !normalize_geometry(function, normal))
+        return {};
+    VertexStore store;
+    std::vector<ShapeId> ids;
+    for (const Leaf& leaf : make_leaves(normal, store)) {
+        const std::vector<ShapeId> found = overlap_leaf(m_data->state, view(leaf, store), pose, filter);
+        ids.insert(ids.end(), found.begin(), found.end());
+    }
+    return sorted_unique(std::move(ids));
+}
+
+std::optional<PointHit> Scene::closest_point(Position point, float max_distance, const QueryFilter& filter) const
+{
+    const Checker check{"Scene::closest_point"};
+    if (!check.finite("point", point) || !check.not_negative("max_distance", max_distance))
+        return std::nullopt;
+    const SceneState& state = m_data->state;
+    std::optional<PointHit> best;
+    const double reach = max_distance;
+    visit_box(state, filter, round_outwards(point.x - reach, point.y - reach, point.x + reach, point.y + reach), [&](int shape) {
+        const Pose pose = pose_of(state, shape);
+        const Vec2 local = inverse_transform(pose, point);
+        const auto s = surface_at<float>(leaf_view(state, shape), local.x, local.y);
+        if (!s || s->distance > max_distance)
+            return true;
+        const Vec2 n = rotate(pose.rotation, {s->nx, s->ny});
+        const PointHit hit{shape_id(state, shape), point - s->distance * n, n, s->distance};
+        if (!best || hit.distance < best->distance || (hit.distance == best->distance && hit.shape < best->shape))
+            best = hit;
+        return true;
+    });
+    return best;
+}
+
+// ------------------------------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+ContactInfo describe(const SceneState& state, const Contact& contact)
+{
+    ContactInfo info;
+    info.shape_a = shape_id(state, contact.shape_a);
+    info.shape_b = shape_id(state, contact.shape_b);
+    info.normal = contact.manifold.normal;
+    info.point_count = contact.manifold.count;
+    info.touching = (contact.flags & contact_flag::touching) != 0;
+    info.color = contact.color;
+    const Position center = state.sims[static_cast<std::size_t>(contact.body_a)].center;
+    for (int i = 0; i < contact.manifold.count; ++i) {
+        const ManifoldPoint& p = contact.manifold.points[i];
+        info.points[i] = {center + p.anchor_a, p.separation, p.total_impulse, p.total_tangent};
+    }
+    return info;
+}
+
+bool is_listed(const Contact& contact) { return (contact.flags & contact_flag::trigger) == 0 && contact.manifold.count > 0; }
+
+} // namespace
+
+std::vector<ContactInfo> Scene::contacts() const
+{
+    std::vector<ContactInfo> list;
+    const SceneState& state = m_data->state;
+    for (int i = 0; i < state.contacts.capacity(); ++i) {
+        if (state.contacts.is_live(i) && is_listed(state.contacts[i]))
+            list.push_back(describe(state, state.contacts[i]));
+    }
+    return list;
+}
+
+std::vector<ContactInfo> ConstBody::contacts() const
+{
+    std::vector<ContactInfo> list;
+    if (!check_live(*m_data, "Body::contacts", "body", m_id))
+        return list;
+    const SceneState& state = m_data->state;
+    for (int edge = state.bodies[slot_of(m_id)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+        const Contact& contact = state.contacts[edge >> 1];
+        if (is_listed(contact) && (contact.flags & contact_flag::touching) != 0)
+            list.push_back(describe(state, contact));
+    }
+    return list;
+}
+
+} // namespace carom
