@@ -51,9 +51,8 @@ public:
     void after_step(Playfield& field) override
     {
         const ConstBody body = field.scene().body(state.body);
-        const float turned = body.angle();
-        report_stop(field, turned / m_stroke);
-        state.angle = m_def.rest + turned;
+        report_stop(field, body.angle() / m_stroke, body.angular_velocity());
+        state.angle = m_def.rest + body.angle();
         state.speed = body.angular_velocity();
     }
 
@@ -100,14 +99,17 @@ private:
         return m_def.coil_torque * (m_def.hold_torque_ratio + (1 - m_def.hold_torque_ratio) * fade);
     }
 
-    void report_stop(Playfield& field, float progress)
+    // The bat may have come to the stop and be on its way back within one step: then it has turned round near it.
+    void report_stop(Playfield& field, float progress, float speed)
     {
-        const int at = progress < 0.01f ? -1 : progress > 0.99f ? 1 : 0;
+        const bool turned_round = state.speed * speed < 0;
+        const float reach = turned_round ? 0.1f : 0.01f;
+        const int at = progress < reach ? -1 : progress > 1 - reach ? 1 : 0;
         if (at != 0 && at != m_at_stop)
             report_hit(
                 field,
                 {.kind = EventKind::FlipperStop, .point = m_def.pivot, .speed = std::abs(state.speed), .value = at == 1 ? 1 : 0});
-        // A bounce off the stop stays silent: the bat has to get half a stroke away before it can strike again.
+        // The bounces after that stay silent: it has to get half a stroke away before it can strike again.
         if (at != 0 || std::abs(progress - 0.5f) < 0.25f)
             m_at_stop = at;
     }

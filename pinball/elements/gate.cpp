@@ -27,12 +27,11 @@ public:
         field.scene().create_shape(body, wire, field.trigger(index));
     }
 
-    void on_enter(Playfield&, Ball& ball) override { m_opened = m_opened || dot(ball.state.velocity, m_def.open_dir) > 0; }
+    void on_enter(Playfield&, Ball& ball) override { m_opened = m_opened || !is_beyond(ball); }
 
     void on_exit(Playfield& field, BodyId, Ball* ball) override
     {
-        const bool beyond = ball && dot(ball->state.position - Position(m_def.a), m_def.open_dir) > 0;
-        if (m_opened && beyond)
+        if (m_opened && ball && is_beyond(*ball))
             report_hit(field, {.kind = EventKind::Passed,
                                .point = ball->state.position,
                                .speed = length(ball->state.velocity),
@@ -50,6 +49,11 @@ public:
     void add_to(Hash& hash) const override { hash.add(m_opened); }
 
 private:
+    [[nodiscard]] bool is_beyond(const Ball& ball) const
+    {
+        return dot(ball.state.position - Position(m_def.a), m_def.open_dir) > 0;
+    }
+
     const Gate& m_def;
     bool m_opened = false;
 };

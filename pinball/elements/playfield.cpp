@@ -181,7 +181,9 @@ void Playfield::strike_balls(Ball& a, Ball& b, const ImpactEvent& impact)
     rub_balls(a.state.rolling, b.state.rolling, impact.normal, room_to_rub(impact, friction, m_table.ball.mass));
     if (impact.approach_speed < quietest_impact)
         return;
-    const bool a_is_hit = a.element != none;
+    // A free ball strikes a captive one; of two captive ones the faster strikes the slower.
+    const bool a_is_slower = std::abs(impact.speed_a) < std::abs(impact.speed_b);
+    const bool a_is_hit = a.element != none && (b.element == none || a_is_slower);
     const Ball& striker = a_is_hit ? b : a;
     emit({.kind = EventKind::Impact,
           .element = a_is_hit ? a.element : b.element,

@@ -30,7 +30,9 @@ inline Table bare_table(float slope_deg = 6.5f, float mu_playfield = 0.12f)
 inline Index add(Table& table, Part part, int score = 0, Index material = wall_material)
 {
     const auto index = static_cast<Index>(table.elements.size());
-    table.elements.push_back({.id = "e" + std::to_string(index), .part = std::move(part), .material = material, .score = score});
+    std::string id = "e";
+    id += std::to_string(index); // a sum here sets off a false warning of g++ 12
+    table.elements.push_back({.id = std::move(id), .part = std::move(part), .material = material, .score = score});
     return index;
 }
 

@@ -1,0 +1,192 @@
+// The whole machine with the table that is shipped: it plays, and the same inputs give the same game.
+
+#include "pinball/game/game.h"
+
+#include "pinball/autoplay/reflex.h"
+#include "pinball/headless/headless.h"
+#include "pinball/headless/run.h"
+#include "pinball/table/loader.h"
+
+#include <gtest/gtest.h>
+
+namespace carom::pinball::test {
+namespace {
+
+const Table& momentum()
+{
+    static const Table table = []
+    {
+        LoadResult result = load_table_file(CAROM_TABLES_DIR "/momentum.table.json");
+        for (const LoadError& error : result.errors)
+            ADD_FAILURE() << to_string(error);
+        return result.table.value();
+    }();
+    return table;
+}
+
+std::vector<Input> recorded_inputs(std::uint64_t seed, int steps)
+{
+    Game game(momentum(), {.seed = seed});
+    ReflexPlayer player(momentum(), seed);
+    std::vector<Input> inputs;
+    for (int i = 0; i < steps; ++i)
+    {
+        inputs.push_back(player.play(game));
+        game.step(inputs.back());
+    }
+    return inputs;
+}
+
+std::uint64_t hash_after(Game& game, const std::vector<Input>& inputs)
+{
+    for (const Input& input : inputs)
+        game.step(input);
+    return game.state_hash();
+}
+
+TEST(Game, WaitsForStartThenServesABallBeforeThePlunger)
+{
+    Game game(momentum());
+    const std::size_t captive = game.balls().size();
+    for (int i = 0; i < 100; ++i)
+        game.step({});
+    EXPECT_EQ(game.phase(), Phase::Attract);
+    EXPECT_EQ(game.balls_served(), 0);
+    game.step({.start = true});
+    for (int i = 0; i < 500; ++i)
+        game.step({});
+    EXPECT_EQ(game.phase(), Phase::Ready);
+    ASSERT_EQ(game.balls().size(), captive + 1);
+    EXPECT_LT(length(game.balls().back().velocity), 0.01f) << "it lies still";
+    EXPECT_EQ(game.ball_number(), 1);
+}
+
+TEST(Game, APlungeBringsTheBallIntoPlay)
+{
+    Game game(momentum());
+    game.step({.start = true});
+    for (int i = 0; i < 300; ++i)
+        game.step({});
+    for (int i = 0; i < 700; ++i)
+        game.step({.plunger = true});
+    for (int i = 0; i < 3000 && game.phase() == Phase::Ready; ++i)
+        game.step({});
+    EXPECT_EQ(game.phase(), Phase::InPlay);
+    EXPECT_GT(game.ball_save_steps(), 0);
+}
+
+TEST(Game, TheSameInputsGiveTheSameGame)
+{
+    const std::vector<Input> inputs = recorded_inputs(5, 20'000);
+    Game a(momentum(), {.seed = 9});
+    Game b(momentum(), {.seed = 9});
+    const std::uint64_t hash = hash_after(a, inputs);
+    EXPECT_EQ(hash_after(b, inputs), hash);
+    a.restart();
+    EXPECT_EQ(a.step_count(), 0);
+    EXPECT_EQ(hash_after(a, inputs), hash) << "also after a restart";
+}
+
+TEST(Game, OtherInputsGiveAnotherGame)
+{
+    std::vector<Input> inputs = recorded_inputs(5, 5000);
+    Game a(momentum());
+    Game b(momentum());
+    const std::uint64_t hash = hash_after(a, inputs);
+    inputs[2000].left = !inputs[2000].left;
+    EXPECT_NE(hash_after(b, inputs), hash);
+}
+
+TEST(Game, EveryElementHasAStateAndALamp)
+{
+    const Game game(momentum());
+    for (Index i = 0; i < momentum().elements.size(); ++i)
+    {
+        (void)game.element(i);
+        EXPECT_EQ(game.lamp(i) == LampState::Blink, false) << momentum().elements[i].id << " blinks before a game";
+    }
+}
+
+TEST(Game, AFinishedGameEntersTheHighScores)
+{
+    Game game(momentum());
+    ReflexPlayer player(momentum(), 3);
+    bool ended = false;
+    for (int i = 0; i < 600'000 && !ended; ++i)
+    {
+        game.step(player.play(game));
+        for (const GameEvent& event : game.events())
+            ended = ended || event.kind == EventKind::GameEnded;
+    }
+    ASSERT_TRUE(ended);
+    EXPECT_GT(game.score(), 0);
+    EXPECT_EQ(game.high_scores().best(), game.score());
+    EXPECT_EQ(game.last_rank(), 0);
+    game.name_last("CRM");
+    EXPECT_EQ(game.high_scores().entries()[0].name, "CRM");
+    game.restart();
+    EXPECT_EQ(game.high_scores().best() > 0, true) << "they stay";
+}
+
+TEST(Headless, TenBallsNeitherEscapeNorGetStuck)
+{
+    HeadlessRun run(momentum(), 11);
+    while (run.stats().balls() < 10)
+        run.step();
+    EXPECT_EQ(run.stats().escaped(), 0);
+    EXPECT_EQ(run.stats().stuck(), 0);
+    EXPECT_GT(run.stats().mean_ball_time(), 5);
+}
+
+TEST(Headless, TheSameSeedGivesTheSameNumbers)
+{
+    std::string numbers[2];
+    for (std::string& text : numbers)
+    {
+        HeadlessRun run(momentum(), 12);
+        while (run.stats().balls() < 3)
+            run.step();
+        run.finish();
+        text = run.stats().to_json("momentum", 12);
+        text = text.substr(text.find("final_hash"));
+    }
+    EXPECT_EQ(numbers[0], numbers[1]);
+    EXPECT_EQ(numbers[0].find("cbf29ce484222325"), std::string::npos) << "nothing was hashed";
+}
+
+BallState ball_at(Position p, int serial = 7) { return {.serial = serial, .position = p}; }
+
+TEST(Judge, SeesBallsOutsideTheOutline)
+{
+    Judge judge(momentum());
+    EXPECT_EQ(judge.look(ball_at({0.25, 0.5}), 1), Verdict::Fine);
+    EXPECT_EQ(judge.look(ball_at({0.25, 1.03}), 1), Verdict::Fine);
+    EXPECT_EQ(judge.look(ball_at({-0.01, 0.5}), 1), Verdict::Escaped);
+    EXPECT_EQ(judge.look(ball_at({0.25, -0.01}), 1), Verdict::Escaped);
+    EXPECT_EQ(judge.look(ball_at({0.02, 1.0}), 1), Verdict::Escaped) << "behind the arch";
+    EXPECT_EQ(judge.look(ball_at({0.25, 1.045}), 1), Verdict::Escaped) << "above it";
+}
+
+TEST(Judge, SeesABallThatDoesNotMoveForTenSeconds)
+{
+    Judge judge(momentum());
+    for (std::int64_t step = 0; step < 9999; ++step)
+        ASSERT_EQ(judge.look(ball_at({0.25 + 0.00001 * static_cast<double>(step % 100), 0.5}), step), Verdict::Fine);
+    EXPECT_EQ(judge.look(ball_at({0.25, 0.5}), 10'000), Verdict::Stuck);
+}
+
+TEST(Judge, DoesNotMindABallThatIsHeldOrWaitsInTheLane)
+{
+    Judge judge(momentum());
+    BallState held = ball_at({0.25, 0.5}, 1);
+    held.held = true;
+    const BallState waiting = ball_at(momentum().ball.spawn, 2);
+    for (std::int64_t step = 0; step < 20'000; ++step)
+    {
+        ASSERT_EQ(judge.look(held, step), Verdict::Fine);
+        ASSERT_EQ(judge.look(waiting, step), Verdict::Fine);
+    }
+}
+
+} // namespace
+} // namespace carom::pinball::test
