@@ -164,8 +164,10 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
 {
     const Axis axis_a = best_axis(a, b);
     const Axis axis_b = best_axis(b, a);
-    // A little in favour of a, so that the choice does not flicker between equals.
-    const float bias = 1e-4f * (std::fabs(axis_a.separation) + 1e-3f);
+    // While they overlap a little in favour of a, so that the choice (and with it the features that carry impulses) does not flicker between
+    // equals: rounding alone tips a stack of boxes.
+    const float edge = length(a.point(a.next(axis_a.edge)) - a.point(axis_a.edge));
+    const float bias = axis_b.separation < 0 ? 2e-4f * edge : 0;
     const bool flipped = axis_b.separation > axis_a.separation + bias;
     const Hull& reference = flipped ? b : a;
     const Hull& incident = flipped ? a : b;

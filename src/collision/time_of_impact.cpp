@@ -130,7 +130,8 @@ constexpr double nearly_touch = 1e-3;
 
 } // namespace
 
-std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame, double duration)
+std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame, double duration,
+                                          double least_approach)
 {
     const Approach approach(ball, radius, leaf, frame, duration);
     double t = 0;
@@ -142,10 +143,14 @@ std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius
             continue;
         }
         const bool near = sight->distance <= (i < max_looks - 1 ? touch : nearly_touch) * radius;
-        if (near && sight->rate < 0)
+        if (near && sight->rate < -least_approach)
             return BallHit{t, sight->nx, sight->ny, sight->curvature, sight->feature};
-        // A step too short to move the clock would look at the same place for ever.
-        t += std::max(next_step(*sight), near ? 1e-6 * duration : 1e-12 * duration);
+        if (near && sight->bend <= 0)
+            return std::nullopt; // touches, does not approach, and nothing will make it
+        // Touching, it cannot approach faster than that before the bend has had its time. A step too short to move the clock would look at
+        // the same place for ever.
+        const double patience = near ? std::max((least_approach + sight->rate) / sight->bend, 1e-6 * duration) : 1e-12 * duration;
+        t += std::max(next_step(*sight), patience);
     }
     return std::nullopt;
 }

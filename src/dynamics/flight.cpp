@@ -25,7 +25,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int impact_limit = 64; // per ball and sub-step
+constexpr int impact_limit = 64;   // per ball and sub-step
+constexpr int settling_rounds = 8;
 
 /// What a ball may hit, where it is and how it moves at a time of the sub-step.
 struct Target
@@ -43,7 +44,7 @@ class Flight
 {
 public:
     Flight(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
-        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit), m_k(k), m_h(ctx.h), m_output(output)
+        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit), m_k(k), m_h(ctx.h), m_tiny(1e-6 * static_cast<double>(ctx.scene.def.length_scale)), m_output(output)
     {
     }
 
@@ -80,7 +81,7 @@ private:
         f.ay = c.acceleration.y;
         f.time = 0;
         f.impacts = 0;
-        f.held = none;
+        f.held_count = 0;
         BodyState& s = state_of(f);
         s.angular_velocity = (s.angular_velocity + m_h * c.angular_acceleration) * c.angular_decay;
     }
@@ -240,12 +241,12 @@ private:
 
     void consider(Flier& f, int shape, int contact)
     {
-        if (shape == f.held)
+        if (holds(f, shape))
             return;
         const Target target = target_at(f, m_state.shapes[shape].body, f.time);
         const double left = std::min(static_cast<double>(m_h), f.event_time) - f.time;
         const CenterPath ball{f.x, f.y, f.vx, f.vy, f.ax, f.ay};
-        const std::optional<BallHit> hit = ball_time_of_impact(ball, radius_of(f), leaf_view(m_state, shape), target.path, left);
+        const std::optional<BallHit> hit = ball_time_of_impact(ball, radius_of(f), leaf_view(m_state, shape), target.path, left, m_tiny);
         if (!hit || f.time + hit->time >= f.event_time)
             return;
         // The ball is b as the material sees it: the normal runs from the shape to the ball.
@@ -293,7 +294,15 @@ private:
         advance(f, time);
         if (other != nullptr)
             advance(*other, time);
+        // A few rounds between two holds settle how they share; after that, what holds the ball keeps holding it.
+        if (f.impacts < settling_rounds) {
+            release(f);
+            if (other != nullptr)
+                release(*other);
+        }
         collide_ball(f, other);
+        if (other != nullptr && holds(f, f.event_shape))
+            add_hold(*other, f.shape);
         path_changed(f.state);
         path_changed(f.event_state);
         const std::int32_t struck = other == nullptr ? f.event_state : none;
@@ -305,6 +314,24 @@ private:
         find_next_event(f);
         if (struck != none)
             reconsider_neighbours(struck);
+    }
+
+    [[nodiscard]] static bool holds(const Flier& f, int shape)
+    {
+        return std::find(f.held, f.held + f.held_count, shape) != f.held + f.held_count;
+    }
+    static void add_hold(Flier& f, int shape)
+    {
+        if (!holds(f, shape) && f.held_count < Flier::most_held)
+            f.held[f.held_count++] = shape;
+    }
+
+    // Pushed anew: what held it may be in the way again, or left behind.
+    void release(Flier& f)
+    {
+        f.held_count = 0;
+        f.ax = constants_of(f.state).acceleration.x;
+        f.ay = constants_of(f.state).acceleration.y;
     }
 
     // Other balls near a struck body of the solver's may now meet it sooner.
@@ -389,15 +416,14 @@ private:
         // What presses the ball on: acceleration, and the bend of the surface under its slide.
         const double slide = (f.vx - tvx) * -f.ny + (f.vy - tvy) * f.nx;
         const double pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny - f.curvature * slide * slide;
-        const double tiny = 1e-6 * static_cast<double>(m_ctx.scene.def.length_scale);
-        if (impact.kick == 0 && flier_at(f.event_state) == nullptr && impact.e * impact.u <= std::max(0.5 * pressing * static_cast<double>(m_h), 0.0) + tiny)
+        if (impact.kick == 0 && impact.e * impact.u <= std::max(0.5 * pressing * static_cast<double>(m_h), 0.0) + m_tiny)
             hold(f, impact, pressing);
     }
 
     void hold(Flier& f, Impact& impact, double pressing)
     {
         impact.e = 0;
-        f.held = f.event_shape;
+        add_hold(f, f.event_shape);
         if (pressing > 0) { // the surface takes the part of the acceleration that presses
             const double an = f.ax * f.nx + f.ay * f.ny;
             f.ax -= an * f.nx;
@@ -539,7 +565,7 @@ private:
         s.velocity = {static_cast<float>(f.vx), static_cast<float>(f.vy)};
         s.delta_position = {static_cast<float>(f.x), static_cast<float>(f.y)};
         s.delta_rotation = Rotation::from_angle(m_h * s.angular_velocity) * s.delta_rotation;
-        if (f.held != none)
+        if (f.held_count > 0)
             land(f);
     }
 
@@ -588,6 +614,7 @@ private:
     const Unit& m_unit;
     int m_k;
     float m_h;
+    double m_tiny; ///< approach that is rounding, m/s
     UnitOutput& m_output;
 };
 

@@ -247,7 +247,7 @@ private:
         BodyState& b = m_view.states[row.b];
         const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
         const float wanted = e * std::max(p.approach, 0.0f) + kick;
-        const float impulse = std::max(p.normal_mass * (wanted - dot(v, row.n)), -p.normal_impulse);
+        const float impulse = wanted > 0 ? std::max(p.normal_mass * (wanted - dot(v, row.n)), -p.normal_impulse) : 0;
         apply_impulse(a, m_view.constants[row.a], p.ra, -impulse * row.n);
         apply_impulse(b, m_view.constants[row.b], p.rb, impulse * row.n);
         const float total = p.normal_impulse + impulse;

@@ -39,9 +39,9 @@ struct BallHit
     int feature;
 };
 
-/// The first time in [0, duration] at which the ball touches the leaf and approaches it. Balls that overlap and approach hit at 0; what
+/// The first time in [0, duration] at which the ball touches the leaf and approaches it faster than least_approach. Balls that overlap and approach hit at 0; what
 /// touches and separates does not hit until it comes back.
 [[nodiscard]] std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame,
-                                                         double duration);
+                                                         double duration, double least_approach);
 
 } // namespace carom::internal

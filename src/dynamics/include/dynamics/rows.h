@@ -98,7 +98,9 @@ struct Flier
     std::int32_t state = none;
     std::int32_t body = none;
     std::int32_t shape = none;
-    std::int32_t held = none;     ///< shape it came to rest against in this sub-step
+    static constexpr int most_held = 4;
+    std::int32_t held[most_held] = {none, none, none, none}; ///< shapes it came to rest against in this sub-step
+    std::int32_t held_count = 0;
     double x = 0;                 ///< center, relative to the body's center at the start of the step
     double y = 0;
     double vx = 0;
