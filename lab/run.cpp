@@ -1,12 +1,12 @@
 #include "lab/run.h"
 
-#include <algorithm>
+#include <chrono>
 
 namespace carom::lab {
 namespace {
 
 // A scene too heavy for real time runs slower instead of locking the window up.
-constexpr int most_steps_a_frame = 8;
+constexpr std::chrono::milliseconds most_work_a_frame{25};
 
 } // namespace
 
@@ -30,9 +30,16 @@ void Run::advance(double seconds)
     if (paused)
         return;
     const auto h = static_cast<double>(m_entry->h);
-    m_waiting = std::min(m_waiting + seconds * speed, h * most_steps_a_frame);
-    for (; m_waiting >= h; m_waiting -= h)
+    const auto end = std::chrono::steady_clock::now() + most_work_a_frame;
+    for (m_waiting += seconds * speed; m_waiting >= h; m_waiting -= h)
+    {
+        if (std::chrono::steady_clock::now() > end)
+        {
+            m_waiting = 0;
+            return;
+        }
         step();
+    }
 }
 
 float Run::alpha() const { return paused ? 1 : static_cast<float>(m_waiting / static_cast<double>(m_entry->h)); }

@@ -12,8 +12,9 @@ BuiltScene kinematic_bar(const SceneDef& base)
     add_trough(scene, 10, 10);
     const BodyId bar = scene.create_body({.type = BodyType::Kinematic, .position = {-4, 4}, .angular_velocity = 3});
     scene.create_shape(bar, Capsule{{-3, 0}, {3, 0}, 0.2f, 0.2f});
-    const BodyId piston = scene.create_body({.type = BodyType::Kinematic, .position = {9, 0.8}});
-    scene.create_shape(piston, box(0.5f, 0.7f));
+    const BodyId piston = scene.create_body({.type = BodyType::Kinematic, .position = {12.5, 0.8}});
+    // So long that its tail never leaves the wall: nothing gets behind it and is squeezed on its way back.
+    scene.create_shape(piston, box(3, 0.7f));
     Random random(3);
     for (int i = 0; i < 60; ++i)
         add_dynamic(scene, {-9 + 0.9 * (i % 20), 8.5 + 0.8 * (i / 20)}, Circle{.radius = random.in(0.2f, 0.35f)},
@@ -24,7 +25,7 @@ BuiltScene kinematic_bar(const SceneDef& base)
         const float phase = static_cast<float>(s.step_count() % 240) / 240;
         const float out = phase < 0.5f ? phase * 2 : 2 - phase * 2;
         const float eased = out * out * (3 - 2 * out);
-        s.body(piston).set_target_pose({9.0 - 5.0 * static_cast<double>(eased), 0.8}, 0);
+        s.body(piston).set_target_pose({12.5 - 5.0 * static_cast<double>(eased), 0.8}, 0);
     };
     return built;
 }

@@ -89,8 +89,14 @@ BuiltScene many_sizes(const SceneDef& base)
         add_dynamic(scene, {-8.2 + 1.49 * i, 11.5 + 0.5 * (i % 2)}, box(0.4f, 0.25f));
     for (int i = 0; i < 60; ++i)
         add_dynamic(scene, {-8.6 + 0.29 * i, 13.2}, Circle{.radius = random.in(0.03f, 0.1f)});
+    // The smallest have a roof of their own: what weighs thousands of times as much would press them into the floor.
+    const BodyId bay = scene.create_body({.position = {10.5, 0}});
+    for (const Vec2 at : {Vec2{0, -0.1f}, Vec2{0, 0.5f}})
+        scene.create_shape(bay, box(0.6f, 0.1f, at));
+    for (const float x : {-0.55f, 0.55f})
+        scene.create_shape(bay, box(0.05f, 0.2f, {x, 0.2f}));
     for (int i = 0; i < 300; ++i)
-        add_dynamic(scene, {-4.5 + 0.03 * (i % 20), 0.006 + 0.012 * (i / 20)}, Circle{.radius = 0.005f});
+        add_dynamic(scene, {10.2 + 0.012 * (i % 20) + random.in(0, 0.001f), 0.05 + 0.012 * (i / 20)}, Circle{.radius = 0.005f});
     return built;
 }
 
@@ -103,7 +109,7 @@ constexpr SceneEntry entries[] = {
     {.name = "many_sizes",
      .description = "Balls from 5 mm to 5 m in one trough: a factor of a thousand.",
      .create = many_sizes,
-     .view = {{-11, -1}, {11, 15}}},
+     .view = {{-10.5, -1}, {12, 15}}},
 };
 
 } // namespace

@@ -14,7 +14,17 @@ BuiltScene box_stack(const SceneDef& base, int count)
 }
 
 BuiltScene stack(const SceneDef& base) { return box_stack(base, 10); }
-BuiltScene tall_stack(const SceneDef& base) { return box_stack(base, 50); }
+
+// A column of soft contacts buckles like a reed where n³ > 7.8 k w²/4 / (m g), with k = m (2 pi hertz)² for both points
+// of a contact: at the default of 30 Hz from 20 boxes on, at 240 Hz from 77. Sub-steps must follow: a contact is no stiffer
+// than a quarter of their rate.
+BuiltScene tall_stack(const SceneDef& base)
+{
+    SceneDef def = base;
+    def.contact_hertz = 240;
+    def.substeps = 16;
+    return box_stack(def, 50);
+}
 
 // Boxes of 1 m with gaps of 5 cm beside each other, so that neighbours in a row do not lean on each other.
 BuiltScene box_pyramid(const SceneDef& base, int rows)
@@ -36,7 +46,7 @@ constexpr SceneEntry entries[] = {
      .create = stack,
      .view = {{-8, -1}, {8, 11}}},
     {.name = "tall_stack",
-     .description = "Fifty boxes: the whole weight rests on the lowest contact.",
+     .description = "Fifty boxes: contacts must be stiff, or the column buckles like a reed.",
      .create = tall_stack,
      .view = {{-35, -2}, {35, 52}}},
     {.name = "small_pyramid", .description = "A pyramid of five rows.", .create = small_pyramid, .view = {{-6, -1}, {6, 6}}},

@@ -61,7 +61,7 @@ void add_rolling(Scene& scene, Position at, float speed)
     scene.body(ball).set_angular_velocity(-speed / 0.3f);
 }
 
-/// A loop for a ball, a half-pipe of lines and arcs, and a closed track: no seam is felt.
+/// A loop for a ball, a half-pipe of lines and arcs, and a ring of four arcs.
 BuiltScene arc_loop(const SceneDef& base)
 {
     SceneDef def = base;
@@ -78,12 +78,14 @@ BuiltScene arc_loop(const SceneDef& base)
     add_static(scene, half_pipe, track);
     add_dynamic(scene, {-1.7, 4.5}, Circle{.radius = 0.3f}, track);
 
-    const Chain stadium{.start = {8, 1},
-                        .pieces = {{{11, 1}, 0}, {{11, 5}, pi}, {{8, 5}, 0}, {{8, 1}, pi}},
-                        .closed = true,
-                        .sides = Sides::Left};
-    add_static(scene, stadium, track);
-    add_rolling(scene, {9.5, 1.3}, 9);
+    // A full circle of four arcs: a ball that keeps to it passes a seam in each quarter.
+    const float quarter = pi / 2;
+    const Chain ring{.start = {10, 0.5f},
+                     .pieces = {{{12.5f, 3}, quarter}, {{10, 5.5f}, quarter}, {{7.5f, 3}, quarter}, {{10, 0.5f}, quarter}},
+                     .closed = true,
+                     .sides = Sides::Left};
+    add_static(scene, ring, track);
+    add_rolling(scene, {10, 0.8}, 10);
     return built;
 }
 
@@ -97,7 +99,7 @@ constexpr SceneEntry entries[] = {
      .create = one_way_and_conveyor,
      .view = {{-11, -1}, {11, 9}}},
     {.name = "arc_loop",
-     .description = "Balls in a loop, a half-pipe and a closed track of true arcs.",
+     .description = "Balls in a loop, a half-pipe and a ring of four arcs: no seam is felt.",
      .create = arc_loop,
      .h = 1.0f / 240,
      .frames = 2400,

@@ -59,15 +59,15 @@ TEST(Stack, FallsAsleepAndWakesWhenHit)
     EXPECT_EQ(run.awake(), 10);
 }
 
-TEST(TallStack, StandsForTenSeconds)
+TEST(TallStack, StandsForTenSecondsWithoutSleep)
 {
     SceneRun run("tall_stack", {.sleeping = false});
     const auto start = positions(run);
     run.seconds(10);
     const Drift drift = worst_drift(run, start);
-    EXPECT_LT(drift.x, 0.5);
-    EXPECT_LT(drift.y, 0.5);
-    EXPECT_LT(drift.angle, 0.05f);
+    EXPECT_LT(drift.x, 0.05);
+    EXPECT_LT(drift.y, 0.1);
+    EXPECT_LT(drift.angle, 0.01f);
 }
 
 class Pyramid : public testing::TestWithParam<const char*>
