@@ -33,7 +33,7 @@ public:
     [[nodiscard]] float alpha() const;
     [[nodiscard]] const std::deque<StageTimes>& history() const { return m_history; }
     view::SubstepScrubber scrubber;
-    view::ImpactWatch impacts;
+    view::ImpactWatch impacts{view::kind_name};
 
 private:
     const scenes::SceneEntry* m_entry;

@@ -183,6 +183,18 @@ std::string number(float value)
     return sign + text;
 }
 
+std::string kind_name(const Scene& scene, ShapeId shape)
+{
+    static constexpr const char* names[] = {"ball", "polygon", "capsule", "wall", "arc", "rail", "floor"};
+    const ConstShape s = scene.shape(shape);
+    const Geometry geometry = s.geometry();
+    const auto* polygon = std::get_if<Polygon>(&geometry);
+    std::string name = polygon != nullptr && polygon->vertices.size() == 4 ? "box" : names[geometry.index()];
+    if (scene.body(s.body()).type() != BodyType::Static)
+        name += ' ' + std::to_string(s.body().slot);
+    return name;
+}
+
 ImpactRecord record_impact(const Scene& scene, const ImpactEvent& event, const ShapeNamer& namer)
 {
     return {event, party(scene, event.body_a, event.shape_a, "A", namer), party(scene, event.body_b, event.shape_b, "B", namer),

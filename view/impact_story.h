@@ -36,6 +36,9 @@ struct ImpactRecord
 /// Names a shape for the reader ("ball", "left flipper").
 using ShapeNamer = std::function<std::string(const Scene&, ShapeId)>;
 
+/// Names by what they are and, where they can be pushed, by which: "ball 12", "box 3", "floor".
+[[nodiscard]] std::string kind_name(const Scene& scene, ShapeId shape);
+
 /// Call right after the step in which the event happened.
 [[nodiscard]] ImpactRecord record_impact(const Scene& scene, const ImpactEvent& event, const ShapeNamer& namer = {});
 

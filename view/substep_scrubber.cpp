@@ -57,7 +57,7 @@ void SubstepScrubber::widgets()
 {
     if (empty())
     {
-        ImGui::TextWrapped("No sub-steps yet: take one step.");
+        ImGui::TextWrapped("Nothing moved in the last step, or there was none yet.");
         return;
     }
     int index = m_selected;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace carom::view {
 
@@ -35,10 +36,10 @@ namespace {
 
 Pen role_pen(DrawRole role, float width = 1.25f) { return {role_color(role), width}; }
 
-float strongest_impulse(const Scene& scene)
+float strongest_impulse(const std::vector<ContactInfo>& contacts)
 {
     float strongest = 0;
-    for (const ContactInfo& contact : scene.contacts())
+    for (const ContactInfo& contact : contacts)
         for (int i = 0; i < contact.point_count; ++i)
             strongest = std::max(strongest, contact.points[i].normal_impulse);
     return strongest;
@@ -49,7 +50,10 @@ float strongest_impulse(const Scene& scene)
 DebugDrawOptions XrayOverlay::options(const Canvas& canvas, const Scene& scene)
 {
     // The scale follows the strongest impulse and forgets it slowly: arrows neither fill the screen nor vanish.
-    m_strongest = std::max(strongest_impulse(scene), m_strongest * 0.98f);
+    const std::vector<ContactInfo> contacts = scene.contacts();
+    m_strongest = std::max(strongest_impulse(contacts), m_strongest * 0.98f);
+    // In a crowd, smaller dots: the picture below must show through.
+    m_dot = contacts.size() > 120 ? 1.8f : 3;
     return {.shapes = toggles.outlines,
             .joints = toggles.joints,
             .triggers = toggles.triggers,
@@ -133,8 +137,8 @@ void XrayOverlay::line(DrawRole role, Position a, Position b)
 void XrayOverlay::point(DrawRole role, Position p)
 {
     const float pixel = m_canvas->camera().meters(1);
-    m_canvas->fill_circle(p, 4 * pixel, rgb(0x000000, 0.6f));
-    m_canvas->fill_circle(p, 3 * pixel, role_color(role));
+    m_canvas->fill_circle(p, (m_dot + 1) * pixel, rgb(0x000000, 0.6f));
+    m_canvas->fill_circle(p, m_dot * pixel, role_color(role));
 }
 
 void XrayOverlay::text(DrawRole role, Position p, std::string_view utf8)

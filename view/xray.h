@@ -53,6 +53,7 @@ private:
     void outline(DrawRole role, Path path);
     Canvas* m_canvas = nullptr;
     float m_strongest = 0; ///< N s, fades
+    float m_dot = 3;       ///< radius of points, points
 };
 
 /// The colour of a role in the overlay.

@@ -161,6 +161,14 @@ TEST_F(XrayTest, ScrubberDrawsGhostsAndTakesPartInAnyFrame)
     EXPECT_GT(ghosts(), 0);
 }
 
+TEST_F(XrayTest, KindNamesTellWhatAndWhich)
+{
+    const auto name = [&](BodyId body) { return kind_name(scene, scene.body(body).shapes()[0]); };
+    EXPECT_EQ(name(ball), "ball " + std::to_string(ball.slot));
+    EXPECT_EQ(name(flyer), "box " + std::to_string(flyer.slot));
+    EXPECT_EQ(name(scene.bodies()[0]), "floor");
+}
+
 // A real impact, told: the formula gives what the engine gave.
 TEST(ImpactOfAScene, IsRecordedAndItsFormulaHolds)
 {
