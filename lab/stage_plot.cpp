@@ -24,14 +24,14 @@ constexpr Stage stages[] = {
     {"events", &StageTimes::events, view::rgb(0x868e96)},
 };
 
-// The 98th percentile: one slow step (the first, or another program) does not flatten the rest.
+// Twice the median: a few slow steps (the first, or another program's turn) do not flatten the rest.
 float scale_of(const std::deque<StageTimes>& history)
 {
     std::vector<float> totals;
     for (const StageTimes& t : history)
         totals.push_back(t.total);
     std::ranges::sort(totals);
-    return totals.empty() ? 1 : std::max(totals[(totals.size() - 1) * 98 / 100] * 1.15f, 1e-3f);
+    return totals.empty() ? 1 : std::max(totals[totals.size() / 2] * 2, 1e-3f);
 }
 
 void column(ImDrawList& list, const StageTimes& times, ImVec2 foot, float width, float height, float scale)
