@@ -76,6 +76,20 @@ void update_mass(SceneState& state, int body)
     for_each_leaf(state, body, [&](int shape) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, shape), sim.local_center)); });
 }
 
+void include_mass(SceneState& state, int body, int shape)
+{
+    if (state.bodies[body].type == BodyType::Dynamic) {
+        update_mass(state, body);
+        return;
+    }
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    const auto include = [&](int leaf) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, leaf), sim.local_center)); };
+    if (state.shapes[shape].has_leaf)
+        include(shape);
+    for (int piece = state.shapes[shape].has_leaf ? none : state.shapes[shape].next_piece; piece != none; piece = state.shapes[piece].next_piece)
+        include(piece);
+}
+
 FloatBox fat_box(const SceneData& scene, int shape)
 {
     const SceneState& state = scene.state;

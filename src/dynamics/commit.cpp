@@ -146,10 +146,10 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
                                              body_id(state, state.shapes[touch.shape_b].body), touch.time});
             continue;
         }
-        Contact& contact = ctx.state.contacts[touch.contact];
+        const Contact& contact = ctx.state.contacts[touch.contact];
         const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
         if (m.count == 0)
-            end_touch(ctx.scene, contact, ctx.scene.events, ctx.dt);
+            end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
     }
 }
 
@@ -159,9 +159,11 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
     for (const ContactRow& row : output.late_rows)
         commit_row(ctx, row);
     for (const RawTouch& t : output.begins) {
+        ctx.state.graph_dirty = true;
+        if (t.contact != none && touches_elsewhere(state, t.contact))
+            continue;
         ctx.scene.events.begins.push_back({shape_id(state, t.shape_a), shape_id(state, t.shape_b), body_id(state, state.shapes[t.shape_a].body),
                                            body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
-        ctx.state.graph_dirty = true;
     }
     for (const RawImpact& raw : output.impacts) {
         ImpactEvent event = raw.event;

@@ -165,12 +165,35 @@ void create_contact(SceneData& scene, int shape_a, int shape_b)
     }
 }
 
-void end_touch(SceneData& scene, Contact& contact, Events& events, float time)
+bool touches_elsewhere(const SceneState& state, int index)
 {
+    const Contact& contact = state.contacts[index];
+    const int owner_a = state.shapes[contact.shape_a].owner;
+    const int owner_b = state.shapes[contact.shape_b].owner;
+    if (owner_a == contact.shape_a && owner_b == contact.shape_b)
+        return false;
+    // The body without the chain has the shorter list.
+    const int body = owner_a == contact.shape_a ? contact.body_a : contact.body_b;
+    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+        const Contact& other = state.contacts[edge >> 1];
+        if ((edge >> 1) != index && (other.flags & contact_flag::touching) != 0 && state.shapes[other.shape_a].owner == owner_a &&
+            state.shapes[other.shape_b].owner == owner_b)
+            return true;
+    }
+    return false;
+}
+
+void end_touch(SceneData& scene, int index, Events& events, float time)
+{
+    const SceneState& state = scene.state;
+    Contact& contact = scene.state.contacts[index];
     if ((contact.flags & contact_flag::touching) == 0)
         return;
     contact.flags &= ~contact_flag::touching;
-    const SceneState& state = scene.state;
+    if ((contact.flags & contact_flag::trigger) == 0)
+        scene.state.graph_dirty = true;
+    if (touches_elsewhere(state, index))
+        return;
     const ShapeId a = shape_id(state, contact.shape_a);
     const ShapeId b = shape_id(state, contact.shape_b);
     const BodyId body_a = body_id(state, contact.body_a);
@@ -179,14 +202,13 @@ void end_touch(SceneData& scene, Contact& contact, Events& events, float time)
         events.exits.push_back({a, b, body_a, body_b, time});
     } else {
         events.ends.push_back({a, b, body_a, body_b, time});
-        scene.state.graph_dirty = true;
     }
 }
 
 void destroy_contact(SceneData& scene, int index, Events& events, float time)
 {
     SceneState& state = scene.state;
-    end_touch(scene, state.contacts[index], events, time);
+    end_touch(scene, index, events, time);
     remove_awake_contact(state, index);
     unlink_contact(state, index);
     state.pairs.erase(pair_key(state.contacts[index].shape_a, state.contacts[index].shape_b));

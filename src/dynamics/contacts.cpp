@@ -32,7 +32,11 @@ Manifold world_manifold(const SceneState& state, const Contact& contact, const B
 
 void carry_impulses(const Manifold& old, Manifold& fresh)
 {
-    fresh.rolling_impulse = fresh.count > 0 ? old.rolling_impulse : 0;
+    fresh.rolling_impulse = old.rolling_impulse;
+    if (fresh.count == 0) { // kept for the next piece of the chain, should the ball have rolled over to it
+        fresh.points[0].normal_impulse = old.points[0].normal_impulse;
+        fresh.points[0].tangent_impulse = old.points[0].tangent_impulse;
+    }
     for (int i = 0; i < fresh.count; ++i) {
         for (int j = 0; j < old.count; ++j) {
             if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1)) {
@@ -88,43 +92,74 @@ bool should_touch(const StepContext& ctx, const Contact& contact)
     return least_separation(contact.manifold) <= limit;
 }
 
-void begin_touch(StepContext& ctx, Contact& contact)
+// A ball that rolled over a seam brings the load it had on the piece before.
+void inherit_load(StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
+    const bool piece_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
+    const int piece = piece_is_a ? contact.shape_a : contact.shape_b;
+    const int visitor = piece_is_a ? contact.shape_b : contact.shape_a;
+    if (state.shapes[piece].owner == piece || (contact.flags & contact_flag::loaded) != 0)
+        return;
+    for_each_contact(state, state.shapes[visitor].body, [&](int other_index) {
+        Contact& other = state.contacts[other_index];
+        const int other_piece = piece_is_a ? other.shape_a : other.shape_b;
+        const int other_visitor = piece_is_a ? other.shape_b : other.shape_a;
+        if (other_visitor != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner || (other.flags & contact_flag::loaded) == 0 ||
+            other.manifold.count > 0)
+            return;
+        contact.flags |= contact_flag::loaded;
+        other.flags &= ~contact_flag::loaded;
+        contact.manifold.rolling_impulse = other.manifold.rolling_impulse;
+        contact.manifold.points[0].normal_impulse = other.manifold.points[0].normal_impulse;
+        contact.manifold.points[0].tangent_impulse = other.manifold.points[0].tangent_impulse;
+    });
+}
+
+void begin_touch(StepContext& ctx, int index)
+{
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
     contact.flags |= contact_flag::touching;
     state.graph_dirty = true;
+    inherit_load(ctx, index);
+    wake_body(ctx.scene, contact.body_a);
+    wake_body(ctx.scene, contact.body_b);
+    if (touches_elsewhere(state, index))
+        return;
     const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
     ctx.scene.events.begins.push_back({shape_id(state, contact.shape_a), shape_id(state, contact.shape_b), body_id(state, contact.body_a),
                                        body_id(state, contact.body_b), point, contact.manifold.normal, 0});
-    wake_body(ctx.scene, contact.body_a);
-    wake_body(ctx.scene, contact.body_b);
 }
 
-// A ball that will hit a sleeper in this step wakes it before the units are built.
-bool will_hit(const StepContext& ctx, const Contact& contact)
+// Something fast that may hit a sleeper in this step wakes it before the units are built.
+bool may_hit(const StepContext& ctx, const Contact& contact)
 {
     const bool moves = motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) > ctx.scene.tolerances.speculation;
-    return moves && contact.manifold.count > 0;
+    return moves && contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
 }
 
-void settle_contact(StepContext& ctx, int index)
+void begin_or_wake(StepContext& ctx, int index)
 {
-    SceneState& state = ctx.state;
-    if (!boxes_meet(state, state.contacts[index].shape_a, state.contacts[index].shape_b)) {
-        destroy_contact(ctx.scene, index, ctx.scene.events, 0);
-        return;
-    }
-    Contact& contact = state.contacts[index];
+    Contact& contact = ctx.state.contacts[index];
     contact.flags &= ~contact_flag::fresh;
-    const bool touches = should_touch(ctx, contact);
-    if (touches && (contact.flags & contact_flag::touching) == 0) {
-        begin_touch(ctx, contact);
-    } else if (!touches && (contact.flags & contact_flag::touching) != 0) {
-        end_touch(ctx.scene, contact, ctx.scene.events, 0);
-    } else if (will_hit(ctx, contact) && (contact.flags & contact_flag::passing) == 0) {
+    const bool touching = (contact.flags & contact_flag::touching) != 0;
+    if (!touching && should_touch(ctx, contact)) {
+        begin_touch(ctx, index);
+    } else if (may_hit(ctx, contact)) {
         wake_body(ctx.scene, contact.body_a);
         wake_body(ctx.scene, contact.body_b);
     }
+}
+
+void end_or_destroy(StepContext& ctx, int index)
+{
+    const Contact& contact = ctx.state.contacts[index];
+    if (!boxes_meet(ctx.state, contact.shape_a, contact.shape_b))
+        destroy_contact(ctx.scene, index, ctx.scene.events, 0);
+    else if (!should_touch(ctx, contact))
+        end_touch(ctx.scene, index, ctx.scene.events, 0);
 }
 
 } // namespace
@@ -134,12 +169,14 @@ void update_contacts(StepContext& ctx)
     SceneState& state = ctx.state;
     for (const std::int32_t index : state.awake_contacts)
         update_manifold(ctx, state.contacts[index]);
-    // Settling may destroy contacts and wake others, which changes the list: go through a copy. Woken contacts keep the manifold they
-    // slept with; it is still true.
+    // Waking and destroying change the list: go through a copy. Woken contacts keep the manifold they slept with; it is still true.
+    // Begins come first, so that a chain left over one piece and touched over the next is never let go.
     std::vector<std::int32_t>& order = ctx.scratch.order;
     order.assign(state.awake_contacts.begin(), state.awake_contacts.end());
     for (const std::int32_t index : order)
-        settle_contact(ctx, index);
+        begin_or_wake(ctx, index);
+    for (const std::int32_t index : order)
+        end_or_destroy(ctx, index);
     ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
     ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
 }

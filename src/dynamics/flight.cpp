@@ -360,6 +360,7 @@ private:
         double arm_y = 0;
         double speed_target = 0;
         double energy_lost = 0;
+        double pressing = 0; ///< acceleration towards the surface, its bend included
     };
 
     void collide_ball(Flier& f, Flier* other)
@@ -415,20 +416,26 @@ private:
             m_output.kicked_shapes.push_back(f.event_shape);
         // What presses the ball on: acceleration, and the bend of the surface under its slide.
         const double slide = (f.vx - tvx) * -f.ny + (f.vy - tvy) * f.nx;
-        const double pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny - f.curvature * slide * slide;
-        if (impact.kick == 0 && impact.e * impact.u <= std::max(0.5 * pressing * static_cast<double>(m_h), 0.0) + m_tiny)
-            hold(f, impact, pressing);
+        impact.pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny - f.curvature * slide * slide;
+        if (impact.kick == 0 && impact.e * impact.u <= std::max(0.5 * impact.pressing * static_cast<double>(m_h), 0.0) + m_tiny)
+            hold(f, impact);
     }
 
-    void hold(Flier& f, Impact& impact, double pressing)
+    void hold(Flier& f, Impact& impact)
     {
         impact.e = 0;
         add_hold(f, f.event_shape);
-        if (pressing > 0) { // the surface takes the part of the acceleration that presses
+        f.hold_curvature = target_is_still(f) ? f.curvature : 0;
+        if (impact.pressing > 0) { // the surface takes the part of the acceleration that presses
             const double an = f.ax * f.nx + f.ay * f.ny;
             f.ax -= an * f.nx;
             f.ay -= an * f.ny;
         }
+    }
+
+    [[nodiscard]] bool target_is_still(const Flier& f) const
+    {
+        return m_state.bodies[m_state.shapes[f.event_shape].body].awake_index == none;
     }
 
     void apply_friction(Flier& f, Flier* other, const Target& target, Impact& impact)
@@ -540,7 +547,8 @@ private:
         e.effective_mass_b = ball_is_a ? mass_target : mass_ball;
         const std::int32_t shape_a = ball_is_a ? f.shape : f.event_shape;
         const std::int32_t shape_b = ball_is_a ? f.event_shape : f.shape;
-        if (impact.u > static_cast<double>(m_ctx.scene.tolerances.rest_speed)) {
+        // Slower than what presses the ball on gives in a sub-step is settling, not an impact.
+        if (impact.u > std::max(static_cast<double>(m_ctx.scene.tolerances.rest_speed), impact.pressing * static_cast<double>(m_h))) {
             m_output.impacts.push_back({shape_a, shape_b, e});
             ++m_output.flight_impacts;
         }
@@ -560,13 +568,32 @@ private:
         if (f.landed)
             return;
         if (f.impacts < impact_limit)
-            advance(f, m_h);
+            f.held_count == 1 && f.hold_curvature != 0 ? slide_around(f, m_h) : advance(f, m_h);
         BodyState& s = state_of(f);
         s.velocity = {static_cast<float>(f.vx), static_cast<float>(f.vy)};
         s.delta_position = {static_cast<float>(f.x), static_cast<float>(f.y)};
         s.delta_rotation = Rotation::from_angle(m_h * s.angular_velocity) * s.delta_rotation;
         if (f.held_count > 0)
             land(f);
+    }
+
+    // Held by a curved surface: around its center of curvature, at the speed that the tangential acceleration gives.
+    static void slide_around(Flier& f, double time)
+    {
+        const double t = time - f.time;
+        const double radius = 1 / f.hold_curvature; // negative on the hollow side: the center lies ahead along n
+        const double tx = -f.ny;
+        const double ty = f.nx;
+        const double speed = f.vx * tx + f.vy * ty;
+        const double pull = f.ax * tx + f.ay * ty;
+        const SinCos turn = sin_cos((speed * t + 0.5 * pull * t * t) / radius);
+        const double nx = turn.cos * f.nx - turn.sin * f.ny;
+        const double ny = turn.sin * f.nx + turn.cos * f.ny;
+        f.x += radius * (nx - f.nx);
+        f.y += radius * (ny - f.ny);
+        f.vx = -(speed + pull * t) * ny;
+        f.vy = (speed + pull * t) * nx;
+        f.time = time;
     }
 
     // From now on the solver has the ball: rows for everything near it.

@@ -140,10 +140,39 @@ private:
         return {sim.center + s.delta_position + ahead * s.velocity, q * sim.rotation, sim.local_center};
     }
 
-    [[nodiscard]] Manifold manifold_of(const ContactRow& row, float ahead) const
+    [[nodiscard]] Manifold manifold_of(int index, const ContactRow& row, float ahead) const
     {
-        const Contact& contact = m_ctx.state.contacts[row.contact];
+        const Contact& contact = m_ctx.state.contacts[index];
         return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, row.a, ahead), pose_of(contact.body_b, row.b, ahead), 1e9f);
+    }
+
+    struct Facing
+    {
+        int contact;
+        Manifold manifold;
+    };
+
+    // The contact through which the row's shapes face each other now: a ball that rolls over a seam changes from piece to piece.
+    [[nodiscard]] Facing facing(const ContactRow& row, float ahead) const
+    {
+        const SceneState& state = m_ctx.state;
+        Facing best{row.contact, manifold_of(row.contact, row, ahead)};
+        const Contact& contact = state.contacts[row.contact];
+        const bool chain_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
+        const int piece = chain_is_a ? contact.shape_a : contact.shape_b;
+        const int visitor = chain_is_a ? contact.shape_b : contact.shape_a;
+        if (best.manifold.count == 1 || state.shapes[piece].owner == piece)
+            return best;
+        for (int edge = state.bodies[state.shapes[visitor].body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+            const Contact& other = state.contacts[edge >> 1];
+            const int other_piece = chain_is_a ? other.shape_a : other.shape_b;
+            if ((chain_is_a ? other.shape_b : other.shape_a) != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner)
+                continue;
+            const Manifold m = manifold_of(edge >> 1, row, ahead);
+            if (m.count == 1 && (best.manifold.count != 1 || m.points[0].separation < best.manifold.points[0].separation))
+                best = {edge >> 1, m};
+        }
+        return best;
     }
 
     // The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
@@ -167,7 +196,7 @@ private:
         const float reach = m_ctx.h * (length(b.velocity - a.velocity) + std::fabs(a.angular_velocity) * length(p.ra));
         if (now > reach)
             return;
-        const Manifold ahead = manifold_of(row, m_ctx.h);
+        const Manifold ahead = facing(row, m_ctx.h).manifold;
         if (ahead.count != 1 || dot(ahead.normal, row.n) < 0.5f)
             return;
         const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
@@ -186,10 +215,25 @@ private:
     {
         if (row.refreshed == 0 || row.count != 1)
             return;
-        Manifold m = manifold_of(row, 0);
-        if (m.count != 1)
+        const Facing now = facing(row, 0);
+        if (now.manifold.count != 1)
             return;
-        set_row_geometry(m_scratch, row, m);
+        if (now.contact != row.contact && has_row(now.contact)) {
+            row.count = 0; // rolled over to a piece that has its own row
+            return;
+        }
+        set_row_geometry(m_scratch, row, now.manifold);
+        if (now.contact == row.contact)
+            return;
+        m_ctx.state.contacts[now.contact].color = m_ctx.state.contacts[row.contact].color;
+        m_ctx.state.contacts[row.contact].color = none;
+        row.contact = now.contact;
+    }
+
+    [[nodiscard]] bool has_row(int contact)
+    {
+        const auto is_it = [&](const ContactRow& row) { return row.contact == contact; };
+        return std::any_of(m_rows.begin(), m_rows.end(), is_it) || std::any_of(m_output.late_rows.begin(), m_output.late_rows.end(), is_it);
     }
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ BodyPose pose_along(const StepContext& ctx, int body, float time)
 class TriggerUpdate
 {
 public:
-    TriggerUpdate(StepContext& ctx, Contact& contact) : m_ctx(ctx), m_state(ctx.state), m_contact(contact) {}
+    TriggerUpdate(StepContext& ctx, int contact) : m_ctx(ctx), m_state(ctx.state), m_index(contact), m_contact(ctx.state.contacts[contact]) {}
 
     void run()
     {
@@ -55,7 +55,7 @@ public:
                 enter_at(std::min(enter, m_ctx.dt));
         }
         if (!is_inside && (m_contact.flags & contact_flag::touching) != 0)
-            end_touch(m_ctx.scene, m_contact, m_ctx.scene.events, std::clamp(m_ctx.dt - first_touch(true), 0.0f, m_ctx.dt));
+            end_touch(m_ctx.scene, m_index, m_ctx.scene.events, std::clamp(m_ctx.dt - first_touch(true), 0.0f, m_ctx.dt));
         m_contact.flags &= ~contact_flag::fresh;
     }
 
@@ -63,6 +63,8 @@ private:
     void enter_at(float time)
     {
         m_contact.flags |= contact_flag::touching;
+        if (touches_elsewhere(m_state, m_index))
+            return;
         m_ctx.scene.events.enters.push_back({shape_id(m_state, m_contact.shape_a), shape_id(m_state, m_contact.shape_b), body_id(m_state, m_contact.body_a),
                                              body_id(m_state, m_contact.body_b), time});
     }
@@ -152,6 +154,7 @@ private:
 
     StepContext& m_ctx;
     SceneState& m_state;
+    int m_index;
     Contact& m_contact;
 };
 
@@ -167,7 +170,7 @@ void update_triggers(StepContext& ctx)
         const bool moves = is_awake(state, contact.body_a) || is_awake(state, contact.body_b);
         if (!moves && (contact.flags & contact_flag::fresh) == 0)
             continue;
-        TriggerUpdate(ctx, contact).run();
+        TriggerUpdate(ctx, index).run();
         if ((contact.flags & contact_flag::touching) == 0 && !boxes_meet(state, contact.shape_a, contact.shape_b))
             destroy_contact(ctx.scene, index, ctx.scene.events, ctx.dt);
     }

@@ -79,7 +79,7 @@ void Scene::destroy(BodyId id)
     while (state.bodies[slot].first_shape != none)
         destroy_shape(*m_data, state.bodies[slot].first_shape);
     leave_awake(*m_data, slot);
-    for (int other = 0; other < state.bodies.capacity(); ++other)
+    for (int other = 0; other < state.bodies.capacity() && !state.ignored.empty(); ++other)
         state.ignored.erase(pair_key(slot, other));
     state.bodies.destroy(slot);
     state.graph_dirty = true;

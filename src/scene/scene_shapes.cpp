@@ -146,10 +146,16 @@ void remove_leaves(SceneData& data, int shape)
 void unlink_shape(SceneData& data, int shape)
 {
     SceneState& state = data.state;
-    std::int32_t* link = &state.bodies[state.shapes[shape].body].first_shape;
-    while (*link != shape)
+    BodyRecord& body = state.bodies[state.shapes[shape].body];
+    int before = none;
+    std::int32_t* link = &body.first_shape;
+    while (*link != shape) {
+        before = *link;
         link = &state.shapes[*link].next_shape;
+    }
     *link = state.shapes[shape].next_shape;
+    if (body.last_shape == shape)
+        body.last_shape = before;
 }
 
 void destroy_shape(SceneData& data, int shape)
@@ -180,15 +186,14 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     const int slot = state.shapes.create(record);
     state.shapes[slot].owner = slot;
     // At the end of the body's list, so that shapes keep the order they were made in.
-    std::int32_t* link = &state.bodies[body_slot].first_shape;
-    while (*link != none)
-        link = &state.shapes[*link].next_shape;
-    *link = slot;
+    BodyRecord& owner = state.bodies[body_slot];
+    (owner.last_shape == none ? owner.first_shape : state.shapes[owner.last_shape].next_shape) = slot;
+    owner.last_shape = slot;
     add_leaves(*m_data, slot, normal);
     if (m_data->shape_extras.size() < static_cast<std::size_t>(state.shapes.capacity()))
         m_data->shape_extras.resize(static_cast<std::size_t>(state.shapes.capacity()));
     m_data->shape_extras[static_cast<std::size_t>(slot)] = {def.user_data, std::move(normal), std::nullopt};
-    update_mass(state, body_slot);
+    include_mass(state, body_slot, slot);
     wake_body(*m_data, body_slot);
     return shape_id(state, slot);
 }

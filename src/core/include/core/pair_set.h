@@ -21,6 +21,7 @@ namespace carom::internal {
 class PairSet
 {
 public:
+    [[nodiscard]] bool empty() const { return m_count == 0; }
     [[nodiscard]] bool contains(std::uint64_t key) const { return m_count > 0 && m_keys[find(key)] == key; }
 
     /// True when the key was not there before.
@@ -42,36 +43,36 @@ public:
             return;
         std::size_t hole = find(key);
         const std::size_t mask = m_keys.size() - 1;
-        for (std::size_t i = (hole + 1) & mask; m_keys[i] != empty; i = (i + 1) & mask) {
+        for (std::size_t i = (hole + 1) & mask; m_keys[i] != vacant; i = (i + 1) & mask) {
             const std::size_t home = home_of(m_keys[i]);
             if (((i - home) & mask) >= ((i - hole) & mask)) {
                 m_keys[hole] = m_keys[i];
                 hole = i;
             }
         }
-        m_keys[hole] = empty;
+        m_keys[hole] = vacant;
         --m_count;
     }
 
 private:
-    static constexpr std::uint64_t empty = ~std::uint64_t{0};
+    static constexpr std::uint64_t vacant = ~std::uint64_t{0};
 
     [[nodiscard]] std::size_t home_of(std::uint64_t key) const { return mix_bits(key) & (m_keys.size() - 1); }
 
     [[nodiscard]] std::size_t find(std::uint64_t key) const
     {
         std::size_t i = home_of(key);
-        while (m_keys[i] != empty && m_keys[i] != key)
+        while (m_keys[i] != vacant && m_keys[i] != key)
             i = (i + 1) & (m_keys.size() - 1);
         return i;
     }
 
     void grow()
     {
-        std::vector<std::uint64_t> old(m_keys.empty() ? 16 : m_keys.size() * 2, empty);
+        std::vector<std::uint64_t> old(m_keys.empty() ? 16 : m_keys.size() * 2, vacant);
         old.swap(m_keys);
         for (std::uint64_t key : old) {
-            if (key != empty)
+            if (key != vacant)
                 m_keys[find(key)] = key;
         }
     }

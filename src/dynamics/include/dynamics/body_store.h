@@ -26,6 +26,9 @@ void for_each_leaf(const SceneState& state, int body, Visit&& visit)
 /// The velocity of the centre follows when the centre moves.
 void update_mass(SceneState& state, int body);
 
+/// The same after one shape was added: a static body with a million shapes does not look at all of them again.
+void include_mass(SceneState& state, int body, int shape);
+
 /// Inverse masses alone, after a change of type or locks.
 void update_inverse_mass(SceneState& state, int body);
 

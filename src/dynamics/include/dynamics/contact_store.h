@@ -40,7 +40,10 @@ void for_each_contact(SceneState& state, int body, Visit&& visit)
 
 [[nodiscard]] inline int other_body(const Contact& contact, int body) { return contact.body_a == body ? contact.body_b : contact.body_a; }
 
-void end_touch(SceneData& scene, Contact& contact, Events& events, float time);
+/// Pieces of a chain are one shape to the user: does another contact of the same two public shapes touch (or, of a trigger, hold inside)?
+[[nodiscard]] bool touches_elsewhere(const SceneState& state, int contact);
+
+void end_touch(SceneData& scene, int contact, Events& events, float time);
 
 /// Public ids of slots.
 [[nodiscard]] BodyId body_id(const SceneState& state, int slot);

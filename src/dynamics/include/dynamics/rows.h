@@ -101,6 +101,7 @@ struct Flier
     static constexpr int most_held = 4;
     std::int32_t held[most_held] = {none, none, none, none}; ///< shapes it came to rest against in this sub-step
     std::int32_t held_count = 0;
+    double hold_curvature = 0;    ///< of the surface that holds it, if that does not move
     double x = 0;                 ///< center, relative to the body's center at the start of the step
     double y = 0;
     double vx = 0;

@@ -27,6 +27,7 @@ struct BodyRecord
     bool has_target = false;          ///< kinematic: BodySim::target is to be reached in the next step
     std::int32_t awake_index = none;  ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
+    std::int32_t last_shape = none;
     std::int32_t first_joint = none;  ///< edge: joint * 2 + side
     std::int32_t first_contact = none;///< edge: contact * 2 + side
     std::int32_t island = none;       ///< label: the least body of the island, valid while awake
