@@ -205,11 +205,19 @@ void apply_spring(const SolverView& view, JointRecord& joint, const JointWork& w
     const float m = bodies.mass(row);
     if (!(m > 0))
         return;
-    // A quarter leaves room for several springs on one body: the sum of h q over a body must stay below 1.
-    const bool soft = view.h * view.h * joint.stiffness <= 0.25f * m;
+    // h q, about h² k / m, summed over the springs of a body must stay below 1.
+    const bool soft = view.h * view.h * joint.stiffness * static_cast<float>(work.spring_count) <= 0.9f * m;
     const SpringStep s = soft ? fitted_spring(joint.stiffness, joint.damping, m, view.h) : implicit_spring(joint.stiffness, joint.damping, m, view.h);
     joint.impulses[slot_spring] = m * ((s.p - 1) * bodies.speed(row) - s.q * row.error);
     bodies.apply(row, joint.impulses[slot_spring]);
+}
+
+int count_springs(const SceneState& state, int body)
+{
+    int count = 0;
+    for (int edge = body == none ? none : state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
+        count += state.joints[edge >> 1].kind == JointType::Spring ? 1 : 0;
+    return count;
 }
 
 } // namespace
@@ -221,6 +229,8 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     work.joint = index;
     work.a = a;
     work.b = b;
+    if (joint.kind == JointType::Spring)
+        work.spring_count = std::max(count_springs(ctx.state, joint.body_a), count_springs(ctx.state, joint.body_b));
     const auto place = [&](int body, Vec2 anchor, Vec2& arm, Rotation& q) {
         if (body == none) {
             arm = {};

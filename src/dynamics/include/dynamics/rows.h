@@ -82,6 +82,7 @@ struct JointWork
     std::int32_t joint = none;
     std::int32_t a = 0;
     std::int32_t b = 0;
+    std::int32_t spring_count = 0; ///< springs on the body that has most, where this is one
     Vec2 ra0{};              ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};            ///< slider's axis at the start of the step
