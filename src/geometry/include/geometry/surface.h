@@ -162,11 +162,11 @@ template <class R>
     const R ex = static_cast<R>(b.x) - a.x;
     const R ey = static_cast<R>(b.y) - a.y;
     const R along = ex * (px - a.x) + ey * (py - a.y);
-    // Deep inside, corners do not matter: the way out is over an edge.
-    const bool deep = best + (ra < rb ? ra : rb) <= 0;
-    if (!deep && along < 0)
+    // Inside a polygon's core the way out is over an edge. (A capsule has no inside between its edges: ahead of its ends both are behind.)
+    const bool inside = count > 2 && best + ra <= 0;
+    if (!inside && along < 0)
         return *surface_of_circle<R>(px, py, points[edge].x, points[edge].y, ra, count + edge);
-    if (!deep && along > ex * ex + ey * ey)
+    if (!inside && along > ex * ex + ey * ey)
         return *surface_of_circle<R>(px, py, points[next].x, points[next].y, rb, count + next);
     return {best, n.x, n.y, 0, edge};
 }
