@@ -24,6 +24,25 @@ TEST(Bumper, KicksWhatArrivesFastEnough)
     EXPECT_EQ(field.state(bumper).hits, 1);
 }
 
+TEST(Bumper, AddsNoMoreEnergyThanItsKickBrings)
+{
+    Table table = bare_table(0, 0);
+    table.materials[wall_material] = {.name = "ring", .restitution = 0.3f, .friction = 0.3f};
+    add(table, Bumper{.pos = {1, 1}, .radius = 0.0245f, .kick_speed = 1, .threshold = 0.06f, .cooldown = 0.05f});
+    for (const float speed : {0.1f, 0.5f, 1.0f, 2.0f, 4.0f})
+        for (const float offset : {0.0f, 0.01f, 0.02f, 0.03f})
+        {
+            Playfield field(table, 1);
+            shoot(field, {1 + offset, 1.1f}, {0, -speed});
+            if (!run_until(field, EventKind::Fired, 1500))
+                continue; // a graze
+            run(field, 2);
+            const float after = dot(ball(field).velocity, ball(field).velocity);
+            EXPECT_LE(after, speed * speed + 1 + 2 * speed) << speed << " at " << offset;
+            EXPECT_GE(std::sqrt(after), 0.5f) << speed << " at " << offset;
+        }
+}
+
 TEST(Bumper, LeavesASlowBallAlone)
 {
     Table table = bare_table(0, 0);

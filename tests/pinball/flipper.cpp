@@ -101,6 +101,36 @@ TEST(Flipper, StrokeOfTheTableTakes21MillisecondsAndEndsAt108RadiansPerSecond)
     EXPECT_LE(s.end_speed, 108.0f);
 }
 
+/// Seconds until the bat has turned by most of its stroke, between the steps where need be.
+float time_to_turn(float step, float angle)
+{
+    Flipper def = plain_flipper();
+    def.coil_rise = 0.015f;
+    Table table = bare_table();
+    table.physics.step = step;
+    const Index index = add(table, def);
+    Playfield field(table, 1);
+    float before = 0;
+    for (int i = 1; i < 500; ++i)
+    {
+        field.step(both);
+        const float turned = field.state(index).angle - def.rest;
+        if (turned >= angle)
+            return step * (static_cast<float>(i) - (turned - angle) / (turned - before));
+        before = turned;
+    }
+    return 0;
+}
+
+TEST(Flipper, StrokeTakesTheSameTimeAtOneTwoAndFourKilohertz)
+{
+    const float angle = radians(45);
+    const float fine = time_to_turn(0.00025f, angle);
+    EXPECT_GT(fine, 0.018f);
+    EXPECT_NEAR(time_to_turn(0.001f, angle), fine, 0.01f * fine);
+    EXPECT_NEAR(time_to_turn(0.0005f, angle), fine, 0.01f * fine);
+}
+
 TEST(Flipper, ReturnsSlowerThanItStrikesAndRestsOnItsStop)
 {
     Table table = bare_table();

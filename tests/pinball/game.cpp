@@ -75,6 +75,51 @@ TEST(Game, APlungeBringsTheBallIntoPlay)
     EXPECT_GT(game.ball_save_steps(), 0);
 }
 
+/// How far up the table a ball comes that is launched with this share of a full pull.
+double height_of_plunge(float share)
+{
+    Game game(momentum());
+    game.step({.start = true});
+    for (int i = 0; i < 300; ++i)
+        game.step({});
+    const int pull = static_cast<int>(share * 0.05f / 0.09f * 1000);
+    for (int i = 0; i < pull; ++i)
+        game.step({.plunger = true});
+    double highest = 0;
+    for (int i = 0; i < 1500; ++i)
+    {
+        game.step({});
+        highest = std::max(highest, game.balls().back().position.y);
+    }
+    return highest;
+}
+
+TEST(Game, APlungeReachesTheTopFromSixTenthsOfAPull)
+{
+    EXPECT_LT(height_of_plunge(0.2f), 0.8);
+    EXPECT_GT(height_of_plunge(0.6f), 0.95);
+    EXPECT_GT(height_of_plunge(1.0f), 0.99);
+}
+
+TEST(Game, ABallThatFallsBackCanBePlungedAgain)
+{
+    Game game(momentum());
+    game.step({.start = true});
+    for (int i = 0; i < 300; ++i)
+        game.step({});
+    for (int i = 0; i < 150; ++i)
+        game.step({.plunger = true});
+    for (int i = 0; i < 5000; ++i)
+        game.step({});
+    EXPECT_EQ(game.phase(), Phase::Ready);
+    EXPECT_LT(game.balls().back().position.y, 0.08) << "it lies on the rod again";
+    for (int i = 0; i < 700; ++i)
+        game.step({.plunger = true});
+    for (int i = 0; i < 1500; ++i)
+        game.step({});
+    EXPECT_EQ(game.phase(), Phase::InPlay);
+}
+
 TEST(Game, TheSameInputsGiveTheSameGame)
 {
     const std::vector<Input> inputs = recorded_inputs(5, 20'000);
