@@ -1,0 +1,204 @@
+#include "pinball/player/app.h"
+
+#include "pinball/player/keys.h"
+#include "pinball/player/palette.h"
+#include "pinball/player/sounds.h"
+#include "pinball/player/stage.h"
+#include "pinball/player/step_clock.h"
+
+#include <SDL_timer.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace carom::pinball {
+
+namespace {
+
+constexpr double slow_motion = 0.02;
+constexpr double table_poll_ms = 400;
+
+class App
+{
+public:
+    explicit App(const PlayerOptions& options)
+        : m_options(options),
+          m_machine(options.table_file(), options.seed, options.autoplay, true),
+          m_window({.title = "Carom: " + m_machine.game().table().name,
+                    .width = options.width,
+                    .height = options.height,
+                    .fullscreen = options.fullscreen,
+                    .background = palette::room}),
+          m_clock(static_cast<double>(m_machine.game().table().physics.step) * 1000)
+    {
+        m_sounds.sink().set_muted(options.mute);
+        set_xray(options.xray);
+        m_clock.skip_to(now_ms());
+    }
+
+    int run()
+    {
+        const double start = now_ms();
+        const auto ends = [&] { return m_options.seconds > 0 && now_ms() - start >= m_options.seconds * 1000; };
+        while (!ends() && m_window.begin_frame())
+        {
+            for (const SDL_Event& event : m_window.events())
+                handle(event);
+            poll_table();
+            advance();
+            draw();
+            m_window.end_frame();
+        }
+        return m_options.screenshot.empty() ? 0 : photograph();
+    }
+
+private:
+    // SDL stamps events with the same clock, in whole milliseconds.
+    static double now_ms() { return static_cast<double>(SDL_GetTicks64()); }
+
+    void handle(const SDL_Event& event)
+    {
+        if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_FOCUS_LOST)
+            m_buttons.release_all();
+        if (event.type == SDL_CONTROLLERDEVICEADDED)
+            SDL_GameControllerOpen(event.cdevice.which);
+        if (const auto press = button_of(event))
+            m_buttons.push(static_cast<double>(event.common.timestamp), press->button, press->down, press->source);
+        if (const auto wish = wish_of(event))
+            obey(*wish);
+    }
+
+    void obey(Wish wish)
+    {
+        view::SoundSink& sink = m_sounds.sink();
+        switch (wish)
+        {
+        case Wish::Pause: m_paused = !m_paused; break;
+        case Wish::Restart: restart(); break;
+        case Wish::Mute: sink.set_muted(!sink.is_muted()); break;
+        case Wish::Quieter: sink.set_volume(std::max(0.0f, sink.volume() - 0.1f)); break;
+        case Wish::Louder: sink.set_volume(std::min(1.0f, sink.volume() + 0.1f)); break;
+        case Wish::Xray: set_xray(!m_xray); break;
+        case Wish::Fullscreen: m_window.toggle_fullscreen(); break;
+        case Wish::Quit: m_window.request_quit(); break;
+        default:
+            if (m_xray)
+                obey_xray(wish);
+        }
+    }
+
+    void obey_xray(Wish wish)
+    {
+        view::SubstepScrubber& scrubber = m_machine.scrubber;
+        if (wish == Wish::SlowMotion)
+        {
+            m_speed = m_speed < 1 ? 1 : slow_motion;
+            m_paused = false;
+            return;
+        }
+        m_paused = true;
+        if (wish == Wish::SingleStep)
+            step(m_buttons.advance_to(now_ms()));
+        else
+            scrubber.select(scrubber.selected() + (wish == Wish::SubstepForth ? 1 : -1));
+        if (wish == Wish::SingleStep)
+            m_machine.look_into_step();
+    }
+
+    void restart()
+    {
+        m_machine.restart();
+        m_sounds.sink().stop_all();
+        m_paused = false;
+        // R starts the game that it promises.
+        m_buttons.push(now_ms(), Button::Start, true, restart_source);
+        m_buttons.push(now_ms() + 5, Button::Start, false, restart_source);
+    }
+
+    void set_xray(bool on)
+    {
+        m_xray = on;
+        m_machine.record_substeps(on);
+        if (!on)
+            m_speed = 1;
+    }
+
+    void poll_table()
+    {
+        if (now_ms() < m_next_poll)
+            return;
+        m_next_poll = now_ms() + table_poll_ms;
+        m_machine.poll_table();
+    }
+
+    void step(const Input& input)
+    {
+        m_machine.step(input);
+        m_sounds.hear(m_machine.game());
+    }
+
+    void advance()
+    {
+        if (m_paused)
+            return m_clock.skip_to(now_ms());
+        m_clock.begin_frame(now_ms(), m_speed);
+        bool stepped = false;
+        while (m_clock.take_step())
+        {
+            step(m_buttons.advance_to(m_clock.step_end_ms()));
+            stepped = true;
+        }
+        if (stepped)
+            m_machine.look_into_step();
+    }
+
+    void draw()
+    {
+        const view::SoundSink& sink = m_sounds.sink();
+        m_sounds.frame(m_machine.game(), !m_paused);
+        draw_frame(m_window, m_machine, m_xray_panel,
+                   {.alpha = m_paused ? 1 : m_clock.alpha(),
+                    .xray = m_xray,
+                    .status = {.time = now_ms() / 1000,
+                               .paused = m_paused,
+                               .speed = m_speed,
+                               .muted = sink.is_muted(),
+                               .volume = sink.volume(),
+                               .why_mute = sink.why_mute()}});
+    }
+
+    int photograph()
+    {
+        view::Image image;
+        // Sizes of text that are asked for in one frame are baked before the next.
+        for (int i = 0; i < 3 && m_window.begin_frame(); ++i)
+        {
+            draw();
+            m_window.end_frame(&image);
+        }
+        if (view::save_png(image, m_options.screenshot))
+            return 0;
+        std::fprintf(stderr, "carom-pinball: cannot write %s\n", m_options.screenshot.c_str());
+        return 1;
+    }
+
+    static constexpr int restart_source = 31;
+
+    PlayerOptions m_options;
+    Machine m_machine;
+    view::Window m_window;
+    Sounds m_sounds{};
+    StepClock m_clock;
+    ButtonTimeline m_buttons{};
+    XrayPanel m_xray_panel{};
+    bool m_xray = false;
+    bool m_paused = false;
+    double m_speed = 1;
+    double m_next_poll = 0;
+};
+
+} // namespace
+
+int run_app(const PlayerOptions& options) { return App(options).run(); }
+
+} // namespace carom::pinball

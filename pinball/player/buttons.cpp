@@ -1,0 +1,47 @@
+#include "pinball/player/buttons.h"
+
+namespace carom::pinball {
+
+void ButtonTimeline::push(double time_ms, Button button, bool down, int source)
+{
+    m_waiting.push_back({time_ms, button, down, source});
+}
+
+void ButtonTimeline::release_all()
+{
+    m_waiting.clear();
+    m_sources.fill(0);
+}
+
+void ButtonTimeline::apply(const Change& change)
+{
+    const auto index = static_cast<std::size_t>(change.button);
+    const std::uint32_t bit = 1u << change.source;
+    if (change.down)
+        m_sources[index] |= bit;
+    else
+        m_sources[index] &= ~bit;
+    if (change.down)
+        m_pressed_now[index] = true;
+}
+
+Input ButtonTimeline::advance_to(double time_ms)
+{
+    m_pressed_now.fill(false);
+    while (!m_waiting.empty() && m_waiting.front().time_ms <= time_ms)
+    {
+        apply(m_waiting.front());
+        m_waiting.pop_front();
+    }
+    const auto held = [this](Button button)
+    {
+        const auto index = static_cast<std::size_t>(button);
+        return m_sources[index] != 0 || m_pressed_now[index];
+    };
+    return {.left = held(Button::Left),
+            .right = held(Button::Right),
+            .plunger = held(Button::Plunger),
+            .start = held(Button::Start)};
+}
+
+} // namespace carom::pinball

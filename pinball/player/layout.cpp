@@ -1,0 +1,64 @@
+#include "pinball/player/layout.h"
+
+#include "pinball/player/dot_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::pinball {
+
+namespace {
+
+constexpr float rail = 0.016f;  // m
+constexpr float below = 0.052f; // m, room for a plunger that is pulled
+
+float aspect(const Table& table)
+{
+    const Box box = cabinet_box(table);
+    const Vec2 size = box.upper - box.lower;
+    return size.x / size.y;
+}
+
+Layout landscape(Vec2 window, float table_aspect)
+{
+    Layout layout{.landscape = true};
+    const float width = std::min(window.y * table_aspect, window.x - 500);
+    const float left = std::round((window.x - width) / 2);
+    layout.table = {{left, 0}, {left + width, window.y}};
+    layout.score = {{0, 0}, {left, window.y}};
+    layout.side = {{left + width, 0}, window};
+    layout.unit = std::clamp(std::min(left / 460, window.y / 800), 0.6f, 4.0f);
+    return layout;
+}
+
+Layout portrait(Vec2 window, bool xray)
+{
+    Layout layout{};
+    layout.unit = std::clamp(std::min(window.x / 400, window.y / 800), 0.6f, 5.0f);
+    const float pitch = std::floor(std::min(window.x - 12, window.y * 0.5f) / DotMatrix::columns);
+    const float score = std::round(std::max(pitch, 1.0f) * DotMatrix::rows + 30 * layout.unit);
+    const float bottom = xray ? std::round(window.y * 0.56f) : window.y;
+    layout.score = {{0, 0}, {window.x, score}};
+    layout.table = {{0, score}, {window.x, bottom}};
+    if (xray)
+        layout.side = {{0, bottom}, window};
+    return layout;
+}
+
+} // namespace
+
+Box cabinet_box(const Table& table)
+{
+    return {{-rail, -below}, {static_cast<double>(table.size.x) + rail, static_cast<double>(table.size.y) + rail}};
+}
+
+Layout lay_out(Vec2 window, const Table& table, bool xray)
+{
+    // Beside the table there must be room for two columns of 250 points.
+    const float shape = aspect(table);
+    if (window.x - window.y * shape >= 560)
+        return landscape(window, shape);
+    return portrait(window, xray);
+}
+
+} // namespace carom::pinball

@@ -1,0 +1,145 @@
+#include "pinball/player/machine.h"
+
+#include "pinball/table/loader.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace carom::pinball {
+
+namespace {
+
+Table load_or_throw(const std::string& file)
+{
+    LoadResult result = load_table_file(file);
+    if (result.table)
+        return std::move(*result.table);
+    std::string text = file + " is no table:";
+    for (const LoadError& error : result.errors)
+        text += "\n  " + to_string(error);
+    throw std::runtime_error(text);
+}
+
+// Shapes carry the index of their element plus one, balls the highest bit (Playfield).
+std::string name_of(const Table& table, std::uint64_t tag)
+{
+    if (tag >> 63 != 0)
+        return "ball";
+    if (tag == 0 || tag > table.elements.size())
+        return "table";
+    std::string name = table.elements[static_cast<std::size_t>(tag - 1)].id;
+    std::ranges::replace(name, '_', ' ');
+    return name;
+}
+
+} // namespace
+
+Machine::Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores)
+    : impacts([this](const Scene& scene, ShapeId shape) { return name_of(m_game.table(), scene.shape(shape).user_data()); }),
+      m_watch(file),
+      m_seed(seed),
+      m_autoplay(autoplay),
+      m_game(load_or_throw(file), {.seed = seed}),
+      m_effects(m_game.table()),
+      m_art(m_game.table())
+{
+    if (keep_scores)
+        m_score_file = HighScoreFile::of_user();
+    load_scores();
+    if (m_autoplay)
+        m_player.emplace(m_game.table(), m_seed);
+}
+
+void Machine::load_scores()
+{
+    if (m_score_file)
+        m_game.set_high_scores(m_score_file->load(m_game.table().name));
+}
+
+void Machine::save_scores()
+{
+    if (m_score_file)
+        (void)m_score_file->save(m_game.table().name, m_game.high_scores());
+}
+
+void Machine::step(Input input)
+{
+    if (m_player)
+        input = m_player->play(m_game);
+    if (m_name_entry.step(input))
+    {
+        m_game.name_last(m_name_entry.name());
+        save_scores();
+    }
+    m_times.measure([&] { m_game.step(m_name_entry.leaves_over(input)); });
+    for (const GameEvent& event : m_game.events())
+        if (event.kind == EventKind::HighScore)
+        {
+            save_scores();
+            if (!m_player)
+                m_name_entry.begin(event.value);
+        }
+    m_effects.observe(m_game);
+    impacts.observe(m_game.scene());
+}
+
+void Machine::begin(Table table)
+{
+    const HighScores scores = m_game.high_scores();
+    const bool same = table.name == m_game.table().name;
+    m_game = Game(std::move(table), {.seed = m_seed});
+    if (same)
+        m_game.set_high_scores(scores);
+    else
+        load_scores();
+    m_effects = Effects(m_game.table());
+    m_art = TableArt(m_game.table());
+    if (m_autoplay)
+        m_player.emplace(m_game.table(), m_seed);
+    m_name_entry = {};
+    impacts.clear();
+    scrubber.clear();
+    m_game.record_substeps(m_record);
+}
+
+void Machine::restart()
+{
+    m_game.restart();
+    m_effects = Effects(m_game.table());
+    if (m_autoplay)
+        m_player.emplace(m_game.table(), m_seed);
+    m_name_entry = {};
+    impacts.clear();
+    scrubber.clear();
+    m_game.record_substeps(m_record);
+}
+
+void Machine::poll_table()
+{
+    if (!m_watch.poll())
+        return;
+    LoadResult result = load_table_file(m_watch.file());
+    m_table_errors.clear();
+    for (const LoadError& error : result.errors)
+        m_table_errors.push_back(to_string(error));
+    if (result.table)
+        begin(std::move(*result.table));
+}
+
+void Machine::look_into_step()
+{
+    if (m_record)
+        scrubber.capture(m_game.scene());
+}
+
+void Machine::record_substeps(bool record)
+{
+    if (m_record == record)
+        return;
+    m_record = record;
+    m_game.record_substeps(record);
+    if (!record)
+        scrubber.clear();
+}
+
+} // namespace carom::pinball

@@ -1,0 +1,67 @@
+#pragma once
+
+/// @file
+/// The game with everything around it that lives as long as the program: its table file, its high scores, its player.
+
+#include "pinball/autoplay/reflex.h"
+#include "pinball/game/game.h"
+#include "pinball/player/effects.h"
+#include "pinball/player/high_score_file.h"
+#include "pinball/player/name_entry.h"
+#include "pinball/player/step_times.h"
+#include "pinball/player/table_art.h"
+#include "pinball/player/table_watch.h"
+#include "view/impact_story.h"
+#include "view/substep_scrubber.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::pinball {
+
+class Machine
+{
+public:
+    /// Throws std::runtime_error with the loader's sentences where the file is no table. keep_scores: on the disk.
+    Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores);
+
+    void step(Input input);
+    void restart();
+    /// Looks whether the table file has changed. A good one is played at once; a bad one leaves the old table.
+    void poll_table();
+
+    [[nodiscard]] const Game& game() const { return m_game; }
+    [[nodiscard]] const Effects& effects() const { return m_effects; }
+    [[nodiscard]] const TableArt& art() const { return m_art; }
+    [[nodiscard]] const NameEntry& name_entry() const { return m_name_entry; }
+    [[nodiscard]] const std::vector<std::string>& table_errors() const { return m_table_errors; }
+    [[nodiscard]] const StepTimes& times() const { return m_times; }
+
+    /// For the x-ray: keeps what happened within steps.
+    void record_substeps(bool record);
+    /// Fills the scrubber with the last step, where sub-steps are recorded.
+    void look_into_step();
+    view::SubstepScrubber scrubber{};
+    view::ImpactWatch impacts;
+
+private:
+    void begin(Table table);
+    void load_scores();
+    void save_scores();
+
+    TableWatch m_watch;
+    std::uint64_t m_seed;
+    bool m_autoplay;
+    bool m_record = false;
+    std::optional<HighScoreFile> m_score_file{};
+    Game m_game;
+    Effects m_effects;
+    TableArt m_art;
+    std::optional<ReflexPlayer> m_player{};
+    NameEntry m_name_entry{};
+    std::vector<std::string> m_table_errors{};
+    StepTimes m_times{};
+};
+
+} // namespace carom::pinball

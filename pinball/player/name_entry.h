@@ -1,0 +1,37 @@
+#pragma once
+
+/// @file
+/// Three letters for the high scores: the flippers turn the letter, start or plunger takes it.
+
+#include "pinball/game/game.h"
+
+#include <string>
+
+namespace carom::pinball {
+
+class NameEntry
+{
+public:
+    void begin(int rank);
+    [[nodiscard]] bool active() const { return m_active; }
+    [[nodiscard]] int rank() const { return m_rank; }
+    [[nodiscard]] int cursor() const { return m_cursor; }
+    [[nodiscard]] const std::string& name() const { return m_name; }
+
+    /// True in the step in which the last letter was taken.
+    [[nodiscard]] bool step(const Input& input);
+    /// What the game may have of the buttons.
+    [[nodiscard]] Input leaves_over(const Input& input) const;
+
+private:
+    void turn(int by);
+
+    bool m_active = false;
+    bool m_swallow = false; ///< the button that ended the entry is still down
+    int m_rank = -1;
+    int m_cursor = 0;
+    std::string m_name = "AAA";
+    Input m_held{};
+};
+
+} // namespace carom::pinball

@@ -1,0 +1,54 @@
+#include "pinball/player/stage.h"
+
+#include "pinball/player/palette.h"
+#include "pinball/player/picture.h"
+#include "pinball/player/side_panel.h"
+
+namespace carom::pinball {
+
+namespace {
+
+void draw_room(view::Canvas& screen, Vec2 window)
+{
+    screen.fill_box({{0, 0}, Position(window)},
+                    view::Paint::linear({0, 0}, view::rgb(0x191623), {0, static_cast<double>(window.y)}, view::rgb(0x08080d)));
+}
+
+bool waits_for_a_player(const Game& game)
+{
+    return game.phase() == Phase::Attract;
+}
+
+} // namespace
+
+void draw_frame(view::Window& window, Machine& machine, XrayPanel& xray, const Frame& frame)
+{
+    const Layout layout = lay_out(window.size(), machine.game().table(), frame.xray);
+    view::Canvas screen = window.canvas();
+    draw_room(screen, window.size());
+
+    view::Camera camera =
+        view::Camera::fit(cabinet_box(machine.game().table()), layout.table.min, layout.table.max, layout.landscape ? 8.0f : 3.0f);
+    view::Canvas table = window.canvas(camera);
+    draw_table(table, {.game = machine.game(),
+                       .effects = machine.effects(),
+                       .art = machine.art(),
+                       .alpha = frame.alpha,
+                       .time = frame.status.time,
+                       .plain = frame.xray});
+    if (frame.xray)
+        xray.draw(table, machine, frame.status.paused);
+
+    draw_score(screen, layout, machine, frame.status);
+    if (frame.xray)
+        xray.widgets(window, layout, machine, frame.status);
+    else if (layout.landscape)
+        (void)draw_keys(screen, {layout.side.min + Vec2{0, 78 * layout.unit}, layout.side.max}, layout.unit);
+    else if (waits_for_a_player(machine.game()))
+        draw_card(screen, layout, machine);
+    if (frame.status.paused && !frame.xray)
+        draw_banner(screen, layout, "PAUSED");
+    draw_table_errors(screen, layout, machine);
+}
+
+} // namespace carom::pinball

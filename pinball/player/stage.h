@@ -1,0 +1,22 @@
+#pragma once
+
+/// @file
+/// One frame: table, score, panels, x-ray.
+
+#include "pinball/player/machine.h"
+#include "pinball/player/score_panel.h"
+#include "pinball/player/xray_panel.h"
+#include "view/window.h"
+
+namespace carom::pinball {
+
+struct Frame
+{
+    float alpha = 1;
+    bool xray = false;
+    Status status{};
+};
+
+void draw_frame(view::Window& window, Machine& machine, XrayPanel& xray, const Frame& frame);
+
+} // namespace carom::pinball

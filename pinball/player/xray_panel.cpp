@@ -1,0 +1,108 @@
+#include "pinball/player/xray_panel.h"
+
+#include "pinball/player/keys.h"
+#include "view/impact_panel.h"
+
+#include <imgui.h>
+
+namespace carom::pinball {
+
+namespace {
+
+void key_help()
+{
+    for (const KeyLine& line : xray_key_lines())
+    {
+        ImGui::TextUnformatted(line.keys);
+        ImGui::SameLine(0, 6);
+        ImGui::TextDisabled("%s", line.meaning);
+        ImGui::SameLine(0, 14);
+    }
+    ImGui::NewLine();
+}
+
+void time_line(const Machine& machine, const Status& status)
+{
+    const double time = static_cast<double>(machine.game().step_count()) * static_cast<double>(machine.game().table().physics.step);
+    const char* how = status.paused ? "paused" : status.speed < 1 ? "slow motion" : "real time";
+    ImGui::Text("%.3f s, %s", time, how);
+    const StepReport& report = machine.game().scene().report();
+    ImGui::TextDisabled("pairs %d, touching %d, impacts %d, %.0f us a step", report.pairs, report.touching,
+                        report.flight_impacts + report.bulk_impacts, static_cast<double>(report.ms.total) * 1000);
+}
+
+void within_step(Machine& machine, const Status& status)
+{
+    if (status.paused)
+        machine.scrubber.widgets();
+    else
+        ImGui::TextDisabled("P stops the game; then look into its last step with , and .");
+}
+
+} // namespace
+
+void XrayPanel::draw(view::Canvas& table, const Machine& machine, bool paused)
+{
+    m_overlay.draw(table, machine.game().scene());
+    if (paused)
+        machine.scrubber.draw(table, machine.game().scene());
+    if (machine.impacts.last())
+        view::draw_impact(table, *machine.impacts.last());
+}
+
+void XrayPanel::wide(view::Window& window, Machine& machine, const Status& status)
+{
+    key_help();
+    time_line(machine, status);
+    ImGui::Separator();
+    m_overlay.widgets();
+    ImGui::Separator();
+    within_step(machine, status);
+    ImGui::Separator();
+    view::impact_widgets(window.fonts(), machine.impacts.last());
+}
+
+void XrayPanel::narrow(view::Window& window, Machine& machine, const Status& status)
+{
+    const auto tab = [](const char* name, const auto& content)
+    {
+        if (!ImGui::BeginTabItem(name))
+            return;
+        ImGui::BeginChild(name);
+        content();
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+    };
+    if (!ImGui::BeginTabBar("tabs"))
+        return;
+    tab("Impact", [&] { view::impact_widgets(window.fonts(), machine.impacts.last()); });
+    tab("Step",
+        [&]
+        {
+            time_line(machine, status);
+            within_step(machine, status);
+            for (const KeyLine& line : xray_key_lines())
+                ImGui::Text("%-5s %s", line.keys, line.meaning);
+        });
+    tab("Show", [&] { m_overlay.widgets(); });
+    ImGui::EndTabBar();
+}
+
+void XrayPanel::widgets(view::Window& window, const Layout& layout, Machine& machine, const Status& status)
+{
+    const Vec2 size = layout.side.size();
+    ImGui::SetNextWindowPos({layout.side.min.x, layout.side.min.y});
+    ImGui::SetNextWindowSize({size.x, size.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::Begin("x-ray", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PopStyleVar();
+    if (layout.landscape)
+        wide(window, machine, status);
+    else
+        narrow(window, machine, status);
+    ImGui::End();
+}
+
+} // namespace carom::pinball

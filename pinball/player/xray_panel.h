@@ -1,0 +1,26 @@
+#pragma once
+
+/// @file
+/// The x-ray of the table: what the engine knows, over the picture and beside it.
+
+#include "pinball/player/layout.h"
+#include "pinball/player/machine.h"
+#include "pinball/player/score_panel.h"
+#include "view/window.h"
+#include "view/xray.h"
+
+namespace carom::pinball {
+
+class XrayPanel
+{
+public:
+    void draw(view::Canvas& table, const Machine& machine, bool paused);
+    void widgets(view::Window& window, const Layout& layout, Machine& machine, const Status& status);
+
+private:
+    void wide(view::Window& window, Machine& machine, const Status& status);
+    void narrow(view::Window& window, Machine& machine, const Status& status);
+    view::XrayOverlay m_overlay{};
+};
+
+} // namespace carom::pinball
