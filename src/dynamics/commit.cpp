@@ -25,6 +25,19 @@ Rotation renormalized(Rotation q)
 
 // --- poses ---------------------------------------------------------------------------------------------------------------------------
 
+// Their path is a function of time alone.
+void record_kinematic(StepContext& ctx, int body)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    for (int k = 1; k <= ctx.substeps; ++k) {
+        const float t = ctx.h * static_cast<float>(k);
+        BodySim then = sim;
+        then.center += t * sim.velocity;
+        then.rotation = Rotation::from_angle(t * sim.angular_velocity) * sim.rotation;
+        ctx.report.substep_poses.push_back({body_id(ctx.state, body), t, then.pose()});
+    }
+}
+
 void commit_kinematic(const StepContext& ctx, BodyRecord& record, BodySim& sim)
 {
     sim.previous_center = sim.center;
@@ -188,12 +201,23 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
 
 // --- sleep -------------------------------------------------------------------------------------------------------------------------------
 
+bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
+{
+    for (int edge = record.first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1]) {
+        if (state.joints[edge >> 1].kind == JointType::Spring)
+            return true;
+    }
+    return false;
+}
+
 void update_sleep_time(const StepContext& ctx, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     const float speed = std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent);
-    const float limit = record.type == BodyType::Kinematic ? 0.0f : ctx.scene.tolerances.sleep_speed;
+    float limit = record.type == BodyType::Kinematic ? 0.0f : ctx.scene.tolerances.sleep_speed;
+    if (hangs_on_spring(ctx.state, record))
+        limit *= 0.02f; // a damped spring creeps the last of its way
     sim.sleep_time = speed <= limit && record.can_sleep && !record.has_target ? sim.sleep_time + ctx.dt : 0;
 }
 
@@ -278,8 +302,11 @@ void commit_and_sleep(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     for (const std::int32_t body : ctx.state.awake_bodies) {
-        if (ctx.state.bodies[body].type == BodyType::Kinematic)
-            commit_kinematic(ctx, ctx.state.bodies[body], ctx.state.sims[static_cast<std::size_t>(body)]);
+        if (ctx.state.bodies[body].type != BodyType::Kinematic)
+            continue;
+        if (ctx.scene.def.record_substeps)
+            record_kinematic(ctx, body);
+        commit_kinematic(ctx, ctx.state.bodies[body], ctx.state.sims[static_cast<std::size_t>(body)]);
     }
     for (std::size_t i = 0; i < scratch.states.size(); ++i)
         commit_state(ctx, static_cast<std::int32_t>(i));

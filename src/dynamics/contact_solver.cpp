@@ -96,15 +96,50 @@ NormalTarget normal_target(const SolverView& view, const ContactRow& row, const 
     return {soft, row.softness.mass_scale, row.softness.impulse_scale};
 }
 
+void set_normal_impulse(const Pair& pair, const ContactRow& row, RowPoint& p, float impulse)
+{
+    const float change = impulse - p.normal_impulse;
+    p.normal_impulse = impulse;
+    pair.apply(p, change * row.n);
+}
+
 void solve_normal(const SolverView& view, const Pair& pair, const ContactRow& row, RowPoint& p, bool use_bias)
 {
     const NormalTarget target = normal_target(view, row, p, use_bias);
     const float speed = dot(pair.relative_velocity(p), row.n);
     const float change = -p.normal_mass * target.mass_scale * (speed + target.bias) - target.impulse_scale * p.normal_impulse;
-    const float clamped = std::max(p.normal_impulse + change, 0.0f); // contacts push and never pull
-    const float applied = clamped - p.normal_impulse;
-    p.normal_impulse = clamped;
-    pair.apply(p, applied * row.n);
+    set_normal_impulse(pair, row, p, std::max(p.normal_impulse + change, 0.0f)); // contacts push and never pull
+}
+
+// Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account, boxes that
+// overlap are shot apart and stacks lean. With x the accumulated impulses: A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
+void solve_both_normals(const SolverView& view, const Pair& pair, ContactRow& row, bool use_bias)
+{
+    RowPoint& p = row.points[0];
+    RowPoint& q = row.points[1];
+    const NormalTarget tp = normal_target(view, row, p, use_bias);
+    const NormalTarget tq = normal_target(view, row, q, use_bias);
+    const float k11 = 1 / p.normal_mass;
+    const float k22 = 1 / q.normal_mass;
+    const float k12 = row.coupling;
+    // Softness is compliance on the diagonal: mass_scale = k / (k + c), impulse_scale = c / (k + c).
+    const float a11 = k11 / tp.mass_scale;
+    const float a22 = k22 / tq.mass_scale;
+    const float b1 = dot(pair.relative_velocity(p), row.n) + tp.bias - k11 * p.normal_impulse - k12 * q.normal_impulse;
+    const float b2 = dot(pair.relative_velocity(q), row.n) + tq.bias - k12 * p.normal_impulse - k22 * q.normal_impulse;
+    const float inverse_det = 1 / (a11 * a22 - k12 * k12);
+    float x = inverse_det * (k12 * b2 - a22 * b1);
+    float y = inverse_det * (k12 * b1 - a11 * b2);
+    if (x < 0 || y < 0) {
+        x = std::max(-b1 / a11, 0.0f);
+        y = 0;
+        if (k12 * x + b2 < 0) { // the second point would sink: it bears the load alone
+            y = std::max(-b2 / a22, 0.0f);
+            x = 0;
+        }
+    }
+    set_normal_impulse(pair, row, p, x);
+    set_normal_impulse(pair, row, q, y);
 }
 
 } // namespace
@@ -138,8 +173,11 @@ void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bia
             solve_rolling(pair, row);
         for (int i = 0; i < row.count; ++i)
             solve_friction(pair, row, row.points[i]);
-        for (int i = 0; i < row.count; ++i)
-            solve_normal(view, pair, row, row.points[i], use_bias);
+        if (row.count == 2 && row.coupling != 0)
+            solve_both_normals(view, pair, row, use_bias);
+        else
+            for (int i = 0; i < row.count; ++i)
+                solve_normal(view, pair, row, row.points[i], use_bias);
     }
 }
 

@@ -56,6 +56,17 @@ struct Bodies
     }
 };
 
+// Within a step bodies turn little: the arc sine's series is exact to a float's rounding there.
+float angle_of(Rotation turn)
+{
+    const float s = turn.s;
+    if (turn.c > 0 && std::fabs(s) < 0.15f) {
+        const float z = s * s;
+        return s * (1 + z * (1.0f / 6 + z * (3.0f / 40 + z * (15.0f / 336))));
+    }
+    return static_cast<float>(arc_tangent(turn.s, turn.c));
+}
+
 JointPose present_pose(const SolverView& view, const JointWork& work)
 {
     const BodyState& a = view.states[work.a];
@@ -66,7 +77,7 @@ JointPose present_pose(const SolverView& view, const JointWork& work)
     pose.axis = rotate(a.delta_rotation, work.axis0);
     pose.gap = work.gap0 + (b.delta_position - a.delta_position) + (pose.rb - work.rb0) - (pose.ra - work.ra0);
     const Rotation turn = b.delta_rotation * inverse(a.delta_rotation);
-    pose.angle = work.angle0 + static_cast<float>(arc_tangent(turn.s, turn.c));
+    pose.angle = work.angle0 + angle_of(turn);
     return pose;
 }
 
@@ -163,12 +174,15 @@ void solve_row(const Bodies& bodies, JointRecord& joint, const JointRow& row, co
 
 // --- springs -----------------------------------------------------------------------------------------------------------------------
 
-// One step of x'' = -w² x - 2 z w x' as v' = p v - q x, x' = x + h v' with coefficients fitted to the exact solution: frequency and decay
-// come out right at any step below the limit (p is the product of the two roots exp(s h), 1 + p - q h their sum).
+// One step of x'' = -w² x - 2 z w x' + a as v' = p v - q x + g a, x' = x + h v' with coefficients fitted to the exact solution: frequency,
+// decay and rest position come out right at any step below the limit. p is the product of the two roots exp(s h), 1 + p - q h their sum, and
+// g = q / w² holds the mass at a / w². (a reaches the velocity as h a before the spring acts; p h a of that is taken back.)
+
 struct SpringStep
 {
-    float p;
-    float q;
+    double p;
+    double q;
+    double g;
 };
 
 SpringStep fitted_spring(double stiffness, double damping, double mass, double h)
@@ -184,31 +198,59 @@ SpringStep fitted_spring(double stiffness, double damping, double mass, double h
         sum = exponential((r - decay) * h) + exponential((-r - decay) * h);
     }
     const double p = fade * fade;
-    return {static_cast<float>(p), static_cast<float>((1 + p - sum) / h)};
+    const double q = (1 + p - sum) / h;
+    // Without stiffness it is a damper: (1 - p) / (c / m), or h where there is not even that.
+    const double g = stiffness > 0 ? q * mass / stiffness : (damping > 0 ? (1 - p) * mass / damping : h);
+    return {p, q, g};
 }
 
 // Too stiff for the fitted step: the implicit one, stable at any stiffness.
 SpringStep implicit_spring(double stiffness, double damping, double mass, double h)
 {
     const double denominator = 1 + (h * damping + h * h * stiffness) / mass;
-    return {static_cast<float>(1 / denominator), static_cast<float>(h * stiffness / mass / denominator)};
+    const double p = 1 / denominator;
+    return {p, h * stiffness / mass / denominator, h * p};
 }
 
-void apply_spring(const SolverView& view, JointRecord& joint, const JointWork& work)
+struct SpringRow
+{
+    JointRow row;
+    float mass = 0;
+};
+
+SpringRow spring_row(const SolverView& view, const JointRecord& joint, const JointWork& work)
 {
     const JointPose pose = present_pose(view, work);
     const float l = length(pose.gap);
     if (!(l > 0))
-        return;
-    const Bodies bodies(view, work);
+        return {};
     const JointRow row = line_row((1 / l) * pose.gap, pose, l - joint.upper, RowKind::Spring, slot_spring);
-    const float m = bodies.mass(row);
+    return {row, Bodies(view, work).mass(row)};
+}
+
+// Once a step: the effective mass changes little within it.
+void fit_spring(const SolverView& view, const JointRecord& joint, JointWork& work)
+{
+    const float m = spring_row(view, joint, work).mass;
     if (!(m > 0))
         return;
     // h q, about h² k / m, summed over the springs of a body must stay below 1.
     const bool soft = view.h * view.h * joint.stiffness * static_cast<float>(work.spring_count) <= 0.9f * m;
     const SpringStep s = soft ? fitted_spring(joint.stiffness, joint.damping, m, view.h) : implicit_spring(joint.stiffness, joint.damping, m, view.h);
-    joint.impulses[slot_spring] = m * ((s.p - 1) * bodies.speed(row) - s.q * row.error);
+    work.spring_speed = static_cast<float>(s.p - 1);
+    work.spring_stretch = static_cast<float>(s.q);
+    work.spring_acceleration = static_cast<float>(s.g - s.p * static_cast<double>(view.h));
+}
+
+void apply_spring(const SolverView& view, JointRecord& joint, const JointWork& work)
+{
+    const SpringRow spring = spring_row(view, joint, work);
+    const Bodies bodies(view, work);
+    const JointRow& row = spring.row;
+    const float acceleration = dot(row.d, bodies.cb.acceleration - bodies.ca.acceleration) + row.arm_b * bodies.cb.angular_acceleration -
+                               row.arm_a * bodies.ca.angular_acceleration;
+    joint.impulses[slot_spring] =
+        spring.mass * (work.spring_speed * bodies.speed(row) - work.spring_stretch * row.error + work.spring_acceleration * acceleration);
     bodies.apply(row, joint.impulses[slot_spring]);
 }
 
@@ -250,6 +292,8 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     work.axis0 = rotate(qa, joint.axis_a);
     const Rotation relative = qb * inverse(qa) * Rotation::from_angle(-joint.reference_angle);
     work.angle0 = static_cast<float>(arc_tangent(relative.s, relative.c));
+    if (joint.kind == JointType::Spring)
+        fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, joint, work);
     return work;
 }
 

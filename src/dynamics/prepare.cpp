@@ -62,6 +62,17 @@ float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, V
     return k > 0 ? 1 / k : 0;
 }
 
+// Of the normal directions of two points. Points nearly in one place share their load anyhow; solving for both would only divide noise.
+float coupling(const StateConstants& a, const StateConstants& b, const ContactRow& row)
+{
+    const RowPoint& p = row.points[0];
+    const RowPoint& q = row.points[1];
+    const float k = row.n.x * row.n.x * (a.inverse_mass.x + b.inverse_mass.x) + row.n.y * row.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
+                    cross(p.ra, row.n) * cross(q.ra, row.n) * a.inverse_inertia + cross(p.rb, row.n) * cross(q.rb, row.n) * b.inverse_inertia;
+    const bool distinct = p.normal_mass > 0 && q.normal_mass > 0 && k * k * p.normal_mass * q.normal_mass < 0.999f;
+    return distinct ? k : 0;
+}
+
 } // namespace
 
 void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m)
@@ -82,7 +93,19 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
         p.normal_mass = effective_mass(ca, cb, m.normal, p.ra, p.rb);
         p.tangent_mass = effective_mass(ca, cb, perp(m.normal), p.ra, p.rb);
     }
+    row.coupling = m.count == 2 ? coupling(ca, cb, row) : 0;
 }
+
+namespace {
+
+// The radius of the side that gives way, where that is a circle.
+float ball_radius(const SceneState& state, const Contact& contact, bool a_gives)
+{
+    const Leaf& leaf = state.shapes[a_gives ? contact.shape_a : contact.shape_b].leaf;
+    return leaf.type == LeafType::Circle ? leaf.r0 : 0;
+}
+
+} // namespace
 
 ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
 {
@@ -97,6 +120,8 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
     row.surface_speed = contact.surface_speed;
     const bool immovable = ca.inverse_mass == Vec2{} || cb.inverse_mass == Vec2{};
     row.softness = immovable ? ctx.static_softness : ctx.contact_softness;
+    if (immovable && (contact.flags & contact_flag::round) != 0)
+        row.core = 0.5f * ball_radius(ctx.state, contact, ca.inverse_mass != Vec2{});
     set_row_geometry(ctx.scratch, row, manifold);
     for (int i = 0; i < row.count; ++i) {
         row.points[i].normal_impulse = manifold.points[i].normal_impulse;

@@ -63,6 +63,7 @@ private:
         predict_bends();
         solve(true);
         integrate_positions();
+        guard_cores();
         advance_fliers(m_ctx, m_unit, k, m_output);
         refresh_round_rows();
         solve(false);
@@ -126,6 +127,25 @@ private:
             if (s.angular_velocity != 0)
                 s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
         }
+    }
+
+    // The last line of defence, for balls that something far heavier presses into what does not give way: no deeper than half the radius.
+    void guard_cores()
+    {
+        for (const ContactRow& row : m_rows) {
+            if (row.core > 0 && row.count == 1)
+                guard_core(row);
+        }
+    }
+
+    void guard_core(const ContactRow& row)
+    {
+        const float depth = -row_separation(m_view, row, row.points[0]) - row.core;
+        if (depth <= 0)
+            return;
+        const bool a_gives = m_view.constants[row.a].inverse_mass != Vec2{};
+        BodyState& ball = m_view.states[a_gives ? row.a : row.b];
+        ball.delta_position += (a_gives ? -depth : depth) * row.n;
     }
 
     // --- round contacts in small units: looked at anew in every sub-step ---------------------------------------------------------------

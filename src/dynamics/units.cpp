@@ -174,6 +174,49 @@ struct Builder
         }
     }
 
+    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
+    // two would meet in different times.
+    void link_deflected()
+    {
+        struct Reach
+        {
+            FloatBox box;
+            int body;
+        };
+        std::vector<Reach> reaches;
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i) {
+            const int body = state.awake_bodies[i];
+            if (flier_shape[i] == none || !may_be_deflected(body))
+                continue;
+            const Position c = state.sims[static_cast<std::size_t>(body)].center;
+            const double r = static_cast<double>(scratch.motion[i]) + static_cast<double>(state.shapes[flier_shape[i]].leaf.r0);
+            reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
+        }
+        for (const Reach& reach : reaches) {
+            state.broad_phase.query(Layer::Moving, reach.box, [&](int shape) {
+                link_bodies(ctx, reach.body, state.shapes[shape].body);
+                return true;
+            });
+        }
+        // Two that are both deflected: reach against reach, by a sweep along x.
+        std::sort(reaches.begin(), reaches.end(), [](const Reach& a, const Reach& b) { return a.box.lx != b.box.lx ? a.box.lx < b.box.lx : a.body < b.body; });
+        for (std::size_t i = 0; i < reaches.size(); ++i) {
+            for (std::size_t j = i + 1; j < reaches.size() && reaches[j].box.lx <= reaches[i].box.ux; ++j) {
+                if (overlaps(reaches[i].box, reaches[j].box))
+                    link_bodies(ctx, reaches[i].body, reaches[j].body);
+            }
+        }
+    }
+
+    [[nodiscard]] bool may_be_deflected(int body) const
+    {
+        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+            if (gets_rows(state, state.contacts[edge >> 1]))
+                return scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] > ctx.scene.tolerances.speculation;
+        }
+        return false;
+    }
+
     // Units in the order of their first body; every dynamic body gets its unit.
     void number_units()
     {
@@ -431,6 +474,7 @@ void build_units(StepContext& ctx)
     Builder builder(ctx);
     builder.find_fliers();
     builder.link_units();
+    builder.link_deflected();
     builder.number_units();
     builder.sort_contacts();
     builder.sort_joints();

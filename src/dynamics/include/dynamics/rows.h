@@ -66,9 +66,11 @@ struct ContactRow
     Vec2 n{};
     float friction = 0;
     float surface_speed = 0;
+    float coupling = 0;      ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
     float rolling = 0;       ///< torque limit over normal impulse, m
     float rolling_impulse = 0;
     float rolling_mass = 0;
+    float core = 0;          ///< half the radius of a ball against what does not give way; 0 elsewhere
     std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
     std::uint8_t hit = 0;       ///< its impact was reported
     std::uint8_t active_from = 0; ///< first sub-step in which it counts
@@ -83,6 +85,9 @@ struct JointWork
     std::int32_t a = 0;
     std::int32_t b = 0;
     std::int32_t spring_count = 0; ///< springs on the body that has most, where this is one
+    float spring_speed = 0;        ///< a spring's impulse: mass (these · speed, -stretch, acceleration)
+    float spring_stretch = 0;
+    float spring_acceleration = 0;
     Vec2 ra0{};              ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};            ///< slider's axis at the start of the step
