@@ -65,9 +65,10 @@ struct SceneDef
     MixRule friction_rule = MixRule::GeometricMean;
     MixRule restitution_rule = MixRule::Average;
     MixFunction mix_function = nullptr;
-    // contact_hertz 30 and damping ratio 10: Box2D 3's values, by which a 30-row pyramid stands at 1/60 s with 4 sub-steps.
-    float contact_hertz = 30;         ///< stiffness of overlap recovery, 1/s, > 0
-    float contact_damping_ratio = 10; ///< > 0
+    // 60 and 5: a pile of 500 mixed bodies rests with 1.9 mm of mean overlap; 30 and 10 leave 8.8 mm and columns buckle from 15 boxes up, 120
+    // keeps the pile rattling. Stiffer than a quarter of the sub-step rate is never used.
+    float contact_hertz = 60;        ///< stiffness of overlap recovery, 1/s, > 0
+    float contact_damping_ratio = 5; ///< > 0
     float contact_push_speed = 3;     ///< overlap is removed no faster than this times length_scale, 1/s, >= 0
     bool sleeping = true;
     bool continuous = true;   ///< balls cannot pass through anything; off only to see what it is good for
