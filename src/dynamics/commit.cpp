@@ -6,6 +6,7 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/stages.h"
+#include "dynamics/stop_at_wall.h"
 #include "dynamics/wake.h"
 
 #include <algorithm>
@@ -68,6 +69,16 @@ void quarantine(StepContext& ctx, int body)
     ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::BodyQuarantined);
 }
 
+// Struck or pulled in the step, farther than the rows it was given cover.
+bool went_beyond_its_rows(const StepContext& ctx, const BodyState& s, int body)
+{
+    if (!ctx.scene.def.continuous || (s.flags & body_flag::flier) != 0)
+        return false;
+    const auto place = static_cast<std::size_t>(ctx.state.bodies[body].awake_index);
+    const float covered = ctx.scratch.motion[place] + ctx.scene.tolerances.speculation;
+    return dot(s.delta_position, s.delta_position) > covered * covered;
+}
+
 void commit_state(StepContext& ctx, std::int32_t index)
 {
     const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
@@ -85,6 +96,11 @@ void commit_state(StepContext& ctx, std::int32_t index)
     if (!is_sound(s, x, y)) {
         quarantine(ctx, body);
         return;
+    }
+    if (went_beyond_its_rows(ctx, s, body)) {
+        const double part = free_part_of_path(ctx, body, x, y);
+        x *= part;
+        y *= part;
     }
     sim.previous_center = sim.center;
     sim.previous_rotation = sim.rotation;

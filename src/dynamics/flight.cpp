@@ -360,6 +360,7 @@ private:
         double arm_y = 0;
         double speed_target = 0;
         double energy_lost = 0;
+        double slide = 0;    ///< speed along perp(n)
         double pressing = 0; ///< acceleration towards the surface, its bend included
     };
 
@@ -388,7 +389,7 @@ private:
         apply(f, other, target, impact, impact.normal * f.nx, impact.normal * f.ny);
         apply_friction(f, other, target, impact);
         impact.energy_lost = before - energy(f, ball, target, other);
-        report(f, impact, target);
+        report(f, impact);
     }
 
     // A flipper that leans on its stop cannot give way towards it.
@@ -415,8 +416,8 @@ private:
         if (kick.b_fired)
             m_output.kicked_shapes.push_back(f.event_shape);
         // What presses the ball on: acceleration, and the bend of the surface under its slide.
-        const double slide = (f.vx - tvx) * -f.ny + (f.vy - tvy) * f.nx;
-        impact.pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny - f.curvature * slide * slide;
+        impact.slide = (f.vx - tvx) * -f.ny + (f.vy - tvy) * f.nx;
+        impact.pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny - f.curvature * impact.slide * impact.slide;
         if (impact.kick == 0 && impact.e * impact.u <= std::max(0.5 * impact.pressing * static_cast<double>(m_h), 0.0) + m_tiny)
             hold(f, impact);
     }
@@ -518,7 +519,15 @@ private:
 
     // --- reporting ------------------------------------------------------------------------------------------------------------------
 
-    void report(const Flier& f, const Impact& impact, const Target& target)
+    // Slower than what presses the ball on gives in a sub-step is settling; shallower than a third of a degree along a chain is rolling.
+    [[nodiscard]] bool is_worth_telling(const Flier& f, const Impact& impact) const
+    {
+        const bool along_chain = m_state.shapes[f.event_shape].owner != f.event_shape;
+        const double shallow = along_chain ? 0.005 * std::fabs(impact.slide) : 0;
+        return impact.u > std::max({static_cast<double>(m_ctx.scene.tolerances.rest_speed), impact.pressing * static_cast<double>(m_h), shallow});
+    }
+
+    void report(const Flier& f, const Impact& impact)
     {
         const bool ball_is_a = f.event_contact != none ? m_state.contacts[f.event_contact].shape_a == f.shape : true;
         const Vec2 to_ball = {static_cast<float>(f.nx), static_cast<float>(f.ny)};
@@ -547,8 +556,7 @@ private:
         e.effective_mass_b = ball_is_a ? mass_target : mass_ball;
         const std::int32_t shape_a = ball_is_a ? f.shape : f.event_shape;
         const std::int32_t shape_b = ball_is_a ? f.event_shape : f.shape;
-        // Slower than what presses the ball on gives in a sub-step is settling, not an impact.
-        if (impact.u > std::max(static_cast<double>(m_ctx.scene.tolerances.rest_speed), impact.pressing * static_cast<double>(m_h))) {
+        if (is_worth_telling(f, impact)) {
             m_output.impacts.push_back({shape_a, shape_b, e});
             ++m_output.flight_impacts;
         }
@@ -558,7 +566,6 @@ private:
         m_output.begins.push_back({f.event_contact, shape_a, shape_b, e.point, e.normal, e.time});
         if (f.event_contact != none)
             m_state.contacts[f.event_contact].flags |= contact_flag::touching;
-        static_cast<void>(target);
     }
 
     // --- the end of the sub-step ----------------------------------------------------------------------------------------------------

@@ -1,0 +1,82 @@
+// A body in the solver's hands that is struck hard in a step may go farther than the contacts it was given cover. Its core, a circle of half the
+// inscribed radius, is then swept along the way it went; at the first static shape it stops. The velocity stays, so that the next step,
+// which sees the wall, bounces it; the rest of this step's time is lost.
+
+#include "dynamics/stop_at_wall.h"
+
+#include "collision/time_of_impact.h"
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/half_space_box.h"
+#include "dynamics/material.h"
+#include "geometry/surface.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+namespace {
+
+struct Core
+{
+    Vec2 center; ///< in the body's frame
+    double radius;
+};
+
+Core core_of(const LeafView& v)
+{
+    const Leaf& leaf = *v.leaf;
+    if (leaf.type == LeafType::Circle)
+        return {leaf.p0, 0.5 * static_cast<double>(leaf.r0)};
+    if (leaf.type != LeafType::Polygon)
+        return {0.5f * (leaf.p0 + leaf.p1), 0.25 * static_cast<double>(leaf.r0 + leaf.r1)};
+    Vec2 sum{};
+    for (int i = 0; i < leaf.count; ++i)
+        sum += v.points[i];
+    const Vec2 center = (1 / static_cast<float>(leaf.count)) * sum;
+    const std::optional<Surface<float>> s = surface_at<float>(v, center.x, center.y);
+    return {center, s ? -0.5 * static_cast<double>(s->distance) : 0};
+}
+
+double free_part(const StepContext& ctx, int shape, double dx, double dy)
+{
+    const SceneState& state = ctx.state;
+    const BodySim& sim = state.sims[static_cast<std::size_t>(state.shapes[shape].body)];
+    const Core core = core_of(leaf_view(state, shape));
+    const Position start = transform(sim.pose(), core.center);
+    const CenterPath path{0, 0, dx, dy, 0, 0};
+    double part = 1;
+    const auto visit = [&](int other) {
+        const ShapeRecord& wall = state.shapes[other];
+        if (state.bodies[wall.body].type != BodyType::Static || wall.trigger || wall.one_way != Vec2{} || !may_collide(state, shape, other))
+            return true;
+        const Pose pose = state.sims[static_cast<std::size_t>(wall.body)].pose();
+        const FramePath frame{{pose.position.x - start.x, pose.position.y - start.y}, {}, pose.rotation.c, pose.rotation.s, 0};
+        const std::optional<BallHit> hit = ball_time_of_impact(path, core.radius, leaf_view(state, other), frame, part, 0);
+        if (hit && hit->time > 0) // what the core overlaps from the start is the solver's business
+            part = hit->time;
+        return true;
+    };
+    const FloatBox box = round_outwards(start.x + std::min(dx, 0.0) - core.radius, start.y + std::min(dy, 0.0) - core.radius, start.x + std::max(dx, 0.0) + core.radius,
+                                        start.y + std::max(dy, 0.0) + core.radius);
+    state.broad_phase.query(Layer::Resting, box, visit);
+    for (const std::int32_t half_space : state.broad_phase.unbounded()) {
+        if (reaches_half_space(state, half_space, box, 0))
+            visit(half_space);
+    }
+    return part;
+}
+
+} // namespace
+
+double free_part_of_path(const StepContext& ctx, int body, double dx, double dy)
+{
+    double part = 1;
+    for_each_leaf(ctx.state, body, [&](int shape) {
+        if (!ctx.state.shapes[shape].trigger)
+            part = std::min(part, free_part(ctx, shape, dx, dy));
+    });
+    return part;
+}
+
+} // namespace carom::internal
