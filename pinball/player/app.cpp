@@ -156,7 +156,7 @@ private:
     {
         const view::SoundSink& sink = m_sounds.sink();
         m_sounds.frame(m_machine.game(), !m_paused);
-        draw_frame(m_window, m_machine, m_xray_panel,
+        draw_frame(m_window, m_machine, m_stage,
                    {.alpha = m_paused ? 1 : m_clock.alpha(),
                     .xray = m_xray,
                     .status = {.time = now_ms() / 1000,
@@ -190,7 +190,7 @@ private:
     Sounds m_sounds{};
     StepClock m_clock;
     ButtonTimeline m_buttons{};
-    XrayPanel m_xray_panel{};
+    Stage m_stage{};
     bool m_xray = false;
     bool m_paused = false;
     double m_speed = 1;

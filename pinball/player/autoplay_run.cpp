@@ -106,7 +106,7 @@ private:
                              .background = palette::room});
         wait_for_a_moment();
         m_machine.look_into_step();
-        XrayPanel xray;
+        Stage stage;
         view::Image image;
         const double time = static_cast<double>(m_machine.game().step_count()) * m_step_s;
         const view::SoundSink& sink = m_sounds.sink();
@@ -118,7 +118,7 @@ private:
         // Sizes of text that are asked for in one frame are baked before the next.
         for (int i = 0; i < 3 && window.begin_frame(); ++i)
         {
-            draw_frame(window, m_machine, xray, frame);
+            draw_frame(window, m_machine, stage, frame);
             window.end_frame(&image);
         }
         if (view::save_png(image, m_options.screenshot))

@@ -117,16 +117,59 @@ void draw_name(Canvas& canvas, const Table& table)
     canvas.fill_circle(at + Vec2{0, -0.022f}, 0.003f, palette::coral);
 }
 
-// The fan of the flippers' reach.
-void draw_fan(Canvas& canvas, const Table& table)
+// A ribbon under lights that belong together: the letters, the bonus.
+void draw_ribbon(Canvas& canvas, const Table& table, Lamp lamp, view::Color color)
 {
-    for (const Flipper* flipper : all_of<Flipper>(table))
-        for (int i = 0; i < 3; ++i)
+    view::Path path;
+    float radius = 0;
+    for (const Light* light : all_of<Light>(table))
+        if (light->shows == lamp)
         {
-            const float radius = flipper->length + 0.022f + 0.008f * static_cast<float>(i);
-            canvas.arc(flipper->pivot, radius, flipper->rest, flipper->up - flipper->rest,
-                       {view::fade(palette::teal, 0.26f - 0.07f * static_cast<float>(i)), canvas.points(0.0015f)});
+            path.push_back(light->pos);
+            radius = light->radius;
         }
+    if (path.size() < 2)
+        return;
+    canvas.polyline(path, {view::fade(color, 0.13f), canvas.points(2.8f * radius)});
+    canvas.polyline(path, {view::fade(color, 0.45f), canvas.points(0.0012f)});
+}
+
+// A dial in the middle of the lights below the islands: rings, ticks and two orbits.
+void draw_medallion(Canvas& canvas, const Table& table)
+{
+    Vec2 sum{};
+    float count = 0;
+    for (const Light* light : all_of<Light>(table))
+        if (light->shows == Lamp::Letter || light->shows == Lamp::Bonus)
+        {
+            sum += light->pos;
+            ++count;
+        }
+    if (count < 2)
+        return;
+    const Vec2 middle = sum * (1 / count);
+    const float r = 0.086f;
+    canvas.fill_radial(middle, r, view::rgb(0x8a3f9d, 0.70f), view::rgb(0x1a2560, 0.55f));
+    for (const float ring : {1.0f, 0.955f, 0.62f})
+        canvas.stroke_circle(middle, r * ring, {view::fade(palette::gold, 0.6f), canvas.points(0.0011f)});
+    for (int i = 0; i < 72; ++i)
+    {
+        const Vec2 out = rotate(Rotation::from_angle(static_cast<float>(i) * pi / 36), {1, 0});
+        const float from = i % 6 == 0 ? 0.87f : 0.915f;
+        canvas.line(middle + out * (r * from), middle + out * (r * 0.945f), {view::fade(palette::gold, 0.5f), canvas.points(0.0009f)});
+    }
+    for (const float tilt : {0.5f, -0.5f})
+    {
+        view::Path orbit;
+        for (int i = 0; i < 72; ++i)
+        {
+            const Vec2 unit = rotate(Rotation::from_angle(static_cast<float>(i) * pi / 36), {1, 0});
+            orbit.push_back(middle + rotate(Rotation::from_angle(tilt), {unit.x * r * 0.60f, unit.y * r * 0.22f}));
+        }
+        canvas.polyline(orbit, {view::fade(palette::teal, 0.55f), canvas.points(0.0014f)}, true);
+        canvas.fill_circle(orbit[9], 0.0042f, palette::coral);
+    }
+    canvas.fill_radial(middle, 0.011f, view::rgb(0xffe9a8), palette::gold, {-0.3f, 0.3f});
 }
 
 } // namespace
@@ -136,9 +179,11 @@ void draw_art(Canvas& canvas, const Picture& picture)
     if (picture.plain)
         return;
     const Table& table = picture.table();
+    draw_medallion(canvas, table);
+    draw_ribbon(canvas, table, Lamp::Letter, palette::coral);
+    draw_ribbon(canvas, table, Lamp::Bonus, palette::teal);
     draw_rings(canvas, table);
     draw_shots(canvas, table);
-    draw_fan(canvas, table);
     draw_name(canvas, table);
 }
 

@@ -35,7 +35,7 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Bumper
     canvas.fill_circle(bumper.pos, r, palette::steel_dark);
     canvas.fill_radial(bumper.pos, r * 0.97f, palette::steel_light, palette::steel, {-0.4f, 0.4f});
     canvas.fill_circle(bumper.pos, r * (0.86f - 0.04f * flash), view::rgb(0x7a4a00));
-    const view::Color inner = view::mix(view::mix(yellow, palette::ivory, 0.55f), view::rgb(0xffffff), flash);
+    const view::Color inner = view::mix(view::mix(yellow, palette::ivory, 0.55f), view::rgb(0xffffff), 0.8f * flash);
     const view::Color outer = view::mix(view::mix(yellow, view::rgb(0xb36a00), 0.45f), yellow, flash);
     canvas.fill_radial(bumper.pos, r * 0.82f, inner, outer, {-0.3f, 0.35f});
     canvas.stroke_circle(bumper.pos, r * 0.66f, {view::fade(view::rgb(0x8a5200), 0.5f), canvas.points(0.0010f)});
@@ -44,7 +44,7 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Bumper
     canvas.arc(bumper.pos, r * 0.73f, 1.75f, 1.2f, {view::fade(palette::ivory, 0.85f), canvas.points(0.0016f)});
     if (flash > 0.01f && !picture.plain)
     {
-        canvas.glow(bumper.pos, r * 0.5f, 0.055f, view::fade(view::rgb(0xffc23a), 0.85f * flash));
+        canvas.glow(bumper.pos, r * 0.5f, 0.05f, view::fade(view::rgb(0xff9a1e), 0.6f * flash));
         canvas.stroke_circle(bumper.pos, r * (1.1f + 0.7f * (1 - flash)), {view::fade(yellow, 0.6f * flash), canvas.points(0.002f)});
     }
 }

@@ -122,13 +122,13 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Solid&
         draw_rail(canvas, path, edge, Stuff::Rubber, true);
         return;
     }
-    const view::Color base = color_of(picture.table().elements[index], view::rgb(0x2f7fa8));
+    const view::Color base = color_of(picture.table().elements[index], view::rgb(0xa8408f));
     const float clear = picture.plain ? 0.5f : 0.94f;
     canvas.fill_outline(*area, lit(box, view::fade(view::mix(base, palette::ivory, 0.18f), clear),
-                                   view::fade(view::mix(base, view::rgb(0x101c44), 0.72f), clear)));
+                                   view::fade(view::mix(base, view::rgb(0x1a1040), 0.66f), clear)));
     canvas.polyline(path, {view::mix(base, palette::shadow, 0.55f), canvas.points(2 * edge)}, true);
     canvas.polyline(shifted(path, {-0.0004f, 0.0005f}),
-                    {lit(box, view::rgb(0xe2f6ff), view::mix(base, palette::shadow, 0.25f)), canvas.points(0.9f * edge)}, true);
+                    {lit(box, view::rgb(0xffe3b0), view::mix(base, palette::shadow, 0.25f)), canvas.points(0.9f * edge)}, true);
 }
 
 void draw_part(Canvas& canvas, const Picture& picture, Index index, const Post& post)

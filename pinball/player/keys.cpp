@@ -114,7 +114,7 @@ std::span<const KeyLine> key_lines()
 std::span<const KeyLine> xray_key_lines()
 {
     static constexpr KeyLine lines[] = {
-        {"S", "slow motion"}, {"P", "pause"}, {"N", "one step"}, {",  .", "within the step"}, {"X", "close"}};
+        {"S", "slow motion"}, {"P", "pause"}, {"N", "one step"}, {", .", "sub-steps"}, {"X", "close"}};
     return lines;
 }
 

@@ -27,7 +27,7 @@ Layout landscape(Vec2 window, float table_aspect)
     layout.table = {{left, 0}, {left + width, window.y}};
     layout.score = {{0, 0}, {left, window.y}};
     layout.side = {{left + width, 0}, window};
-    layout.unit = std::clamp(std::min(left / 460, window.y / 800), 0.6f, 4.0f);
+    layout.unit = std::clamp(std::min(left / 400, window.y / 720), 0.6f, 4.0f);
     return layout;
 }
 
@@ -36,8 +36,9 @@ Layout portrait(Vec2 window, bool xray)
     Layout layout{};
     layout.unit = std::clamp(std::min(window.x / 400, window.y / 800), 0.6f, 5.0f);
     const float pitch = std::floor(std::min(window.x - 12, window.y * 0.5f) / DotMatrix::columns);
-    const float score = std::round(std::max(pitch, 1.0f) * DotMatrix::rows + 30 * layout.unit);
-    const float bottom = xray ? std::round(window.y * 0.56f) : window.y;
+    const float line = 24 * layout.unit;
+    const float score = std::round(xray ? line : std::max(pitch, 1.0f) * DotMatrix::rows + 12 + line);
+    const float bottom = xray ? std::round(window.y * 0.47f) : window.y;
     layout.score = {{0, 0}, {window.x, score}};
     layout.table = {{0, score}, {window.x, bottom}};
     if (xray)

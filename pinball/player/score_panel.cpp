@@ -112,13 +112,13 @@ std::string bonus_text(const Game& game)
 }
 
 // One line below the display: ball, bonus, and the ball save while it is lit.
-void draw_line(Canvas& screen, const Layout& layout, const Machine& machine, const Status& status, float y)
+void draw_line(Canvas& screen, const Layout& layout, const Machine& machine, const Status& status, float y, bool with_score)
 {
     const Game& game = machine.game();
     TextStyle style{.size = 13 * layout.unit, .color = palette::text_faint};
     const float left = layout.score.min.x + 10 * layout.unit;
     const float right = layout.score.max.x - 10 * layout.unit;
-    screen.text({left, y}, ball_text(game), style);
+    screen.text({left, y}, with_score ? with_commas(game.score()) + " points" : ball_text(game), style);
     style.align_x = 0.5f;
     const bool saving = game.ball_save_steps() > 0;
     style.color = saving ? view::rgb(0xffb347) : palette::text_faint;
@@ -163,12 +163,14 @@ std::string with_commas(std::int64_t value)
 
 void draw_score(Canvas& screen, const Layout& layout, const Machine& machine, const Status& status)
 {
-    const DotMatrix dots = compose(machine, status);
     const float u = layout.unit;
+    if (!layout.side.empty() && !layout.landscape)
+        return draw_line(screen, layout, machine, status, 4 * u, true);
+    const DotMatrix dots = compose(machine, status);
     if (!layout.landscape)
     {
         const float bottom = draw_display(screen, layout.score, 7, dots);
-        return draw_line(screen, layout, machine, status, bottom + 3 * u);
+        return draw_line(screen, layout, machine, status, bottom + 3 * u, false);
     }
     screen.text({(layout.score.min.x + layout.score.max.x) / 2, 26 * u}, machine.game().table().name,
                 {.size = 30 * u, .color = palette::gold, .face = Face::Bold, .align_x = 0.5f});

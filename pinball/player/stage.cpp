@@ -21,15 +21,17 @@ bool waits_for_a_player(const Game& game)
 
 } // namespace
 
-void draw_frame(view::Window& window, Machine& machine, XrayPanel& xray, const Frame& frame)
+void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Frame& frame)
 {
     const Layout layout = lay_out(window.size(), machine.game().table(), frame.xray);
     view::Canvas screen = window.canvas();
     draw_room(screen, window.size());
 
-    view::Camera camera =
-        view::Camera::fit(cabinet_box(machine.game().table()), layout.table.min, layout.table.max, layout.landscape ? 8.0f : 3.0f);
+    const view::Camera camera = stage.camera.look(machine.game(), layout, frame.status.time);
     view::Canvas table = window.canvas(camera);
+    // A little more than the table, for the names at an impact near its edge.
+    const Vec2 more{layout.landscape ? camera.meters(22) : 0, 0};
+    table.push_clip({camera.visible().lower - more, camera.visible().upper + more});
     draw_table(table, {.game = machine.game(),
                        .effects = machine.effects(),
                        .art = machine.art(),
@@ -37,11 +39,12 @@ void draw_frame(view::Window& window, Machine& machine, XrayPanel& xray, const F
                        .time = frame.status.time,
                        .plain = frame.xray});
     if (frame.xray)
-        xray.draw(table, machine, frame.status.paused);
+        stage.xray.draw(table, machine, frame.status.paused);
+    table.pop_clip();
 
     draw_score(screen, layout, machine, frame.status);
     if (frame.xray)
-        xray.widgets(window, layout, machine, frame.status);
+        stage.xray.widgets(window, layout, machine, frame.status);
     else if (layout.landscape)
         (void)draw_keys(screen, {layout.side.min + Vec2{0, 78 * layout.unit}, layout.side.max}, layout.unit);
     else if (waits_for_a_player(machine.game()))

@@ -5,6 +5,7 @@
 
 #include "pinball/player/machine.h"
 #include "pinball/player/score_panel.h"
+#include "pinball/player/table_camera.h"
 #include "pinball/player/xray_panel.h"
 #include "view/window.h"
 
@@ -17,6 +18,13 @@ struct Frame
     Status status{};
 };
 
-void draw_frame(view::Window& window, Machine& machine, XrayPanel& xray, const Frame& frame);
+/// What drawing keeps from frame to frame.
+struct Stage
+{
+    TableCamera camera{};
+    XrayPanel xray{};
+};
+
+void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Frame& frame);
 
 } // namespace carom::pinball

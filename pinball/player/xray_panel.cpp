@@ -14,9 +14,9 @@ void key_help()
     for (const KeyLine& line : xray_key_lines())
     {
         ImGui::TextUnformatted(line.keys);
-        ImGui::SameLine(0, 6);
+        ImGui::SameLine(0, 5);
         ImGui::TextDisabled("%s", line.meaning);
-        ImGui::SameLine(0, 14);
+        ImGui::SameLine(0, 11);
     }
     ImGui::NewLine();
 }
