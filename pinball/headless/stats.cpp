@@ -24,6 +24,13 @@ bool counts(const Table& table, const GameEvent& event)
            event.kind == PlungerReleased;
 }
 
+constexpr std::pair<EventKind, const char*> rule_events[] = {
+    {EventKind::BallSaved, "ball_saved"},       {EventKind::GroupCompleted, "group_completed"},
+    {EventKind::LetterLit, "letter_lit"},       {EventKind::LevelUp, "level_up"},
+    {EventKind::SkillShot, "skill_shot"},       {EventKind::Combo, "combo"},
+    {EventKind::MultiballStarted, "multiball"}, {EventKind::Jackpot, "jackpot"},
+};
+
 bool can_be_hit(const Part& part)
 {
     return !std::holds_alternative<Wall>(part) && !std::holds_alternative<Solid>(part) && !std::holds_alternative<Post>(part) &&
@@ -53,10 +60,7 @@ double at_share(std::vector<double> values, double share)
 } // namespace
 
 Stats::Stats(const Table& table)
-    : m_table(&table),
-      m_step(table.physics.step),
-      m_hits(table.elements.size()),
-      m_speeds(speed_bins)
+    : m_table(&table), m_step(table.physics.step), m_hits(table.elements.size()), m_speeds(speed_bins)
 {}
 
 void Stats::note_step(double microseconds)
@@ -79,6 +83,7 @@ void Stats::note_event(const GameEvent& event)
 {
     if (counts(*m_table, event))
         ++m_hits[event.element];
+    ++m_events[event.kind];
 }
 
 void Stats::note_launch(int serial, std::int64_t step) { m_launched.try_emplace(serial, step); }
@@ -148,6 +153,8 @@ std::string Stats::to_json(const std::string& table, std::uint64_t seed) const
     for (std::size_t i = 0; i < m_hits.size(); ++i)
         if (can_be_hit(m_table->elements[i].part))
             json["hits"][m_table->elements[i].id] = m_hits[i];
+    for (const auto& [kind, name] : rule_events)
+        json["rules"][name] = m_events.contains(kind) ? m_events.at(kind) : 0;
     json["lost"] = nlohmann::ordered_json::array();
     for (const LostBall& ball : m_lost)
         json["lost"].push_back({{"how", ball.how},

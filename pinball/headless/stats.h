@@ -59,6 +59,7 @@ private:
     std::vector<LostBall> m_lost{};
     std::vector<std::int64_t> m_scores{};
     std::vector<std::int64_t> m_hits;
+    std::map<EventKind, std::int64_t> m_events{};
     std::vector<std::int64_t> m_speeds; ///< histogram
     float m_max_speed = 0;
     double m_speed_sum = 0;

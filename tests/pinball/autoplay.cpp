@@ -1,6 +1,7 @@
 // The reflexes of one flipper, with balls that a test puts in its way.
 
 #include "pinball/autoplay/reflex.h"
+#include "pinball/game/auto_plunger.h"
 
 #include "bench_table.h"
 
@@ -77,6 +78,44 @@ TEST(Reflex, StrikesARollingBallPastItsAim)
     FlipperReflex reflex(table, left_flipper, random);
     EXPECT_EQ(press_step(reflex, random, on_bat(0.02f, 0, 0.2f, 0)), -1) << "before any aim";
     EXPECT_GE(press_step(reflex, random, on_bat(0.06f, 0, 0.2f, 0)), 0) << "past every aim";
+}
+
+TEST(AutoPlunger, LaunchesAsManyBallsAsItWasToldOneAfterTheOther)
+{
+    AutoPlunger plunger;
+    plunger.launch();
+    plunger.launch();
+    int releases = 0;
+    bool held = false;
+    for (int i = 0; i < 10'000; ++i)
+    {
+        const bool holds = plunger.step(true, 600);
+        releases += held && !holds ? 1 : 0;
+        held = holds;
+    }
+    EXPECT_EQ(releases, 2);
+}
+
+TEST(AutoPlunger, WaitsForABallThatLiesStill)
+{
+    AutoPlunger plunger;
+    plunger.launch();
+    for (int i = 0; i < 5000; ++i)
+        ASSERT_FALSE(plunger.step(i % 100 != 0, 600)) << "it comes and goes";
+    bool pulled = false;
+    for (int i = 0; i < 500; ++i)
+        pulled = pulled || plunger.step(true, 600);
+    EXPECT_TRUE(pulled);
+}
+
+TEST(AutoPlunger, KeepsPullingWhenTheBallLeavesTheSwitchWithTheRod)
+{
+    AutoPlunger plunger;
+    plunger.launch();
+    int held = 0;
+    for (int i = 0; i < 2000; ++i)
+        held += plunger.step(i < 350, 600) ? 1 : 0;
+    EXPECT_EQ(held, 600);
 }
 
 } // namespace
