@@ -25,15 +25,10 @@ int steps(float seconds, float step) { return static_cast<int>(std::lround(secon
 } // namespace
 
 FlipperReflex::FlipperReflex(const Table& table, const Flipper& flipper, Random& random)
-    : m_side(flipper.input),
-      m_pivot(flipper.pivot),
-      m_along(rotate(Rotation::from_angle(flipper.rest), {1, 0})),
-      m_normal(flipper.up > flipper.rest ? perp(m_along) : -perp(m_along)),
-      m_length(flipper.length),
-      m_base_reach(flipper.base_radius + table.ball.radius),
-      m_tip_reach(flipper.tip_radius + table.ball.radius),
-      m_aim(random.between(first_aim, last_aim)),
-      m_step(table.physics.step)
+    : m_side(flipper.input), m_pivot(flipper.pivot), m_along(rotate(Rotation::from_angle(flipper.rest), {1, 0})),
+      m_normal(flipper.up > flipper.rest ? perp(m_along) : -perp(m_along)), m_length(flipper.length),
+      m_base_reach(flipper.base_radius + table.ball.radius), m_tip_reach(flipper.tip_radius + table.ball.radius),
+      m_aim(random.between(first_aim, last_aim)), m_step(table.physics.step)
 {}
 
 bool FlipperReflex::step(const std::vector<BallState>& balls, Random& random)

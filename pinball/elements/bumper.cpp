@@ -11,8 +11,7 @@ class BumperDevice final : public Device
 {
 public:
     BumperDevice(Playfield& field, Index index, const Bumper& def)
-        : Device(index),
-          m_kick{.speed = def.kick_speed, .threshold = def.threshold, .cooldown = def.cooldown}
+        : Device(index), m_kick{.speed = def.kick_speed, .threshold = def.threshold, .cooldown = def.cooldown}
     {
         ShapeDef surface = field.surface(index);
         surface.kick = m_kick;

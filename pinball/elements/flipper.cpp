@@ -18,10 +18,7 @@ class FlipperDevice final : public Device
 {
 public:
     FlipperDevice(Playfield& field, Index index, const Flipper& def)
-        : Device(index),
-          m_def(def),
-          m_stroke(def.up - def.rest),
-          m_enabled(field.table().elements[index].enabled)
+        : Device(index), m_def(def), m_stroke(def.up - def.rest), m_enabled(field.table().elements[index].enabled)
     {
         Scene& scene = field.scene();
         state.body = scene.create_body({.type = BodyType::Dynamic,

@@ -11,9 +11,7 @@ class KickerDevice final : public Zone
 {
 public:
     KickerDevice(Playfield& field, Index index, const Kicker& def)
-        : Zone(index),
-          m_def(def),
-          m_enabled(field.table().elements[index].enabled)
+        : Zone(index), m_def(def), m_enabled(field.table().elements[index].enabled)
     {
         state.lit = def.lit;
         field.scene().create_shape(field.add_fixed(), box(def.half.x, def.half.y, def.pos), field.trigger(index));

@@ -52,11 +52,7 @@ bool PlungerLane::contains(Position p) const
 }
 
 Playfield::Playfield(const Table& table, std::uint64_t seed)
-    : m_table(table),
-      m_scene(scene_def(table)),
-      m_random(seed),
-      m_lane(table),
-      m_slope(m_scene.gravity()),
+    : m_table(table), m_scene(scene_def(table)), m_random(seed), m_lane(table), m_slope(m_scene.gravity()),
       m_friction(table.physics.mu_playfield * table.physics.g * Rotation::from_angle(table.physics.slope).c)
 {
     add_devices();

@@ -15,8 +15,7 @@ class SlingshotDevice final : public Device
 {
 public:
     SlingshotDevice(Playfield& field, Index index, const Slingshot& def)
-        : Device(index),
-          m_kick{.speed = def.kick_speed, .threshold = def.threshold, .cooldown = def.cooldown}
+        : Device(index), m_kick{.speed = def.kick_speed, .threshold = def.threshold, .cooldown = def.cooldown}
     {
         const auto [a, b, c] = def.corners;
         const Vec2 near_a = a + taut_share * (b - a);

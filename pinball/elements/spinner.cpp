@@ -18,9 +18,7 @@ class SpinnerDevice final : public Device
 {
 public:
     SpinnerDevice(Playfield& field, Index index, const Spinner& def)
-        : Device(index),
-          m_def(def),
-          m_normal(normalize(perp(def.b - def.a)))
+        : Device(index), m_def(def), m_normal(normalize(perp(def.b - def.a)))
     {
         const float share = def.drag_on_ball;
         m_mass = field.table().ball.mass * share / (1 - share);

@@ -14,10 +14,7 @@ class SprungTargetDevice final : public Device
 {
 public:
     SprungTargetDevice(Playfield& field, Index index, const SprungTarget& def)
-        : Device(index),
-          m_pos(def.pos),
-          m_axis(def.axis),
-          m_min_impulse(def.min_impulse)
+        : Device(index), m_pos(def.pos), m_axis(def.axis), m_min_impulse(def.min_impulse)
     {
         Scene& scene = field.scene();
         state.body = scene.create_body({.type = BodyType::Dynamic,

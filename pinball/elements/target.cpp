@@ -35,9 +35,7 @@ class DropTargetDevice final : public Device
 {
 public:
     DropTargetDevice(Playfield& field, Index index, const DropTarget& def)
-        : Device(index),
-          m_def(def),
-          m_body(field.add_fixed(field.table().elements[index].enabled))
+        : Device(index), m_def(def), m_body(field.add_fixed(field.table().elements[index].enabled))
     {
         state.down = !field.table().elements[index].enabled;
         field.scene().create_shape(m_body, Segment{.a = def.a, .b = def.b, .half_thickness = def.radius}, field.surface(index));

@@ -25,8 +25,7 @@ Index plunger_of(const Table& table)
 struct Session
 {
     Session(const Table& table, const Options& options)
-        : field(table, options.seed),
-          rules(table, options.ball_save, options.kickback)
+        : field(table, options.seed), rules(table, options.ball_save, options.kickback)
     {}
 
     Playfield field;
@@ -41,10 +40,7 @@ struct Session
 struct Game::State
 {
     State(Table t, const Options& o)
-        : table(std::move(t)),
-          options(o),
-          plunger(plunger_of(table)),
-          session(std::make_unique<Session>(table, options))
+        : table(std::move(t)), options(o), plunger(plunger_of(table)), session(std::make_unique<Session>(table, options))
     {
         note_balls();
     }

@@ -61,13 +61,22 @@ bool write(const std::string& file, const std::string& text)
     return static_cast<bool>(out);
 }
 
+// Better now than after an hour of play.
+bool can_write(const std::string& file)
+{
+    const bool can = file.empty() || std::ofstream(file, std::ios::app);
+    if (!can)
+        std::cerr << file << ": cannot be written\n";
+    return can;
+}
+
 } // namespace
 
 int run_headless(const HeadlessOptions& options)
 {
     const std::string file = options.table.empty() ? CAROM_TABLES_DIR "/momentum.table.json" : options.table;
     const std::optional<Table> table = load(file);
-    if (!table)
+    if (!table || !can_write(options.stats))
         return 1;
     interrupted = 0;
     const auto before = std::signal(SIGINT, on_interrupt);

@@ -59,9 +59,7 @@ bool Outline::contains(Position p) const
 }
 
 Judge::Judge(const Table& table)
-    : m_outline(table),
-      m_lane(table),
-      m_diameter(2 * table.ball.radius),
+    : m_outline(table), m_lane(table), m_diameter(2 * table.ball.radius),
       m_stuck_steps(static_cast<std::int64_t>(stuck_time / table.physics.step)),
       m_endless_steps(static_cast<std::int64_t>(endless_time / table.physics.step))
 {}

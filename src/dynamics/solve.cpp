@@ -296,30 +296,68 @@ private:
         if (kick.b_fired)
             m_output.kicked_shapes.push_back(contact.shape_b);
         RawImpact raw{contact.shape_a, contact.shape_b, {}};
+        bounce_points(row, e, kick.speed);
         for (int i = 0; i < row.count; ++i)
-            bounce_point(row, row.points[i], e, kick.speed, raw.event);
+            account_for_bounce(row.points[i], e, kick.speed, raw.event);
         fill_impact(row, raw.event, approach, e, kick.speed, k);
         m_output.impacts.push_back(raw);
         ++m_output.bulk_impacts;
     }
 
-    void bounce_point(ContactRow& row, RowPoint& p, float e, float kick, ImpactEvent& event)
+    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick) { return e * std::max(p.approach, 0.0f) + kick; }
+
+    // How much separating speed a point still lacks.
+    [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
     {
-        if (p.normal_impulse <= 0)
-            return;
-        BodyState& a = m_view.states[row.a];
-        BodyState& b = m_view.states[row.b];
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
         const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
-        const float wanted = e * std::max(p.approach, 0.0f) + kick;
-        const float impulse = wanted > 0 ? std::max(p.normal_mass * (wanted - dot(v, row.n)), -p.normal_impulse) : 0;
-        apply_impulse(a, m_view.constants[row.a], p.ra, -impulse * row.n);
-        apply_impulse(b, m_view.constants[row.b], p.rb, impulse * row.n);
-        const float total = p.normal_impulse + impulse;
-        event.impulse += total;
+        return wanted_speed(p, e, kick) - dot(v, row.n);
+    }
+
+    void push(const ContactRow& row, RowPoint& p, float impulse) const
+    {
+        p.normal_impulse += impulse;
+        apply_impulse(m_view.states[row.a], m_view.constants[row.a], p.ra, -impulse * row.n);
+        apply_impulse(m_view.states[row.b], m_view.constants[row.b], p.rb, impulse * row.n);
+    }
+
+    // Two points struck at once bounce at once: a box that lands flat bounces flat.
+    void bounce_points(ContactRow& row, float e, float kick) const
+    {
+        if (e <= 0 && kick <= 0)
+            return;
+        RowPoint& p = row.points[0];
+        RowPoint& q = row.points[1];
+        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0) {
+            const float k11 = 1 / p.normal_mass;
+            const float k22 = 1 / q.normal_mass;
+            const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
+            const float d1 = missing_speed(row, p, e, kick);
+            const float d2 = missing_speed(row, q, e, kick);
+            const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
+            const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
+            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0) {
+                push(row, p, j1);
+                push(row, q, j2);
+                return;
+            }
+        }
+        for (int i = 0; i < row.count; ++i) {
+            RowPoint& r = row.points[i];
+            if (r.normal_impulse > 0)
+                push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
+        }
+    }
+
+    static void account_for_bounce(RowPoint& p, float e, float kick, ImpactEvent& event)
+    {
+        const float wanted = wanted_speed(p, e, kick);
+        event.impulse += p.normal_impulse;
         event.friction_impulse += p.tangent_impulse;
-        event.energy_lost += 0.5f * total * (p.approach - wanted);
+        event.energy_lost += 0.5f * p.normal_impulse * (p.approach - wanted);
         if (wanted > 0) { // what flies off is not pushed again by warm starting
-            p.total_impulse += total;
+            p.total_impulse += p.normal_impulse;
             p.total_tangent += p.tangent_impulse;
             p.normal_impulse = p.tangent_impulse = 0;
         }
