@@ -75,12 +75,12 @@ struct TriggerEvent
 /// ids, to the callbacks of shapes that live.
 struct ShapeCallbacks
 {
-    std::function<void(Scene&, const ContactBeginEvent&)> on_contact_begin;
-    std::function<void(Scene&, const ImpactEvent&)> on_impact;
-    std::function<void(Scene&, const ContactEndEvent&)> on_contact_end;
-    std::function<void(Scene&, const TriggerEvent&)> on_trigger_enter;
-    std::function<void(Scene&, const TriggerEvent&)> on_trigger_inside; ///< every step while inside, also asleep
-    std::function<void(Scene&, const TriggerEvent&)> on_trigger_exit;
+    std::function<void(Scene&, const ContactBeginEvent&)> on_contact_begin{};
+    std::function<void(Scene&, const ImpactEvent&)> on_impact{};
+    std::function<void(Scene&, const ContactEndEvent&)> on_contact_end{};
+    std::function<void(Scene&, const TriggerEvent&)> on_trigger_enter{};
+    std::function<void(Scene&, const TriggerEvent&)> on_trigger_inside{}; ///< every step while inside, also asleep
+    std::function<void(Scene&, const TriggerEvent&)> on_trigger_exit{};
 };
 
 } // namespace carom

@@ -159,7 +159,7 @@ struct ShapeDef
     /// With MixRule::OtherDecides the other shape's values hold where this is set; ignored by the other rules.
     bool yields_material = false;
     Filter filter{};
-    bool trigger = false; ///< passes through everything and reports enter, inside, exit
+    bool trigger = false; ///< passes through everything and reports enter, inside, exit; gives the body no mass
     Field field{};          ///< triggers only
     std::uint64_t user_data = 0;
 };

@@ -22,8 +22,7 @@ class App
 {
 public:
     explicit App(const PlayerOptions& options)
-        : m_options(options),
-          m_machine(options.table_file(), options.seed, options.autoplay, true),
+        : m_options(options), m_machine(options.table_file(), options.seed, options.autoplay, true),
           m_window({.title = "Carom: " + m_machine.game().table().name,
                     .width = options.width,
                     .height = options.height,

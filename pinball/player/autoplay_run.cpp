@@ -49,8 +49,7 @@ class AutoplayRun
 {
 public:
     explicit AutoplayRun(const PlayerOptions& options)
-        : m_options(options),
-          m_machine(options.table_file(), options.seed, true, false),
+        : m_options(options), m_machine(options.table_file(), options.seed, true, false),
           m_step_s(static_cast<double>(m_machine.game().table().physics.step))
     {
         m_sounds.sink().set_muted(options.mute);
@@ -110,11 +109,9 @@ private:
         view::Image image;
         const double time = static_cast<double>(m_machine.game().step_count()) * m_step_s;
         const view::SoundSink& sink = m_sounds.sink();
-        const Frame frame{.xray = m_options.xray,
-                          .status = {.time = time,
-                                     .muted = sink.is_muted(),
-                                     .volume = sink.volume(),
-                                     .why_mute = sink.why_mute()}};
+        const Frame frame{
+            .xray = m_options.xray,
+            .status = {.time = time, .muted = sink.is_muted(), .volume = sink.volume(), .why_mute = sink.why_mute()}};
         // Sizes of text that are asked for in one frame are baked before the next.
         for (int i = 0; i < 3 && window.begin_frame(); ++i)
         {

@@ -38,10 +38,8 @@ Input ButtonTimeline::advance_to(double time_ms)
         const auto index = static_cast<std::size_t>(button);
         return m_sources[index] != 0 || m_pressed_now[index];
     };
-    return {.left = held(Button::Left),
-            .right = held(Button::Right),
-            .plunger = held(Button::Plunger),
-            .start = held(Button::Start)};
+    return {
+        .left = held(Button::Left), .right = held(Button::Right), .plunger = held(Button::Plunger), .start = held(Button::Start)};
 }
 
 } // namespace carom::pinball

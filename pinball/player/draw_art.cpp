@@ -111,8 +111,8 @@ void draw_name(Canvas& canvas, const Table& table)
     canvas.text(at, name, style);
     for (const float side : {-1.0f, 1.0f})
         canvas.line(at + Vec2{side * 0.02f, -0.022f}, at + Vec2{side * 0.075f, -0.022f},
-                    {view::Paint::linear(at + Vec2{side * 0.02f, 0}, view::fade(palette::teal, 0.9f),
-                                         at + Vec2{side * 0.075f, 0}, view::fade(palette::teal, 0.0f)),
+                    {view::Paint::linear(at + Vec2{side * 0.02f, 0}, view::fade(palette::teal, 0.9f), at + Vec2{side * 0.075f, 0},
+                                         view::fade(palette::teal, 0.0f)),
                      canvas.points(0.0016f)});
     canvas.fill_circle(at + Vec2{0, -0.022f}, 0.003f, palette::coral);
 }
@@ -156,7 +156,8 @@ void draw_medallion(Canvas& canvas, const Table& table)
     {
         const Vec2 out = rotate(Rotation::from_angle(static_cast<float>(i) * pi / 36), {1, 0});
         const float from = i % 6 == 0 ? 0.87f : 0.915f;
-        canvas.line(middle + out * (r * from), middle + out * (r * 0.945f), {view::fade(palette::gold, 0.5f), canvas.points(0.0009f)});
+        canvas.line(middle + out * (r * from), middle + out * (r * 0.945f),
+                    {view::fade(palette::gold, 0.5f), canvas.points(0.0009f)});
     }
     for (const float tilt : {0.5f, -0.5f})
     {

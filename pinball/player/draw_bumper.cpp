@@ -17,8 +17,8 @@ void draw_star(Canvas& canvas, Vec2 middle, float radius, int level, view::Color
     {
         const float angle = pi / 2 + static_cast<float>(i) * 2 * pi / static_cast<float>(points);
         const Vec2 out = rotate(Rotation::from_angle(angle), {1, 0});
-        const std::array<Position, 3> ray{Position(middle + perp(out) * (0.3f * radius)), Position(middle - perp(out) * (0.3f * radius)),
-                                          Position(middle + out * radius)};
+        const std::array<Position, 3> ray{Position(middle + perp(out) * (0.3f * radius)),
+                                          Position(middle - perp(out) * (0.3f * radius)), Position(middle + out * radius)};
         canvas.fill_polygon(ray, color);
     }
     canvas.fill_circle(middle, radius * 0.42f, color);
@@ -45,7 +45,8 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Bumper
     if (flash > 0.01f && !picture.plain)
     {
         canvas.glow(bumper.pos, r * 0.5f, 0.05f, view::fade(view::rgb(0xff9a1e), 0.6f * flash));
-        canvas.stroke_circle(bumper.pos, r * (1.1f + 0.7f * (1 - flash)), {view::fade(yellow, 0.6f * flash), canvas.points(0.002f)});
+        canvas.stroke_circle(bumper.pos, r * (1.1f + 0.7f * (1 - flash)),
+                             {view::fade(yellow, 0.6f * flash), canvas.points(0.002f)});
     }
 }
 

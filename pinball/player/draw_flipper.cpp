@@ -13,8 +13,8 @@ void draw_part(view::Canvas& canvas, const Picture& picture, Index index, const 
     const float end = flipper.tip_radius;
     canvas.fill_capsule(pivot, tip, base, end, view::rgb(0x7c1218));
     canvas.fill_capsule(pivot + Vec2{-0.0003f, 0.0004f}, tip + Vec2{-0.0003f, 0.0004f}, base * 0.93f, end * 0.9f, palette::red);
-    const view::Paint ivory = view::Paint::linear(pivot + Vec2{-base, base}, view::rgb(0xfffaf0), pivot + Vec2{base, -base},
-                                                  view::rgb(0xc9b896));
+    const view::Paint ivory =
+        view::Paint::linear(pivot + Vec2{-base, base}, view::rgb(0xfffaf0), pivot + Vec2{base, -base}, view::rgb(0xc9b896));
     canvas.fill_capsule(pivot, tip, base * 0.74f, end * 0.6f, ivory);
     canvas.line(pivot + along * (base * 1.1f), tip - along * (end * 0.5f),
                 {view::fade(palette::teal, 0.9f), canvas.points(end * 0.34f)});

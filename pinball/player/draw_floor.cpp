@@ -46,7 +46,8 @@ void draw_part(Canvas& canvas, const Picture& picture, Index, const Booster& boo
     {
         const float t = (static_cast<float>(i) + static_cast<float>(phase)) / 4;
         const Vec2 tip = booster.pos + along * (reach * (2 * t - 1));
-        const std::array<Position, 3> v{Position(tip - along * wide - side * wide), Position(tip), Position(tip - along * wide + side * wide)};
+        const std::array<Position, 3> v{Position(tip - along * wide - side * wide), Position(tip),
+                                        Position(tip - along * wide + side * wide)};
         const float strength = 0.7f * std::sin(pi * t);
         canvas.polyline(v, {view::fade(palette::teal, strength), canvas.points(0.0028f)});
     }

@@ -19,7 +19,8 @@ float brightness(const Picture& picture, Index index, const Light& light)
     if (phase == Phase::Attract || phase == Phase::GameOver)
     {
         // A wave that runs up the table while nobody plays.
-        const double wave = std::sin(picture.time * 3.0 - static_cast<double>(light.pos.y) * 9.0 + static_cast<double>(light.pos.x) * 4);
+        const double wave =
+            std::sin(picture.time * 3.0 - static_cast<double>(light.pos.y) * 9.0 + static_cast<double>(light.pos.x) * 4);
         return static_cast<float>(std::clamp(0.5 + 0.7 * wave, 0.0, 1.0));
     }
     switch (picture.game.lamp(index))
@@ -42,7 +43,8 @@ void draw_part(view::Canvas& canvas, const Picture& picture, Index index, const 
     const view::Color edge = view::mix(dark, color, lit);
     canvas.fill_circle(light.pos, light.radius, view::rgb(0x070a14));
     canvas.fill_radial(light.pos, light.radius * 0.9f, middle, edge, {-0.2f, 0.25f});
-    canvas.stroke_circle(light.pos, light.radius * 0.93f, {view::fade(view::mix(palette::gold, color, 0.4f), 0.75f), canvas.points(0.0010f)});
+    canvas.stroke_circle(light.pos, light.radius * 0.93f,
+                         {view::fade(view::mix(palette::gold, color, 0.4f), 0.75f), canvas.points(0.0010f)});
     if (lit > 0.02f && !picture.plain)
         canvas.glow(light.pos, light.radius * 0.6f, light.radius * 1.9f, view::fade(color, 0.6f * lit));
     if (light.label.empty())

@@ -18,7 +18,8 @@ void draw_part(view::Canvas& canvas, const Picture& picture, Index index, const 
     const Vec2 side = perp(axis) * plunger.half.x;
     const Vec2 room = perp(axis) * (plunger.half.x * 1.15f);
     canvas.fill_polygon(std::array<Position, 4>{plate - room - axis * 0.004f, plate + room - axis * 0.004f,
-                                                plunger.pos + room - axis * plunger.half.y, plunger.pos - room - axis * plunger.half.y},
+                                                plunger.pos + room - axis * plunger.half.y,
+                                                plunger.pos - room - axis * plunger.half.y},
                         view::rgb(0x090b14), 0.002f);
     canvas.line(plate - side, plate + side, {palette::steel_dark, canvas.points(0.005f)});
     canvas.line(plate - side, plate + side, {palette::steel, canvas.points(0.003f)});

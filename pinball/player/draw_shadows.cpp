@@ -20,10 +20,7 @@ void shadow_of_path(Canvas& canvas, view::Path path, float radius, bool closed)
     canvas.shade_path(path, radius, dark(0.75f), closed);
 }
 
-void shadow_of_line(Canvas& canvas, Position a, Position b, float radius)
-{
-    shadow_of_path(canvas, {a, b}, radius, false);
-}
+void shadow_of_line(Canvas& canvas, Position a, Position b, float radius) { shadow_of_path(canvas, {a, b}, radius, false); }
 
 struct Caster
 {
@@ -49,7 +46,8 @@ struct Caster
     {
         const std::array<Position, 3> corners{sling.corners[0] + away, sling.corners[1] + away, sling.corners[2] + away};
         canvas.fill_polygon(corners, dark(0.45f), sling.radius);
-        canvas.shade_path(corners, sling.radius + 0.01f, dark(0.6f), true);
+        // Along the rounded outline: about a sharp corner a soft edge would grow a spike.
+        canvas.shade_path(view::rounded_outline(corners, sling.radius, canvas.tolerance()), 0.009f, dark(0.7f), true);
     }
     void operator()(const Flipper& flipper) const
     {

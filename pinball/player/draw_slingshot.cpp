@@ -44,8 +44,10 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Slings
         plastic[i] = middle + (c[i] - middle) * 0.86f;
     const view::Color base = color_of(picture.table().elements[index], palette::coral);
     const view::Color hot = view::mix(base, palette::ivory, 0.5f * picture.glow(index));
-    canvas.fill_polygon(plastic, view::Paint::linear(c[1], view::fade(hot, 0.95f), c[0], view::fade(view::mix(hot, palette::shadow, 0.45f), 0.95f)),
-                        0.0015f);
+    canvas.fill_polygon(
+        plastic,
+        view::Paint::linear(c[1], view::fade(hot, 0.95f), c[0], view::fade(view::mix(hot, palette::shadow, 0.45f), 0.95f)),
+        0.0015f);
     canvas.stroke_polygon(plastic, {view::fade(palette::ivory, 0.6f), canvas.points(0.0010f)}, 0.0015f);
     for (const Vec2 corner : c)
         canvas.fill_radial(middle + (corner - middle) * 0.93f, 0.0034f, palette::steel_light, palette::steel_dark, {-0.4f, 0.4f});

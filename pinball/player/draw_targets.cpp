@@ -19,7 +19,8 @@ void draw_plate(Canvas& canvas, Vec2 a, Vec2 b, float radius, view::Color color,
     // What stands is nearer to the eye: it looks a little bigger and lies a little up the table.
     const Vec2 lift{-0.0010f * up, 0.0013f * up};
     canvas.fill_capsule(a, b, radius, radius, view::mix(color, palette::shadow, 0.6f));
-    canvas.fill_capsule(a + lift, b + lift, radius * 1.15f, radius * 1.15f, view::mix(palette::shadow, color, 0.35f + 0.65f * up));
+    canvas.fill_capsule(a + lift, b + lift, radius * 1.15f, radius * 1.15f,
+                        view::mix(palette::shadow, color, 0.35f + 0.65f * up));
     const Vec2 shine = lift + Vec2{-0.0003f, 0.0005f};
     canvas.line(a + shine, b + shine, {view::fade(palette::ivory, 0.75f * up), canvas.points(0.0007f)});
 }

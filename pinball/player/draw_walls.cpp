@@ -4,6 +4,7 @@
 #include "pinball/player/parts.h"
 
 #include <algorithm>
+#include <string>
 
 namespace carom::pinball {
 
@@ -76,7 +77,7 @@ bool is_apron(const Table& table, const view::Path& path)
 }
 
 // A slope below the flippers covers the way of the drained balls.
-void draw_apron(Canvas& canvas, const view::Path& path)
+void draw_apron(Canvas& canvas, const view::Path& path, const Table& table)
 {
     const Position a = path.front();
     const Position b = path.back();
@@ -88,6 +89,14 @@ void draw_apron(Canvas& canvas, const view::Path& path)
         const Position from = a + along * t + Vec2{0, -0.014f};
         canvas.line(from, from + along * (0.62f - t), {view::fade(palette::gold, 0.5f), canvas.points(0.0012f)});
     }
+    const bool left = a.x < b.x;
+    const Position low = a + along * 0.31f;
+    canvas.text({low.x, low.y * 0.36}, left ? "CAROM" : std::to_string(table.rules.balls) + " BALLS",
+                {.size = canvas.points(0.013f),
+                 .color = view::fade(palette::gold, 0.85f),
+                 .face = view::Face::Bold,
+                 .align_x = 0.5f,
+                 .align_y = 0.5f});
 }
 
 } // namespace
@@ -104,7 +113,7 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Wall& 
         return;
     }
     if (is_apron(picture.table(), path))
-        draw_apron(canvas, path);
+        draw_apron(canvas, path, picture.table());
     draw_rail(canvas, path, std::max(wall.path.half_thickness, 0.0012f), stuff, false);
 }
 

@@ -37,11 +37,20 @@ struct WishKey
 };
 
 constexpr WishKey wish_keys[] = {
-    {SDL_SCANCODE_P, Wish::Pause},         {SDL_SCANCODE_R, Wish::Restart},          {SDL_SCANCODE_M, Wish::Mute},
-    {SDL_SCANCODE_MINUS, Wish::Quieter},   {SDL_SCANCODE_KP_MINUS, Wish::Quieter},   {SDL_SCANCODE_EQUALS, Wish::Louder},
-    {SDL_SCANCODE_KP_PLUS, Wish::Louder},  {SDL_SCANCODE_X, Wish::Xray},             {SDL_SCANCODE_F11, Wish::Fullscreen},
-    {SDL_SCANCODE_ESCAPE, Wish::Quit},     {SDL_SCANCODE_S, Wish::SlowMotion},       {SDL_SCANCODE_N, Wish::SingleStep},
-    {SDL_SCANCODE_COMMA, Wish::SubstepBack}, {SDL_SCANCODE_PERIOD, Wish::SubstepForth},
+    {SDL_SCANCODE_P, Wish::Pause},
+    {SDL_SCANCODE_R, Wish::Restart},
+    {SDL_SCANCODE_M, Wish::Mute},
+    {SDL_SCANCODE_MINUS, Wish::Quieter},
+    {SDL_SCANCODE_KP_MINUS, Wish::Quieter},
+    {SDL_SCANCODE_EQUALS, Wish::Louder},
+    {SDL_SCANCODE_KP_PLUS, Wish::Louder},
+    {SDL_SCANCODE_X, Wish::Xray},
+    {SDL_SCANCODE_F11, Wish::Fullscreen},
+    {SDL_SCANCODE_ESCAPE, Wish::Quit},
+    {SDL_SCANCODE_S, Wish::SlowMotion},
+    {SDL_SCANCODE_N, Wish::SingleStep},
+    {SDL_SCANCODE_COMMA, Wish::SubstepBack},
+    {SDL_SCANCODE_PERIOD, Wish::SubstepForth},
 };
 
 bool may_repeat(Wish wish)

@@ -23,7 +23,7 @@ struct Layout
     bool landscape = false;
     Area table{};
     Area score{};
-    Area side{}; ///< keys and high scores, or the x-ray; in portrait only the x-ray
+    Area side{};    ///< keys and high scores, or the x-ray; in portrait only the x-ray
     float unit = 1; ///< how big small things are: 1 in a window of 1280x800
 };
 

@@ -36,11 +36,7 @@ std::string name_of(const Table& table, std::uint64_t tag)
 
 Machine::Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores)
     : impacts([this](const Scene& scene, ShapeId shape) { return name_of(m_game.table(), scene.shape(shape).user_data()); }),
-      m_watch(file),
-      m_seed(seed),
-      m_autoplay(autoplay),
-      m_game(load_or_throw(file), {.seed = seed}),
-      m_effects(m_game.table()),
+      m_watch(file), m_seed(seed), m_autoplay(autoplay), m_game(load_or_throw(file), {.seed = seed}), m_effects(m_game.table()),
       m_art(m_game.table())
 {
     if (keep_scores)

@@ -28,10 +28,7 @@ bool read_size(const std::string& text, PlayerOptions& options)
 
 } // namespace
 
-std::string PlayerOptions::table_file() const
-{
-    return table.empty() ? CAROM_TABLES_DIR "/momentum.table.json" : table;
-}
+std::string PlayerOptions::table_file() const { return table.empty() ? CAROM_TABLES_DIR "/momentum.table.json" : table; }
 
 ParsedOptions parse_options(int argc, const char* const* argv)
 {

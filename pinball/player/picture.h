@@ -15,8 +15,8 @@ struct Picture
     const Game& game;
     const Effects& effects;
     const TableArt& art;
-    float alpha = 1;   ///< how far the frame is past the last step
-    double time = 0;   ///< s, for what moves without physics
+    float alpha = 1;    ///< how far the frame is past the last step
+    double time = 0;    ///< s, for what moves without physics
     bool plain = false; ///< under the x-ray: no glow, no shine, darker
 
     [[nodiscard]] const Table& table() const { return game.table(); }

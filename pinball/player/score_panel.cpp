@@ -55,7 +55,8 @@ DotMatrix compose(const Machine& machine, const Status& status)
     if (game.phase() == Phase::Attract)
         dots.centered(score_row, std::fmod(status.time, 8.0) < 4 ? "CAROM" : "PINBALL", 2);
     else
-        dots.centered(score_row, with_commas(game.score()), DotMatrix::width(with_commas(game.score()), 2) <= DotMatrix::columns ? 2 : 1);
+        dots.centered(score_row, with_commas(game.score()),
+                      DotMatrix::width(with_commas(game.score()), 2) <= DotMatrix::columns ? 2 : 1);
     const std::string message(game.message());
     if (!message.empty())
     {
@@ -129,7 +130,8 @@ void draw_line(Canvas& screen, const Layout& layout, const Machine& machine, con
 }
 
 // Label on the left, value on the right.
-float draw_row(Canvas& screen, const Layout& layout, float y, const std::string& label, const std::string& value, view::Color color)
+float draw_row(Canvas& screen, const Layout& layout, float y, const std::string& label, const std::string& value,
+               view::Color color)
 {
     const float pad = 34 * layout.unit;
     screen.text({layout.score.min.x + pad, y}, label, {.size = 15 * layout.unit, .color = palette::text_faint});
@@ -142,9 +144,10 @@ float draw_rows(Canvas& screen, const Layout& layout, const Machine& machine, co
 {
     const Game& game = machine.game();
     const std::string number = std::to_string(game.ball_number());
-    y = draw_row(screen, layout, y, "ball", game.ball_number() == 0 ? "-" : number + " of " + std::to_string(game.balls_per_game()),
+    y = draw_row(screen, layout, y, "ball",
+                 game.ball_number() == 0 ? "-" : number + " of " + std::to_string(game.balls_per_game()), palette::text);
+    y = draw_row(screen, layout, y, "bonus", with_commas(game.bonus()) + " x" + std::to_string(game.bonus_multiplier()),
                  palette::text);
-    y = draw_row(screen, layout, y, "bonus", with_commas(game.bonus()) + " x" + std::to_string(game.bonus_multiplier()), palette::text);
     const bool saving = game.ball_save_steps() > 0;
     y = draw_row(screen, layout, y, "ball save", saving ? save_text(game).substr(10) : "out",
                  saving ? view::rgb(0xffb347) : palette::text_faint);

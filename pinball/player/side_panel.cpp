@@ -65,7 +65,8 @@ float draw_high_scores(Canvas& screen, const Area& area, const Machine& machine,
         const view::Color color = fresh ? palette::gold : palette::text;
         screen.text({left, y}, std::to_string(i + 1), {.size = 14 * unit, .color = palette::text_faint});
         screen.text({left + 30 * unit, y}, entries[i].name, {.size = 14 * unit, .color = color, .face = Face::Mono});
-        screen.text({right, y}, with_commas(entries[i].score), {.size = 14 * unit, .color = color, .face = Face::Bold, .align_x = 1});
+        screen.text({right, y}, with_commas(entries[i].score),
+                    {.size = 14 * unit, .color = color, .face = Face::Bold, .align_x = 1});
     }
     return entries.empty() ? y + 21 * unit : y;
 }

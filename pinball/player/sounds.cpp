@@ -135,8 +135,11 @@ std::optional<Strike> of_element(const Table& table, const GameEvent& event)
     case EventKind::FlipperStop:
     case EventKind::FlipperCoil: return flipper(event);
     case EventKind::PlungerReleased:
-        return Strike{
-            .pitch_hz = 90, .brightness = 0.5f, .noise = 0.6f, .decay_s = 0.2f, .loudness = std::clamp(event.speed * 16, 0.1f, 0.8f)};
+        return Strike{.pitch_hz = 90,
+                      .brightness = 0.5f,
+                      .noise = 0.6f,
+                      .decay_s = 0.2f,
+                      .loudness = std::clamp(event.speed * 16, 0.1f, 0.8f)};
     default: return std::nullopt;
     }
 }
@@ -179,9 +182,6 @@ void Sounds::hear(const Game& game)
             m_sink.play(*strike);
 }
 
-void Sounds::frame(const Game& game, bool running)
-{
-    m_sink.set_drone(0, running ? rolling_noise(game) : view::Drone{});
-}
+void Sounds::frame(const Game& game, bool running) { m_sink.set_drone(0, running ? rolling_noise(game) : view::Drone{}); }
 
 } // namespace carom::pinball

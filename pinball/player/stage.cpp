@@ -14,10 +14,7 @@ void draw_room(view::Canvas& screen, Vec2 window)
                     view::Paint::linear({0, 0}, view::rgb(0x191623), {0, static_cast<double>(window.y)}, view::rgb(0x08080d)));
 }
 
-bool waits_for_a_player(const Game& game)
-{
-    return game.phase() == Phase::Attract;
-}
+bool waits_for_a_player(const Game& game) { return game.phase() == Phase::Attract; }
 
 } // namespace
 

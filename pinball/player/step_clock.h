@@ -33,10 +33,7 @@ public:
     }
     [[nodiscard]] double step_end_ms() const { return m_done; }
     /// How far the frame is past the last step, 0 to 1.
-    [[nodiscard]] float alpha() const
-    {
-        return static_cast<float>(std::clamp((m_now - m_done) * m_speed / m_step, 0.0, 1.0));
-    }
+    [[nodiscard]] float alpha() const { return static_cast<float>(std::clamp((m_now - m_done) * m_speed / m_step, 0.0, 1.0)); }
     /// Lets the time until now pass without steps.
     void skip_to(double now_ms) { m_done = m_now = now_ms; }
 

@@ -24,10 +24,7 @@ std::optional<view::OutlineMesh> mesh_of(const view::Path& path)
     }
 }
 
-view::Path whole_table(const Table& table)
-{
-    return {{0, 0}, {table.size.x, 0}, Position(table.size), {0, table.size.y}};
-}
+view::Path whole_table(const Table& table) { return {{0, 0}, {table.size.x, 0}, Position(table.size), {0, table.size.y}}; }
 
 } // namespace
 

@@ -19,10 +19,7 @@ public:
     /// Middle line of a wall, outline of a solid, else empty.
     [[nodiscard]] const view::Path& path(Index element) const { return m_paths[element]; }
     /// Area of a solid; null where its outline cannot be filled.
-    [[nodiscard]] const view::OutlineMesh* area(Index element) const
-    {
-        return m_areas[element] ? &*m_areas[element] : nullptr;
-    }
+    [[nodiscard]] const view::OutlineMesh* area(Index element) const { return m_areas[element] ? &*m_areas[element] : nullptr; }
     /// Where balls can be.
     [[nodiscard]] const view::OutlineMesh* field() const { return m_field ? &*m_field : nullptr; }
 

@@ -23,7 +23,8 @@ void key_help()
 
 void time_line(const Machine& machine, const Status& status)
 {
-    const double time = static_cast<double>(machine.game().step_count()) * static_cast<double>(machine.game().table().physics.step);
+    const double time =
+        static_cast<double>(machine.game().step_count()) * static_cast<double>(machine.game().table().physics.step);
     const char* how = status.paused ? "paused" : status.speed < 1 ? "slow motion" : "real time";
     ImGui::Text("%.3f s, %s", time, how);
     const StepReport& report = machine.game().scene().report();

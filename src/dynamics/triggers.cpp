@@ -142,12 +142,15 @@ private:
             return beyond;
         const float speed = (1 + static_cast<float>(path().size())) * travelled / m_ctx.dt;
         const float nearest = 1e-3f * m_ctx.scene.tolerances.slop;
+        const float least_step = 1e-4f * m_ctx.dt;
         float t = 0;
         for (int i = 0; i < 400 && t <= m_ctx.dt; ++i) {
             const float gap = separation(backwards ? m_ctx.dt - t : t);
-            if (gap <= nearest)
+            // What only touches and moves away has not come in.
+            const float after = std::min(t + least_step, m_ctx.dt);
+            if (gap <= nearest && separation(backwards ? m_ctx.dt - after : after) < std::max(gap, 0.0f))
                 return t;
-            t += std::max(std::min(gap, travelled) / speed, 1e-4f * m_ctx.dt);
+            t += std::max(std::min(gap, travelled) / speed, least_step);
         }
         return beyond;
     }

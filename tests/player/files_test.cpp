@@ -19,7 +19,10 @@ namespace fs = std::filesystem;
 class Folder
 {
 public:
-    Folder() : m_path(fs::path(testing::TempDir()) / ("carom_player_" + std::to_string(getpid()))) { fs::create_directories(m_path); }
+    Folder() : m_path(fs::path(testing::TempDir()) / ("carom_player_" + std::to_string(getpid())))
+    {
+        fs::create_directories(m_path);
+    }
     ~Folder() { fs::remove_all(m_path); }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
@@ -81,7 +84,8 @@ TEST(PlayerHighScores, ABrokenFileIsPutAsideAndNothingIsLost)
 TEST(PlayerHighScores, EntriesThatAreNoneArePassedOver)
 {
     const Folder folder;
-    write(folder / "scores.json", R"({"tables": {"T": [3, {"name": 1, "score": 2}, {"name": "OK", "score": 9}, {"name": "X"}]}})");
+    write(folder / "scores.json",
+          R"({"tables": {"T": [3, {"name": 1, "score": 2}, {"name": "OK", "score": 9}, {"name": "X"}]}})");
     const HighScores scores = HighScoreFile(folder / "scores.json").load("T");
     ASSERT_EQ(scores.entries().size(), 1u);
     EXPECT_EQ(scores.entries()[0], (HighScore{"OK", 9}));
@@ -166,7 +170,8 @@ PlayerOptions parse(std::vector<const char*> words)
 
 TEST(PlayerOptionsTest, AreRead)
 {
-    const PlayerOptions options = parse({"--size", "400x800", "--autoplay", "--seconds", "20", "--seed", "9", "--xray", "--mute"});
+    const PlayerOptions options =
+        parse({"--size", "400x800", "--autoplay", "--seconds", "20", "--seed", "9", "--xray", "--mute"});
     EXPECT_EQ(options.width, 400);
     EXPECT_EQ(options.height, 800);
     EXPECT_EQ(options.seconds, 20);

@@ -111,7 +111,8 @@ TEST(PlayerSounds, DevicesSound)
         ASSERT_TRUE(strike) << static_cast<int>(kind);
         EXPECT_GT(strike->loudness, 0);
     }
-    const auto lane = [](const char* id) { return strike_of(momentum(), {.kind = EventKind::Entered, .element = momentum().find(id)}); };
+    const auto lane = [](const char* id)
+    { return strike_of(momentum(), {.kind = EventKind::Entered, .element = momentum().find(id)}); };
     ASSERT_TRUE(lane("top1") && lane("top2"));
     EXPECT_GT(lane("top2")->pitch_hz, lane("top1")->pitch_hz);
     EXPECT_FALSE(lane("shooter"));
