@@ -5,6 +5,7 @@
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
+#include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
 #include "dynamics/wake.h"
@@ -58,17 +59,6 @@ bool is_sound(const BodyState& s, double x, double y)
     return is_finite(s.velocity) && is_finite(s.angular_velocity) && is_finite(x) && is_finite(y) && is_finite(s.delta_rotation.c) && is_finite(s.delta_rotation.s);
 }
 
-void quarantine(StepContext& ctx, int body)
-{
-    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    sim.velocity = {};
-    sim.angular_velocity = 0;
-    sim.force = {};
-    sim.torque = 0;
-    ctx.report.quarantined.push_back(body_id(ctx.state, body));
-    ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::BodyQuarantined);
-}
-
 // Struck or pulled in the step, farther than the rows it was given cover.
 bool went_beyond_its_rows(const StepContext& ctx, const BodyState& s, int body)
 {
@@ -94,7 +84,7 @@ void commit_state(StepContext& ctx, std::int32_t index)
         y = flier.landed ? y : flier.y;
     }
     if (!is_sound(s, x, y)) {
-        quarantine(ctx, body);
+        ctx.scratch.unsound.push_back(body);
         return;
     }
     if (went_beyond_its_rows(ctx, s, body)) {
@@ -285,17 +275,6 @@ void put_to_sleep(StepContext& ctx)
         sleep_body(ctx.scene, body);
 }
 
-void disable_quarantined(StepContext& ctx)
-{
-    for (const BodyId id : ctx.report.quarantined) {
-        const int body = static_cast<int>(id.slot) - 1;
-        for_each_contact(ctx.state, body, [&](int contact) { destroy_contact(ctx.scene, contact, ctx.scene.events, ctx.dt); });
-        leave_awake(ctx.scene, body);
-        ctx.state.bodies[body].enabled = false;
-        for_each_leaf(ctx.state, body, [&](int shape) { ctx.state.broad_phase.remove(shape); });
-    }
-}
-
 void clear_forces(StepContext& ctx)
 {
     for (const std::int32_t body : ctx.state.awake_bodies) {
@@ -317,6 +296,7 @@ void clear_forces(StepContext& ctx)
 void commit_and_sleep(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
+    scratch.unsound.clear();
     for (const std::int32_t body : ctx.state.awake_bodies) {
         if (ctx.state.bodies[body].type != BodyType::Kinematic)
             continue;
@@ -334,7 +314,8 @@ void commit_and_sleep(StepContext& ctx)
     for (std::size_t u = 0; u < scratch.units.size(); ++u)
         merge_output(ctx, scratch.outputs[u]);
     update_triggers(ctx);
-    disable_quarantined(ctx);
+    for (const std::int32_t body : scratch.unsound)
+        quarantine(ctx, body, ctx.dt);
     put_to_sleep(ctx);
     clear_forces(ctx);
 }

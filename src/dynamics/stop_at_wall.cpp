@@ -53,8 +53,8 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
         const Pose pose = state.sims[static_cast<std::size_t>(wall.body)].pose();
         const FramePath frame{{pose.position.x - start.x, pose.position.y - start.y}, {}, pose.rotation.c, pose.rotation.s, 0};
         const std::optional<BallHit> hit = ball_time_of_impact(path, core.radius, leaf_view(state, other), frame, part, 0);
-        if (hit && hit->time > 0) // what the core overlaps from the start is the solver's business
-            part = hit->time;
+        if (hit)
+            part = hit->time; // 0 where the core is in the wall already and would go deeper
         return true;
     };
     const FloatBox box = round_outwards(start.x + std::min(dx, 0.0) - core.radius, start.y + std::min(dy, 0.0) - core.radius, start.x + std::max(dx, 0.0) + core.radius,

@@ -2,6 +2,7 @@
 
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
+#include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
 
 #include <cmath>
@@ -70,11 +71,27 @@ void sweep_body(StepContext& ctx, int body, float& motion)
     });
 }
 
+// Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
+void put_aside_unsound(StepContext& ctx)
+{
+    std::vector<std::int32_t>& unsound = ctx.scratch.unsound;
+    unsound.clear();
+    for (const std::int32_t body : ctx.state.awake_bodies) {
+        const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+        const float reach = length(predicted_shift(ctx, ctx.state.bodies[body], sim)) + std::fabs(sim.angular_velocity) + std::fabs(sim.torque);
+        if (!(reach < 1e15f))
+            unsound.push_back(body);
+    }
+    for (const std::int32_t body : unsound)
+        quarantine(ctx, body, 0);
+}
+
 } // namespace
 
 void sweep_paths(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
+    put_aside_unsound(ctx);
     scratch.moved_items.clear();
     scratch.moved_boxes.clear();
     scratch.motion.resize(ctx.state.awake_bodies.size());

@@ -54,21 +54,51 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
     h.add(s.linear_damping);
     h.add(s.angular_damping);
     h.add(s.sleep_time);
+    add(h, s.target_center);
+    add(h, s.target_rotation);
+}
+
+void add_material(Hasher& h, const ShapeRecord& s)
+{
+    h.add(static_cast<int>(s.trigger) | (static_cast<int>(s.yields_material) << 1));
+    for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, s.kick.speed, s.kick.threshold, s.kick.cooldown, s.field.drag})
+        h.add(value);
+    for (std::uint32_t i = 0; i < s.curve.count; ++i) {
+        h.add(s.curve.points[i].speed);
+        h.add(s.curve.points[i].restitution);
+    }
+    h.add(s.kick_ready);
+    add(h, s.one_way);
+    add(h, s.field.force);
+    add(h, s.field.acceleration);
+    h.add(static_cast<int>(s.field.only_if_moving_along));
+    h.add(s.filter.category);
+    h.add(s.filter.mask);
+    h.add(s.filter.group);
+}
+
+void add_leaf(Hasher& h, const LeafView& v)
+{
+    const Leaf& leaf = *v.leaf;
+    h.add(static_cast<int>(leaf.type) | (static_cast<int>(leaf.sides) << 8));
+    add(h, leaf.p0);
+    add(h, leaf.p1);
+    for (const float value : {leaf.r0, leaf.r1, leaf.arc_radius, leaf.start_angle, leaf.sweep})
+        h.add(value);
+    for (int i = 0; leaf.type == LeafType::Polygon && i < leaf.count; ++i)
+        add(h, v.points[i]);
 }
 
 void add_shape(Hasher& h, const SceneState& state, int shape)
 {
     const ShapeRecord& s = state.shapes[shape];
     h.add(s.body);
-    h.add(s.friction);
-    h.add(s.restitution);
-    h.add(s.kick_ready);
-    h.add(static_cast<int>(s.leaf.type));
-    add(h, s.leaf.p0);
-    add(h, s.leaf.p1);
-    h.add(s.leaf.r0);
-    h.add(s.leaf.r1);
-    if (s.has_leaf && state.broad_phase.has(shape))
+    h.add(s.owner);
+    add_material(h, s);
+    if (!s.has_leaf)
+        return;
+    add_leaf(h, view(s.leaf, state.vertices));
+    if (state.broad_phase.has(shape))
         add(h, state.broad_phase.box(shape));
 }
 
@@ -88,13 +118,14 @@ void add_contact(Hasher& h, const Contact& c)
 
 void add_joint(Hasher& h, const JointRecord& j)
 {
-    h.add(static_cast<int>(j.kind));
+    h.add(static_cast<int>(j.kind) | (static_cast<int>(j.collide_connected) << 8) | (static_cast<int>(j.enable_limit) << 9) | (static_cast<int>(j.enable_motor) << 10));
     h.add(j.body_a);
     h.add(j.body_b);
-    h.add(j.lower);
-    h.add(j.upper);
-    h.add(j.motor_speed);
-    h.add(j.max_motor);
+    add(h, j.anchor_a);
+    add(h, j.anchor_b);
+    add(h, j.axis_a);
+    for (const float value : {j.reference_angle, j.stiffness, j.damping, j.lower, j.upper, j.limit_restitution, j.motor_speed, j.max_motor, j.hertz, j.damping_ratio, j.spring_target})
+        h.add(value);
     for (const float impulse : j.impulses)
         h.add(impulse);
 }
@@ -108,6 +139,7 @@ std::uint64_t Scene::state_hash() const
     h.add(state.step_count);
     h.add(state.accumulator);
     add(h, state.gravity);
+    h.add(state.ignored.hash());
     for (int i = 0; i < state.bodies.capacity(); ++i) {
         if (state.bodies.is_live(i))
             add_body(h, state.bodies[i], state.sims[static_cast<std::size_t>(i)]);

@@ -22,6 +22,14 @@ class PairSet
 {
 public:
     [[nodiscard]] bool empty() const { return m_count == 0; }
+    /// Of the set, whatever the order in which it came to be.
+    [[nodiscard]] std::uint64_t hash() const
+    {
+        std::uint64_t sum = 0;
+        for (const std::uint64_t key : m_keys)
+            sum += key == vacant ? 0 : mix_bits(key + 1);
+        return sum;
+    }
     [[nodiscard]] bool contains(std::uint64_t key) const { return m_count > 0 && m_keys[find(key)] == key; }
 
     /// True when the key was not there before.

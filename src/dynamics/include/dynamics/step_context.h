@@ -83,6 +83,7 @@ struct UnitOutput
 struct Scratch
 {
     std::vector<float> motion;                 ///< how far any point of an awake body may move in this step, by place in awake_bodies
+    std::vector<std::int32_t> unsound;         ///< bodies whose state is no longer finite
     std::vector<std::int32_t> moved_items;     ///< shapes whose fat box changed
     std::vector<FloatBox> moved_boxes;
     std::vector<std::uint64_t> new_pairs;
