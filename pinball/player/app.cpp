@@ -38,6 +38,7 @@ public:
     int run()
     {
         const double start = now_ms();
+        const bool pictured = !m_options.screenshot.empty();
         const auto ends = [&] { return m_options.seconds > 0 && now_ms() - start >= m_options.seconds * 1000; };
         while (!ends() && m_window.begin_frame())
         {
@@ -46,9 +47,9 @@ public:
             poll_table();
             advance();
             draw();
-            m_window.end_frame();
+            m_window.end_frame(pictured ? &m_image : nullptr);
         }
-        return m_options.screenshot.empty() ? 0 : photograph();
+        return pictured ? save_picture() : 0;
     }
 
 private:
@@ -63,7 +64,7 @@ private:
             SDL_GameControllerOpen(event.cdevice.which);
         if (const auto press = button_of(event))
             m_buttons.push(static_cast<double>(event.common.timestamp), press->button, press->down, press->source);
-        if (const auto wish = wish_of(event))
+        if (const auto wish = wish_of(event); wish && !m_window.wants_keyboard())
             obey(*wish);
     }
 
@@ -166,16 +167,9 @@ private:
                                .why_mute = sink.why_mute()}});
     }
 
-    int photograph()
+    [[nodiscard]] int save_picture() const
     {
-        view::Image image;
-        // Sizes of text that are asked for in one frame are baked before the next.
-        for (int i = 0; i < 3 && m_window.begin_frame(); ++i)
-        {
-            draw();
-            m_window.end_frame(&image);
-        }
-        if (view::save_png(image, m_options.screenshot))
+        if (m_image.width > 0 && view::save_png(m_image, m_options.screenshot))
             return 0;
         std::fprintf(stderr, "carom-pinball: cannot write %s\n", m_options.screenshot.c_str());
         return 1;
@@ -190,6 +184,7 @@ private:
     StepClock m_clock;
     ButtonTimeline m_buttons{};
     Stage m_stage{};
+    view::Image m_image{}; ///< the last frame, where a picture is wanted
     bool m_xray = false;
     bool m_paused = false;
     double m_speed = 1;

@@ -91,7 +91,8 @@ void draw_apron(Canvas& canvas, const view::Path& path, const Table& table)
     }
     const bool left = a.x < b.x;
     const Position low = a + along * 0.31f;
-    canvas.text({low.x, low.y * 0.36}, left ? "CAROM" : std::to_string(table.rules.balls) + " BALLS",
+    canvas.text({low.x, low.y * 0.36},
+                left ? "CAROM" : std::to_string(table.rules.balls) + (table.rules.balls == 1 ? " BALL" : " BALLS"),
                 {.size = canvas.points(0.013f),
                  .color = view::fade(palette::gold, 0.85f),
                  .face = view::Face::Bold,

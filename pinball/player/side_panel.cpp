@@ -128,12 +128,18 @@ void draw_table_errors(Canvas& screen, const Layout& layout, const Machine& mach
     }
 }
 
-void draw_banner(Canvas& screen, const Layout& layout, const char* word)
+void draw_banner(Canvas& screen, const Layout& layout, const char* word, const char* hint)
 {
     const Vec2 middle = (layout.table.min + layout.table.max) * 0.5f;
     const float u = layout.unit;
-    draw_sheet(screen, middle - Vec2{110, 34} * u, middle + Vec2{110, 34} * u);
-    screen.text(middle, word, {.size = 30 * u, .color = palette::ivory, .face = Face::Bold, .align_x = 0.5f, .align_y = 0.5f});
+    const Vec2 half = Vec2{145, 40} * u;
+    draw_sheet(screen, middle - half, middle + half);
+    TextStyle style{.size = 26 * u, .color = palette::ivory, .face = Face::Bold, .align_x = 0.5f, .align_y = 0.5f};
+    screen.text(middle - Vec2{0, 12 * u}, word, style);
+    style.size = 12 * u;
+    style.color = palette::text_faint;
+    style.face = Face::Sans;
+    screen.text(middle + Vec2{0, 18 * u}, hint, style);
 }
 
 } // namespace carom::pinball

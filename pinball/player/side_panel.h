@@ -17,7 +17,7 @@ float draw_keys(view::Canvas& screen, const Area& area, float unit);
 void draw_card(view::Canvas& screen, const Layout& layout, const Machine& machine);
 /// What is wrong with the table file that just changed.
 void draw_table_errors(view::Canvas& screen, const Layout& layout, const Machine& machine);
-/// A word across the table.
-void draw_banner(view::Canvas& screen, const Layout& layout, const char* word);
+/// A word across the table, and what to do about it.
+void draw_banner(view::Canvas& screen, const Layout& layout, const char* word, const char* hint);
 
 } // namespace carom::pinball

@@ -14,7 +14,12 @@ void draw_room(view::Canvas& screen, Vec2 window)
                     view::Paint::linear({0, 0}, view::rgb(0x191623), {0, static_cast<double>(window.y)}, view::rgb(0x08080d)));
 }
 
-bool waits_for_a_player(const Game& game) { return game.phase() == Phase::Attract; }
+bool waits_for_a_player(const Machine& machine)
+{
+    const Phase phase = machine.game().phase();
+    const bool over = phase == Phase::GameOver && machine.game().message().empty() && !machine.name_entry().active();
+    return phase == Phase::Attract || over;
+}
 
 } // namespace
 
@@ -44,10 +49,12 @@ void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Fram
         stage.xray.widgets(window, layout, machine, frame.status);
     else if (layout.landscape)
         (void)draw_keys(screen, {layout.side.min + Vec2{0, 78 * layout.unit}, layout.side.max}, layout.unit);
-    else if (waits_for_a_player(machine.game()))
+    else if (waits_for_a_player(machine))
         draw_card(screen, layout, machine);
     if (frame.status.paused && !frame.xray)
-        draw_banner(screen, layout, "PAUSED");
+        draw_banner(screen, layout, "PAUSED", "P goes on");
+    else if (machine.name_entry().active())
+        draw_banner(screen, layout, "YOUR NAME", "flippers turn the letter, Enter takes it");
     draw_table_errors(screen, layout, machine);
 }
 
