@@ -19,15 +19,22 @@ float aspect(const Table& table)
     return size.x / size.y;
 }
 
-Layout landscape(Vec2 window, float table_aspect)
+// Whole points a dot, so that the display is crisp.
+float pitch_in(float width) { return std::max(1.0f, std::floor(width / DotMatrix::columns)); }
+
+Layout landscape(Vec2 window, float table_aspect, bool xray)
 {
     Layout layout{.landscape = true};
-    const float width = std::min(window.y * table_aspect, window.x - 500);
-    const float left = std::round((window.x - width) / 2);
+    const float width = window.y * table_aspect;
+    const float beside = window.x - width;
+    // The x-ray has much to say: in a small window the table makes room for it.
+    const float side = xray ? std::max(beside / 2, std::min(340.0f, beside - 150)) : beside / 2;
+    const float left = std::round(beside - side);
     layout.table = {{left, 0}, {left + width, window.y}};
     layout.score = {{0, 0}, {left, window.y}};
     layout.side = {{left + width, 0}, window};
     layout.unit = std::clamp(std::min(left / 400, window.y / 720), 0.6f, 4.0f);
+    layout.dot_pitch = pitch_in(left - 16);
     return layout;
 }
 
@@ -35,9 +42,9 @@ Layout portrait(Vec2 window, bool xray)
 {
     Layout layout{};
     layout.unit = std::clamp(std::min(window.x / 400, window.y / 800), 0.6f, 5.0f);
-    const float pitch = std::floor(std::min(window.x - 12, window.y * 0.5f) / DotMatrix::columns);
+    layout.dot_pitch = pitch_in(std::min(window.x - 16, window.y * 0.5f));
     const float line = 24 * layout.unit;
-    const float score = std::round(xray ? line : std::max(pitch, 1.0f) * DotMatrix::rows + 12 + line);
+    const float score = std::round(xray ? line : layout.dot_pitch * DotMatrix::rows + 14 + line);
     const float bottom = xray ? std::round(window.y * 0.47f) : window.y;
     layout.score = {{0, 0}, {window.x, score}};
     layout.table = {{0, score}, {window.x, bottom}};
@@ -55,10 +62,10 @@ Box cabinet_box(const Table& table)
 
 Layout lay_out(Vec2 window, const Table& table, bool xray)
 {
-    // Beside the table there must be room for two columns of 250 points.
+    // Beside the table there must be room for two columns of 240 points.
     const float shape = aspect(table);
-    if (window.x - window.y * shape >= 560)
-        return landscape(window, shape);
+    if (window.x - window.y * shape >= 480)
+        return landscape(window, shape, xray);
     return portrait(window, xray);
 }
 

@@ -23,8 +23,9 @@ struct Layout
     bool landscape = false;
     Area table{};
     Area score{};
-    Area side{};    ///< keys and high scores, or the x-ray; in portrait only the x-ray
-    float unit = 1; ///< how big small things are: 1 in a window of 1280x800
+    Area side{};         ///< keys and high scores, or the x-ray; in portrait only the x-ray
+    float dot_pitch = 1; ///< of the score display, points
+    float unit = 1;      ///< how big small things are: 1 in a window of 1280x800
 };
 
 [[nodiscard]] Layout lay_out(Vec2 window, const Table& table, bool xray);

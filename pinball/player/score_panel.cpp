@@ -68,10 +68,10 @@ DotMatrix compose(const Machine& machine, const Status& status)
 }
 
 // A dark glass with a thin frame around the dots. Gives its lower edge.
-float draw_display(Canvas& screen, const Area& area, float top, const DotMatrix& dots)
+float draw_display(Canvas& screen, const Layout& layout, float top, const DotMatrix& dots)
 {
-    const float pixel = 1;
-    const float pitch = std::max(1.0f, std::floor((area.size().x - 16) / DotMatrix::columns * pixel));
+    const float pitch = layout.dot_pitch;
+    const Area& area = layout.score;
     const Vec2 size{pitch * DotMatrix::columns, pitch * DotMatrix::rows};
     const Vec2 corner{std::round((area.min.x + area.max.x - size.x) / 2), std::round(top)};
     const Vec2 border{5, 5};
@@ -172,12 +172,12 @@ void draw_score(Canvas& screen, const Layout& layout, const Machine& machine, co
     const DotMatrix dots = compose(machine, status);
     if (!layout.landscape)
     {
-        const float bottom = draw_display(screen, layout.score, 7, dots);
+        const float bottom = draw_display(screen, layout, 7, dots);
         return draw_line(screen, layout, machine, status, bottom + 3 * u, false);
     }
     screen.text({(layout.score.min.x + layout.score.max.x) / 2, 26 * u}, machine.game().table().name,
                 {.size = 30 * u, .color = palette::gold, .face = Face::Bold, .align_x = 0.5f});
-    float y = draw_display(screen, layout.score, 78 * u, dots) + 24 * u;
+    float y = draw_display(screen, layout, 78 * u, dots) + 24 * u;
     y = draw_rows(screen, layout, machine, status, y) + 18 * u;
     draw_high_scores(screen, {{layout.score.min.x, y}, layout.score.max}, machine, u);
 }
