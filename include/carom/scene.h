@@ -65,8 +65,8 @@ struct SceneDef
     MixRule friction_rule = MixRule::GeometricMean;
     MixRule restitution_rule = MixRule::Average;
     MixFunction mix_function = nullptr;
-    // 60 and 5: a pile of 500 mixed bodies rests with 1.9 mm of mean overlap; 30 and 10 leave 8.8 mm and columns buckle from 15 boxes up, 120
-    // keeps the pile rattling. Stiffer than a quarter of the sub-step rate is never used.
+    // At 1/60 s and 4 sub-steps the cap of 3/16 of the sub-step rate makes 45 of 60: a pile of 500 mixed bodies rests with 3.7 mm of mean overlap and a
+    // column of 20 boxes stands. 30 and 10 (Box2D 3) leave 8.8 mm and the column buckles; at 1/4 of the rate pyramids creep.
     float contact_hertz = 60;        ///< stiffness of overlap recovery, 1/s, > 0
     float contact_damping_ratio = 5; ///< > 0
     float contact_push_speed = 3;     ///< overlap is removed no faster than this times length_scale, 1/s, >= 0

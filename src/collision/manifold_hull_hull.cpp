@@ -16,24 +16,28 @@ namespace {
 struct Axis
 {
     int edge = 0;
+    int support = 0; ///< the other hull's point that is lowest along the edge's normal
     float separation = -3e38f;
 };
 
-float lowest(const Hull& hull, Vec2 n)
+int lowest(const Hull& hull, Vec2 n)
 {
-    float low = 3e38f;
-    for (int i = 0; i < hull.count(); ++i)
-        low = std::min(low, dot(n, hull.point(i)) - hull.radius(i));
-    return low;
+    int lowest = 0;
+    for (int i = 1; i < hull.count(); ++i) {
+        if (dot(n, hull.point(i)) - hull.radius(i) < dot(n, hull.point(lowest)) - hull.radius(lowest))
+            lowest = i;
+    }
+    return lowest;
 }
 
 Axis best_axis(const Hull& reference, const Hull& other)
 {
     Axis best;
     for (int i = 0; i < reference.count(); ++i) {
-        const float s = lowest(other, reference.normal(i)) - reference.offset(i);
+        const int support = lowest(other, reference.normal(i));
+        const float s = dot(reference.normal(i), other.point(support)) - other.radius(support) - reference.offset(i);
         if (s > best.separation)
-            best = {i, s};
+            best = {i, support, s};
     }
     return best;
 }
@@ -159,23 +163,26 @@ bool collide_corners(const Hull& a, const Hull& b, Corners c, float margin, Loca
     return true;
 }
 
+float edge_length(const Hull& hull, int edge) { return length(hull.point(hull.next(edge)) - hull.point(edge)); }
+
 // The general case; no chain neighbours.
 void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out)
 {
     const Axis axis_a = best_axis(a, b);
     const Axis axis_b = best_axis(b, a);
-    // While they overlap a little in favour of a, so that the choice (and with it the features that carry impulses) does not flicker between
-    // equals: rounding alone tips a stack of boxes.
-    const float edge = length(a.point(a.next(axis_a.edge)) - a.point(axis_a.edge));
-    const float bias = axis_b.separation < 0 ? 2e-4f * edge : 0;
-    const bool flipped = axis_b.separation > axis_a.separation + bias;
+    // While they overlap a little in favour of the longer edge, or of a, so that the choice (and with it the features that carry impulses) does
+    // not flicker between equals: rounding alone tips a stack of boxes.
+    const float edge_a = edge_length(a, axis_a.edge);
+    const float edge_b = edge_length(b, axis_b.edge);
+    const float bias = axis_b.separation < 0 ? 2e-4f * std::max(edge_a, edge_b) : 0;
+    const bool flipped = axis_b.separation > axis_a.separation + (edge_b > 1.001f * edge_a ? -bias : bias);
     const Hull& reference = flipped ? b : a;
     const Hull& incident = flipped ? a : b;
     const Axis axis = flipped ? axis_b : axis_a;
     if (axis.separation > margin)
         return;
     // Where even the cores are apart, the closest features may be two corners.
-    const float core_gap = axis.separation + reference.radius(axis.edge) + incident.radius(0);
+    const float core_gap = axis.separation + std::max(reference.radius(axis.edge), reference.radius(reference.next(axis.edge))) + incident.radius(axis.support);
     if (core_gap > 1e-6f) {
         const int opposed = most_opposed_edge(incident, reference.normal(axis.edge));
         const Corners c = flipped ? nearest_corners(a, opposed, b, axis.edge) : nearest_corners(a, axis.edge, b, opposed);

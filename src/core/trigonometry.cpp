@@ -93,10 +93,12 @@ double exponential(double x)
         return 0;
     if (x > 700)
         x = 700;
-    constexpr double ln2 = 0.69314718055994530942;
-    const double turns = x / ln2;
+    // ln 2 in two pieces, the first with zeros at its end, so that n times it is exact.
+    constexpr double ln2_high = 6.93147180369123816490e-01;
+    constexpr double ln2_low = 1.90821492927058770002e-10;
+    const double turns = x / (ln2_high + ln2_low);
     const auto n = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
-    const double r = x - static_cast<double>(n) * ln2;
+    const double r = (x - static_cast<double>(n) * ln2_high) - static_cast<double>(n) * ln2_low;
     double sum = 1;
     for (int k = 14; k >= 1; --k)
         sum = 1 + sum * r / k;
@@ -105,7 +107,13 @@ double exponential(double x)
 
 } // namespace internal
 
-float length(Vec2 a) { return std::sqrt(dot(a, a)); }
+// In double: squares of floats neither vanish nor overflow there.
+float length(Vec2 a)
+{
+    const double x = a.x;
+    const double y = a.y;
+    return static_cast<float>(std::sqrt(x * x + y * y));
+}
 
 Vec2 normalize(Vec2 a)
 {

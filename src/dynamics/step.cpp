@@ -28,8 +28,8 @@ StepContext begin_step(SceneData& scene, float dt)
 
     const SceneDef& def = scene.def;
     const float h = dt / static_cast<float>(def.substeps);
-    // A contact stiffer than a quarter of the sub-step rate would ring.
-    const float hertz = std::min(def.contact_hertz, 0.25f / h);
+    // 3/16 of the sub-step rate: at 1/4 a pyramid of twenty rows creeps apart by 16 cm, at 3/16 by 4 cm (and softer ones sag).
+    const float hertz = std::min(def.contact_hertz, 0.1875f / h);
     StepContext ctx{scene, scene.state, scene.scratch, report, dt, h, def.substeps, make_softness(hertz, def.contact_damping_ratio, h),
                     make_softness(2 * hertz, def.contact_damping_ratio, h), 0.25f / h, 0};
     ctx.rest_speed = 2 * h * length(scene.state.gravity) + scene.tolerances.rest_speed;
