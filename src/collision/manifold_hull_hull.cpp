@@ -69,17 +69,20 @@ struct ClipPoint
     int id;
 };
 
-// Keeps the part of the edge on the side of the plane where dot(n, p) >= offset.
-void clip(ClipPoint points[2], Vec2 n, float offset)
+// Keeps the part of the edge on the side of the plane where dot(n, p) >= offset; false where nothing is left.
+bool clip(ClipPoint points[2], Vec2 n, float offset)
 {
     const float d0 = dot(n, points[0].core) - offset;
     const float d1 = dot(n, points[1].core) - offset;
-    if ((d0 < 0) == (d1 < 0))
-        return;
+    if (d0 < 0 && d1 < 0)
+        return false;
+    if (d0 >= 0 && d1 >= 0)
+        return true;
     const float t = d0 / (d0 - d1);
     const ClipPoint cut{points[0].core + t * (points[1].core - points[0].core), points[0].radius + t * (points[1].radius - points[0].radius), 0};
     ClipPoint& outside = d0 < 0 ? points[0] : points[1];
     outside = {cut.core, cut.radius, outside.id};
+    return true;
 }
 
 struct Reference
@@ -101,14 +104,18 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     const int i0 = most_opposed_edge(ref.other, n);
     const int i1 = ref.other.next(i0);
     ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
-    clip(points, tangent, dot(tangent, start));
-    clip(points, -tangent, -dot(tangent, end));
+    // Where corners overlap deeply nothing of the incident edge may be left: then its own lowest corner is the contact.
+    const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));
+    if (!left) {
+        const int lowest_corner = lowest(ref.other, n);
+        points[0] = points[1] = {ref.other.point(lowest_corner), ref.other.radius(lowest_corner), lowest_corner};
+    }
     // Keep what is near.
     const float offset = ref.hull.offset(edge);
     out.normal = ref.flipped ? -n : n;
     for (const ClipPoint& p : points) {
         const float separation = dot(n, p.core) - p.radius - offset;
-        if (separation > margin)
+        if (separation > margin || (!left && out.count == 1))
             continue;
         const Vec2 on_other = p.core - p.radius * n;
         const Vec2 on_reference = on_other - separation * n;
@@ -116,54 +123,62 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     }
 }
 
-// Closest points of two line segments at their corners, where both are corners; -1 otherwise.
-struct Corners
+// Shapes that are apart are nearest at a corner circle of one and the surface of the other.
+struct Nearest
 {
-    int a = -1;
-    int b = -1;
+    float separation = 3e38f;
+    Vec2 normal{}; ///< from a to b
+    Vec2 on_a{};
+    Vec2 on_b{};
+    std::uint32_t feature = 0;
 };
 
-Corners nearest_corners(const Hull& a, int edge_a, const Hull& b, int edge_b)
+// False where a corner lies inside the other core: then nearest corners mean nothing.
+bool offer_corners(const Hull& surface, const Hull& corners, bool corners_are_a, Nearest& nearest)
 {
-    const auto beyond = [](Vec2 p, Vec2 from, Vec2 to) {
-        const float along = dot(p - from, to - from);
-        return along <= 0 ? -1 : (along >= dot(to - from, to - from) ? 1 : 0);
-    };
-    const int ends_a[2] = {edge_a, a.next(edge_a)};
-    const int ends_b[2] = {edge_b, b.next(edge_b)};
-    Corners best;
-    float least = 3e38f;
-    for (int i = 0; i < 2; ++i) {
-        for (int j = 0; j < 2; ++j) {
-            const Vec2 p = a.point(ends_a[i]);
-            const Vec2 q = b.point(ends_b[j]);
-            const bool a_corner = beyond(q, a.point(edge_a), a.point(a.next(edge_a))) == (i == 0 ? -1 : 1);
-            const bool b_corner = beyond(p, b.point(edge_b), b.point(b.next(edge_b))) == (j == 0 ? -1 : 1);
-            const float d = dot(q - p, q - p);
-            if (a_corner && b_corner && d < least) {
-                least = d;
-                best = {ends_a[i], ends_b[j]};
-            }
-        }
+    for (int i = 0; i < corners.count(); ++i) {
+        const Vec2 c = corners.point(i);
+        const Surface<float> s = surface.surface_at(c);
+        if (surface.count() > 2 && s.distance + surface.radius(0) < 0)
+            return false;
+        const float separation = s.distance - corners.radius(i);
+        if (separation >= nearest.separation)
+            continue;
+        const Vec2 n = {s.nx, s.ny};
+        const Vec2 on_surface = c - s.distance * n;
+        const Vec2 on_corner = c - corners.radius(i) * n;
+        const std::uint32_t feature = (0x4000u << 16) | (corners_are_a ? 0x8000u : 0u) | (static_cast<std::uint32_t>(s.feature & 0x7f) << 8) | static_cast<std::uint32_t>(i & 0xff);
+        nearest = corners_are_a ? Nearest{separation, -n, on_corner, on_surface, feature} : Nearest{separation, n, on_surface, on_corner, feature};
     }
-    return best;
-}
-
-bool collide_corners(const Hull& a, const Hull& b, Corners c, float margin, LocalManifold& out)
-{
-    const Vec2 d = b.point(c.b) - a.point(c.a);
-    const float l = length(d);
-    if (!(l > 0))
-        return false;
-    const Vec2 n = (1 / l) * d;
-    const float separation = l - a.radius(c.a) - b.radius(c.b);
-    out.normal = n;
-    if (separation <= margin)
-        out.add(a.point(c.a) + a.radius(c.a) * n, b.point(c.b) - b.radius(c.b) * n, separation, feature_id(false, 0x4000 + c.a, c.b));
     return true;
 }
 
+bool lines_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d)
+{
+    return (cross(b - a, c - a) > 0) != (cross(b - a, d - a) > 0) && (cross(d - c, a - c) > 0) != (cross(d - c, b - c) > 0);
+}
+
+// Cores that cross have no nearest corners.
+bool cores_cross(const Hull& a, const Hull& b)
+{
+    for (int i = 0; i < (a.count() == 2 ? 1 : a.count()); ++i) {
+        for (int j = 0; j < (b.count() == 2 ? 1 : b.count()); ++j) {
+            if (lines_cross(a.point(i), a.point(a.next(i)), b.point(j), b.point(b.next(j))))
+                return true;
+        }
+    }
+    return false;
+}
+
 float edge_length(const Hull& hull, int edge) { return length(hull.point(hull.next(edge)) - hull.point(edge)); }
+
+float least_separation(const LocalManifold& m)
+{
+    float least = 3e38f;
+    for (int i = 0; i < m.count; ++i)
+        least = std::min(least, m.points[i].separation);
+    return least;
+}
 
 // The general case; no chain neighbours.
 void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out)
@@ -181,15 +196,21 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     const Axis axis = flipped ? axis_b : axis_a;
     if (axis.separation > margin)
         return;
-    // Where even the cores are apart, the closest features may be two corners.
+    // Edge normals are all the separating axes of cores that overlap. Of cores that are apart, and of the ends of capsules, they are not: there
+    // the nearest corner may be farther than any edge normal tells.
+    const bool slender = a.count() == 2 || b.count() == 2;
     const float core_gap = axis.separation + std::max(reference.radius(axis.edge), reference.radius(reference.next(axis.edge))) + incident.radius(axis.support);
-    if (core_gap > 1e-6f) {
-        const int opposed = most_opposed_edge(incident, reference.normal(axis.edge));
-        const Corners c = flipped ? nearest_corners(a, opposed, b, axis.edge) : nearest_corners(a, axis.edge, b, opposed);
-        if (c.a >= 0 && collide_corners(a, b, c, margin, out))
-            return;
+    Nearest nearest;
+    const bool apart = (slender || core_gap > 1e-6f) && !cores_cross(a, b) && offer_corners(a, b, false, nearest) && offer_corners(b, a, true, nearest);
+    const float tolerance = 1e-4f * std::max(edge_a, edge_b);
+    if (!apart || nearest.separation <= axis.separation + tolerance)
+        clip_to_edge({reference, incident, flipped}, axis.edge, margin, out);
+    // Clipping may also cut off the very corner that is nearest.
+    if (apart && nearest.separation <= margin && (out.count == 0 || least_separation(out) > nearest.separation + tolerance)) {
+        out.count = 0;
+        out.normal = nearest.normal;
+        out.add(nearest.on_a, nearest.on_b, nearest.separation, nearest.feature);
     }
-    clip_to_edge({reference, incident, flipped}, axis.edge, margin, out);
 }
 
 // Does the seam at this end leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner.
