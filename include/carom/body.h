@@ -37,7 +37,7 @@ struct MotionLocks
 struct MassData
 {
     float mass = 0;    ///< kg, > 0
-    Vec2 center{};       ///< centre of mass in the body's frame, m
+    Vec2 center{};     ///< centre of mass in the body's frame, m
     float inertia = 0; ///< about the centre of mass, kg m²; 0 means that the body does not turn
 };
 
@@ -45,18 +45,18 @@ struct MassData
 struct BodyDef
 {
     BodyType type = BodyType::Static;
-    Position position{};                ///< origin of the body's frame, m
-    float angle = 0;                  ///< radians
-    Vec2 velocity{};                    ///< of the centre of mass, m/s
-    float angular_velocity = 0;       ///< rad/s
-    float gravity_scale = 1;          ///< multiplies the scene's gravity
-    float linear_damping = 0;         ///< 1/s, >= 0: the velocity decays as exp(-damping t)
-    float angular_damping = 0;        ///< 1/s, >= 0
+    Position position{};        ///< origin of the body's frame, m
+    float angle = 0;            ///< radians
+    Vec2 velocity{};            ///< of the centre of mass, m/s
+    float angular_velocity = 0; ///< rad/s
+    float gravity_scale = 1;    ///< multiplies the scene's gravity
+    float linear_damping = 0;   ///< 1/s, >= 0: the velocity decays as exp(-damping t)
+    float angular_damping = 0;  ///< 1/s, >= 0
     MotionLocks locks{};
-    bool enabled = true;              ///< a disabled body stays in the scene and takes no part
+    bool enabled = true; ///< a disabled body stays in the scene and takes no part
     bool awake = true;
     bool can_sleep = true;
-    std::uint64_t user_data = 0;      ///< yours; never read by the engine
+    std::uint64_t user_data = 0; ///< yours; never read by the engine
 };
 
 /// Reads a body. A short-lived reference: valid until the body is destroyed; every call checks that.
@@ -68,17 +68,17 @@ public:
     [[nodiscard]] Pose pose() const;
     [[nodiscard]] Position position() const;
     [[nodiscard]] Rotation rotation() const;
-    [[nodiscard]] float angle() const;                     ///< radians, -pi to pi
+    [[nodiscard]] float angle() const; ///< radians, -pi to pi
     /// The pose between the last two steps, for drawing: alpha 0 is the earlier one, 1 the present one.
     [[nodiscard]] Pose interpolated_pose(float alpha) const;
-    [[nodiscard]] Position center_of_mass() const;         ///< in the world
+    [[nodiscard]] Position center_of_mass() const; ///< in the world
     [[nodiscard]] Vec2 local_center_of_mass() const;
-    [[nodiscard]] Vec2 velocity() const;                   ///< of the centre of mass, m/s
-    [[nodiscard]] float angular_velocity() const;          ///< rad/s
+    [[nodiscard]] Vec2 velocity() const;                        ///< of the centre of mass, m/s
+    [[nodiscard]] float angular_velocity() const;               ///< rad/s
     [[nodiscard]] Vec2 velocity_at(Position world_point) const; ///< of the body's material at that point, m/s
-    [[nodiscard]] float mass() const;                      ///< kg; 0 for static and kinematic bodies
-    [[nodiscard]] float inertia() const;                   ///< about the centre of mass, kg m²
-    [[nodiscard]] float kinetic_energy() const;            ///< J
+    [[nodiscard]] float mass() const;                           ///< kg; 0 for static and kinematic bodies
+    [[nodiscard]] float inertia() const;                        ///< about the centre of mass, kg m²
+    [[nodiscard]] float kinetic_energy() const;                 ///< J
     [[nodiscard]] float gravity_scale() const;
     [[nodiscard]] float linear_damping() const;
     [[nodiscard]] float angular_damping() const;
@@ -111,12 +111,12 @@ public:
     /// Kinematic bodies only: chooses the velocity that reaches this pose at the end of the next step, the shorter way
     /// round. After that step the body stops unless a new target is set. The surface speed during the step is right.
     void set_target_pose(Position position, float angle);
-    void set_velocity(Vec2 velocity);                       ///< m/s
+    void set_velocity(Vec2 velocity); ///< m/s
     void set_angular_velocity(float radians_per_second);
     /// Forces act through the next step and are then cleared (see Scene::update for several steps a frame). Dynamic
     /// bodies only, others ignore them. N, N m.
     void apply_force(Vec2 force, Position world_point);
-    void apply_force(Vec2 force);                           ///< at the centre of mass
+    void apply_force(Vec2 force); ///< at the centre of mass
     void apply_torque(float torque);
     void apply_impulse(Vec2 impulse, Position world_point); ///< N s, changes the velocity at once
     void apply_impulse(Vec2 impulse);                       ///< at the centre of mass

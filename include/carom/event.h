@@ -45,7 +45,7 @@ struct ImpactEvent
     BodyId body_a{};
     BodyId body_b{};
     Position point{};
-    Vec2 normal{};                ///< unit, from a to b
+    Vec2 normal{};              ///< unit, from a to b
     float approach_speed = 0;   ///< speed_a - speed_b, m/s, > 0
     float impulse = 0;          ///< along the normal, N s, >= 0
     float friction_impulse = 0; ///< along perp(normal) on b, N s

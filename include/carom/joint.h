@@ -24,9 +24,9 @@ struct SpringDef
     BodyId body_b{};
     Vec2 anchor_a{};
     Vec2 anchor_b{};
-    float stiffness = 0;  ///< k, N/m, >= 0
-    float damping = 0;    ///< c, N s/m, >= 0
-    float length = -1;    ///< m; negative: measured when the joint is made
+    float stiffness = 0; ///< k, N/m, >= 0
+    float damping = 0;   ///< c, N s/m, >= 0
+    float length = -1;   ///< m; negative: measured when the joint is made
     bool collide_connected = true;
     std::uint64_t user_data = 0;
 };
@@ -39,10 +39,10 @@ struct DistanceDef
     BodyId body_b{};
     Vec2 anchor_a{};
     Vec2 anchor_b{};
-    float min_length = -1;    ///< m; negative: measured when the joint is made
-    float max_length = -1;    ///< m, >= min_length; negative: measured when the joint is made
-    float hertz = 0;          ///< softness of the limits, 1/s; 0: rigid
-    float damping_ratio = 1;  ///< of the soft limits, >= 0
+    float min_length = -1;   ///< m; negative: measured when the joint is made
+    float max_length = -1;   ///< m, >= min_length; negative: measured when the joint is made
+    float hertz = 0;         ///< softness of the limits, 1/s; 0: rigid
+    float damping_ratio = 1; ///< of the soft limits, >= 0
     bool collide_connected = true;
     std::uint64_t user_data = 0;
 };
@@ -54,17 +54,17 @@ struct RevoluteDef
     BodyId body_b{};
     Vec2 anchor_a{};
     Vec2 anchor_b{};
-    float reference_angle = 0;     ///< radians
+    float reference_angle = 0; ///< radians
     bool enable_limit = false;
-    float lower_angle = 0;         ///< radians, <= upper_angle
-    float upper_angle = 0;         ///< radians
-    float limit_restitution = 0;   ///< 0 to 1: how much of the speed comes back from a limit
+    float lower_angle = 0;       ///< radians, <= upper_angle
+    float upper_angle = 0;       ///< radians
+    float limit_restitution = 0; ///< 0 to 1: how much of the speed comes back from a limit
     bool enable_motor = false;
-    float motor_speed = 0;         ///< rad/s
-    float max_motor_torque = 0;    ///< N m, >= 0
-    float spring_hertz = 0;        ///< towards spring_angle, 1/s; 0: no spring
+    float motor_speed = 0;      ///< rad/s
+    float max_motor_torque = 0; ///< N m, >= 0
+    float spring_hertz = 0;     ///< towards spring_angle, 1/s; 0: no spring
     float spring_damping_ratio = 0;
-    float spring_angle = 0;        ///< radians
+    float spring_angle = 0; ///< radians
     bool collide_connected = false;
     std::uint64_t user_data = 0;
 };
@@ -76,18 +76,18 @@ struct PrismaticDef
     BodyId body_b{};
     Vec2 anchor_a{};
     Vec2 anchor_b{};
-    Vec2 axis_a{1, 0};              ///< any length but 0
-    float reference_angle = 0;      ///< angle_b - angle_a that is held, radians
+    Vec2 axis_a{1, 0};         ///< any length but 0
+    float reference_angle = 0; ///< angle_b - angle_a that is held, radians
     bool enable_limit = false;
-    float lower_translation = 0;    ///< m, <= upper_translation
-    float upper_translation = 0;    ///< m
-    float limit_restitution = 0;    ///< 0 to 1
+    float lower_translation = 0; ///< m, <= upper_translation
+    float upper_translation = 0; ///< m
+    float limit_restitution = 0; ///< 0 to 1
     bool enable_motor = false;
-    float motor_speed = 0;          ///< m/s
-    float max_motor_force = 0;      ///< N, >= 0
-    float spring_hertz = 0;         ///< towards spring_translation, 1/s; 0: no spring
+    float motor_speed = 0;     ///< m/s
+    float max_motor_force = 0; ///< N, >= 0
+    float spring_hertz = 0;    ///< towards spring_translation, 1/s; 0: no spring
     float spring_damping_ratio = 0;
-    float spring_translation = 0;   ///< m
+    float spring_translation = 0; ///< m
     bool collide_connected = false;
     std::uint64_t user_data = 0;
 };

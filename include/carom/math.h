@@ -74,10 +74,7 @@ struct Rotation
 };
 
 /// First b, then a.
-[[nodiscard]] constexpr Rotation operator*(Rotation a, Rotation b)
-{
-    return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
-}
+[[nodiscard]] constexpr Rotation operator*(Rotation a, Rotation b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 [[nodiscard]] constexpr Vec2 rotate(Rotation q, Vec2 v) { return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y}; }
 [[nodiscard]] constexpr Vec2 inverse_rotate(Rotation q, Vec2 v) { return {q.c * v.x + q.s * v.y, q.c * v.y - q.s * v.x}; }
 [[nodiscard]] constexpr Rotation inverse(Rotation q) { return {q.c, -q.s}; }

@@ -22,15 +22,15 @@ struct RayHit
 {
     ShapeId shape{};
     Position point{};
-    Vec2 normal{};        ///< of the surface, against the ray; zero where the ray starts inside
+    Vec2 normal{};      ///< of the surface, against the ray; zero where the ray starts inside
     float fraction = 0; ///< of the translation, 0 to 1
 };
 
 struct PointHit
 {
     ShapeId shape{};
-    Position point{};     ///< on the shape's surface
-    Vec2 normal{};        ///< outward at that point
+    Position point{};   ///< on the shape's surface
+    Vec2 normal{};      ///< outward at that point
     float distance = 0; ///< m; negative inside
 };
 

@@ -56,12 +56,12 @@ struct TaskHooks
 /// Parameters of a new scene.
 struct SceneDef
 {
-    Vec2 gravity{0, -9.81f};  ///< m/s²
+    Vec2 gravity{0, -9.81f}; ///< m/s²
     /// Size of a typical moving object, m, > 0. Sets every tolerance: a tenth to ten times this size simulates well.
     float length_scale = 1;
-    int substeps = 4;         ///< per step, 1 to 64
-    float fixed_step = 1.0f / 60;  ///< what update() steps by, s, > 0
-    float max_frame_time = 0.25f;  ///< most that update() catches up in one call, s
+    int substeps = 4;             ///< per step, 1 to 64
+    float fixed_step = 1.0f / 60; ///< what update() steps by, s, > 0
+    float max_frame_time = 0.25f; ///< most that update() catches up in one call, s
     MixRule friction_rule = MixRule::GeometricMean;
     MixRule restitution_rule = MixRule::Average;
     MixFunction mix_function = nullptr;
@@ -69,9 +69,9 @@ struct SceneDef
     // column of 20 boxes stands. 30 and 10 (Box2D 3) leave 8.8 mm and the column buckles; at 1/4 of the rate pyramids creep.
     float contact_hertz = 60;        ///< stiffness of overlap recovery, 1/s, > 0
     float contact_damping_ratio = 5; ///< > 0
-    float contact_push_speed = 3;     ///< overlap is removed no faster than this times length_scale, 1/s, >= 0
+    float contact_push_speed = 3;    ///< overlap is removed no faster than this times length_scale, 1/s, >= 0
     bool sleeping = true;
-    bool continuous = true;   ///< balls cannot pass through anything; off only to see what it is good for
+    bool continuous = true;       ///< balls cannot pass through anything; off only to see what it is good for
     bool record_substeps = false; ///< fill StepReport::substep_poses
     TaskHooks tasks{};
 };
@@ -152,7 +152,8 @@ public:
     [[nodiscard]] std::vector<ShapeId> overlap_point(Position point, const QueryFilter& filter = {}) const;
     /// Shapes that overlap the box (the shapes themselves, not their bounds).
     [[nodiscard]] std::vector<ShapeId> overlap_box(const Box& box, const QueryFilter& filter = {}) const;
-    [[nodiscard]] std::vector<ShapeId> overlap_shape(const Geometry& geometry, const Pose& pose, const QueryFilter& filter = {}) const;
+    [[nodiscard]] std::vector<ShapeId> overlap_shape(const Geometry& geometry, const Pose& pose,
+                                                     const QueryFilter& filter = {}) const;
     /// The nearest point on any shape within max_distance.
     [[nodiscard]] std::optional<PointHit> closest_point(Position point, float max_distance, const QueryFilter& filter = {}) const;
 

@@ -30,7 +30,7 @@ enum class Sides : std::uint8_t
 
 struct Circle
 {
-    Vec2 center{};         ///< m
+    Vec2 center{};       ///< m
     float radius = 0.5f; ///< m, > 0
 };
 
@@ -39,7 +39,7 @@ struct Circle
 struct Polygon
 {
     std::vector<Vec2> vertices{}; ///< m
-    float radius = 0;           ///< corners rounded outwards by this much, m, >= 0
+    float radius = 0;             ///< corners rounded outwards by this much, m, >= 0
 };
 
 /// A rectangle as a polygon. Half sizes in m, > 0; angle in radians about the centre.
@@ -70,7 +70,7 @@ struct Segment
 /// A true circular arc: exact normals everywhere, not a string of facets. No mass: static and kinematic bodies only.
 struct Arc
 {
-    Vec2 center{};              ///< m
+    Vec2 center{};            ///< m
     float radius = 1;         ///< m, > half_thickness
     float start_angle = 0;    ///< radians
     float sweep = pi;         ///< radians, -2 pi to 2 pi, not 0; positive turns counter-clockwise (its left is the inside)
@@ -81,7 +81,7 @@ struct Arc
 /// A piece of a chain, from where the piece before it ended.
 struct ChainPiece
 {
-    Vec2 end{};        ///< m
+    Vec2 end{};      ///< m
     float sweep = 0; ///< 0: a straight line; else an arc that turns by this angle, radians, -2 pi to 2 pi (exclusive)
 };
 
@@ -138,10 +138,10 @@ struct Kick
 /// A force field: acts on dynamic bodies while they are inside a trigger shape.
 struct Field
 {
-    Vec2 force{};                       ///< N, world axes
-    Vec2 acceleration{};                ///< m/s², world axes
-    float drag = 0;                   ///< 1/s: slows the velocity as exp(-drag t)
-    bool only_if_moving_along = false;///< force and acceleration act only on what moves along their direction
+    Vec2 force{};                      ///< N, world axes
+    Vec2 acceleration{};               ///< m/s², world axes
+    float drag = 0;                    ///< 1/s: slows the velocity as exp(-drag t)
+    bool only_if_moving_along = false; ///< force and acceleration act only on what moves along their direction
 };
 
 /// Parameters of a new shape besides its geometry.
@@ -160,7 +160,7 @@ struct ShapeDef
     bool yields_material = false;
     Filter filter{};
     bool trigger = false; ///< passes through everything and reports enter, inside, exit; gives the body no mass
-    Field field{};          ///< triggers only
+    Field field{};        ///< triggers only
     std::uint64_t user_data = 0;
 };
 

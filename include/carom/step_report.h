@@ -56,15 +56,15 @@ struct StepReport
     int awake_bodies = 0;    ///< dynamic and kinematic ones that were simulated
     int shapes = 0;
     int joints = 0;
-    int pairs = 0;           ///< pairs of fat boxes that overlap
-    int touching = 0;        ///< awake pairs that touch
-    int units = 0;           ///< groups solved on their own
-    int colors = 0;          ///< of the largest unit
+    int pairs = 0;    ///< pairs of fat boxes that overlap
+    int touching = 0; ///< awake pairs that touch
+    int units = 0;    ///< groups solved on their own
+    int colors = 0;   ///< of the largest unit
     int substeps = 0;
-    int flight_bodies = 0;   ///< balls that flew free in this step
-    int flight_impacts = 0;  ///< impacts resolved at their own time
-    int bulk_impacts = 0;    ///< impacts resolved at the end of a sub-step
-    int slept = 0;           ///< bodies put to sleep
+    int flight_bodies = 0;  ///< balls that flew free in this step
+    int flight_impacts = 0; ///< impacts resolved at their own time
+    int bulk_impacts = 0;   ///< impacts resolved at the end of a sub-step
+    int slept = 0;          ///< bodies put to sleep
     int woken = 0;
     std::vector<BodyId> quarantined{};
     std::vector<SubstepPose> substep_poses{}; ///< awake bodies, when SceneDef::record_substeps is set

@@ -31,7 +31,8 @@ struct Key
 void radix_sort(std::vector<Key>& keys)
 {
     std::vector<Key> other(keys.size());
-    for (int shift = 0; shift < 32; shift += 8) {
+    for (int shift = 0; shift < 32; shift += 8)
+    {
         std::uint32_t counts[257] = {};
         for (const Key& k : keys)
             ++counts[((k.code >> shift) & 255u) + 1];
@@ -48,7 +49,8 @@ void radix_sort(std::vector<Key>& keys)
 void BoxTree::build(std::span<const TreeLeaf> leaves)
 {
     FloatBox centers;
-    for (const TreeLeaf& leaf : leaves) {
+    for (const TreeLeaf& leaf : leaves)
+    {
         const float x = 0.5f * (leaf.box.lx + leaf.box.ux);
         const float y = 0.5f * (leaf.box.ly + leaf.box.uy);
         centers = unite(centers, {x, y, x, y});
@@ -56,16 +58,19 @@ void BoxTree::build(std::span<const TreeLeaf> leaves)
     const float width = std::fmax(centers.ux - centers.lx, centers.uy - centers.ly);
     const float scale = width > 0 ? 65535 / width : 0;
     std::vector<Key> keys(leaves.size());
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+    {
         const FloatBox& b = leaves[i].box;
-        keys[i] = {spread(grid(0.5f * (b.lx + b.ux), centers.lx, scale)) | (spread(grid(0.5f * (b.ly + b.uy), centers.ly, scale)) << 1),
+        keys[i] = {spread(grid(0.5f * (b.lx + b.ux), centers.lx, scale)) |
+                       (spread(grid(0.5f * (b.ly + b.uy), centers.ly, scale)) << 1),
                    static_cast<std::uint32_t>(i)};
     }
     radix_sort(keys);
     m_items.resize(leaves.size());
     m_levels.resize(1);
     m_levels[0].resize(leaves.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
+    for (std::size_t i = 0; i < keys.size(); ++i)
+    {
         m_items[i] = leaves[keys[i].index].item;
         m_levels[0][i] = leaves[keys[i].index].box;
     }
@@ -75,7 +80,8 @@ void BoxTree::build(std::span<const TreeLeaf> leaves)
 
 void BoxTree::build_levels()
 {
-    while (m_levels.back().size() > 1) {
+    while (m_levels.back().size() > 1)
+    {
         const std::vector<FloatBox>& below = m_levels.back();
         std::vector<FloatBox> level((below.size() + arity - 1) / arity);
         for (std::size_t i = 0; i < below.size(); ++i)
@@ -89,7 +95,8 @@ void BoxTree::update(int leaf, const FloatBox& box)
 {
     m_levels[0][static_cast<std::size_t>(leaf)] = box;
     auto i = static_cast<std::size_t>(leaf);
-    for (std::size_t level = 1; level < m_levels.size(); ++level) {
+    for (std::size_t level = 1; level < m_levels.size(); ++level)
+    {
         i /= arity;
         if (contains(m_levels[level][i], box))
             return;

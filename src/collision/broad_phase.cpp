@@ -33,7 +33,8 @@ void BroadPhase::move_to(int item, Layer layer)
     Place& place = m_places[static_cast<std::size_t>(item)];
     if (place.layer == layer)
         return;
-    if (!place.unbounded) {
+    if (!place.unbounded)
+    {
         take_out(item);
         add_recent(item, layer);
     }
@@ -56,7 +57,8 @@ void BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
         total += static_cast<std::size_t>(tree.live_count());
     // Sorting costs about as much as widening a quarter of the paths, and leaves a better tree.
     const bool many = items.size() * 4 > total;
-    for (std::size_t i = 0; i < items.size(); ++i) {
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
         if (many)
             m_places[static_cast<std::size_t>(items[i])].box = boxes[i];
         else
@@ -81,7 +83,8 @@ void BroadPhase::take_out(int item)
 {
     Place& place = m_places[static_cast<std::size_t>(item)];
     Forest& forest = m_forests[static_cast<std::size_t>(place.layer)];
-    if (place.tree < 0) {
+    if (place.tree < 0)
+    {
         const auto index = static_cast<std::size_t>(place.index);
         forest.recent[index] = forest.recent.back();
         m_places[static_cast<std::size_t>(forest.recent[index])].index = place.index;
@@ -109,13 +112,16 @@ void BroadPhase::merge_recent(Forest& forest)
 void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
 {
     std::vector<TreeLeaf> leaves;
-    for (std::size_t t = from_tree; t < forest.trees.size(); ++t) {
+    for (std::size_t t = from_tree; t < forest.trees.size(); ++t)
+    {
         const BoxTree& tree = forest.trees[t];
-        for (int i = 0; i < tree.leaf_count(); ++i) {
+        for (int i = 0; i < tree.leaf_count(); ++i)
+        {
             const std::int32_t item = tree.item(i);
             const Place& place = m_places[static_cast<std::size_t>(item)];
             // A leaf that was taken out leaves its item's place pointing elsewhere.
-            if (place.layer != Layer::None && place.tree == static_cast<std::int32_t>(t) && place.index == i && &m_forests[static_cast<std::size_t>(place.layer)] == &forest)
+            if (place.layer != Layer::None && place.tree == static_cast<std::int32_t>(t) && place.index == i &&
+                &m_forests[static_cast<std::size_t>(place.layer)] == &forest)
                 leaves.push_back({place.box, item});
         }
     }
@@ -128,7 +134,8 @@ void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
     forest.trees.emplace_back();
     BoxTree& tree = forest.trees.back();
     tree.build(leaves);
-    for (int i = 0; i < tree.leaf_count(); ++i) {
+    for (int i = 0; i < tree.leaf_count(); ++i)
+    {
         Place& place = m_places[static_cast<std::size_t>(tree.item(i))];
         place.tree = static_cast<std::int32_t>(from_tree);
         place.index = i;

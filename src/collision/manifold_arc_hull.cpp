@@ -25,15 +25,19 @@ struct Corner
 void collide_hollow_side(const Leaf& arc, const Hull& hull, float margin, LocalManifold& out)
 {
     Corner corners[2];
-    for (int i = 0; i < hull.count(); ++i) {
+    for (int i = 0; i < hull.count(); ++i)
+    {
         const Vec2 r = hull.point(i) - arc.p0;
         const float separation = arc.arc_radius - arc.r0 - hull.radius(i) - length(r);
         if (!in_sweep(arc, r) || separation > margin)
             continue;
-        if (separation < corners[0].separation) {
+        if (separation < corners[0].separation)
+        {
             corners[1] = corners[0];
             corners[0] = {i, separation};
-        } else if (separation < corners[1].separation) {
+        }
+        else if (separation < corners[1].separation)
+        {
             corners[1] = {i, separation};
         }
     }
@@ -44,7 +48,8 @@ void collide_hollow_side(const Leaf& arc, const Hull& hull, float margin, LocalM
         middle += hull.point(corners[1].index) - arc.p0;
     const Vec2 n = -normalize(middle); // one normal for both corners, across their chord
     out.normal = n;
-    for (const Corner& c : corners) {
+    for (const Corner& c : corners)
+    {
         if (c.index < 0)
             continue;
         const Vec2 on_b = hull.point(c.index) - hull.radius(c.index) * n;
@@ -80,9 +85,12 @@ void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& 
     const bool inside = length(hull.center() - arc.p0) < arc.arc_radius;
     if (!faces(arc, inside))
         return;
-    if (inside) {
+    if (inside)
+    {
         collide_hollow_side(arc, hull, margin, out);
-    } else {
+    }
+    else
+    {
         collide_round(b, pose, {arc.p0, arc.arc_radius + arc.r0, 0x100}, margin, out);
         if (out.count > 0 && !in_sweep(arc, out.points[0].on_a - arc.p0))
             out.count = 0;

@@ -11,7 +11,8 @@ void collide_half_space_hull(const LeafView& a, const LeafView& b, const Relativ
     const Hull hull(b, pose);
     const auto depth = [&](int i) { return dot(n, hull.point(i)) - hull.radius(i) - a.leaf->r0; };
     int deepest = 0;
-    for (int i = 1; i < hull.count(); ++i) {
+    for (int i = 1; i < hull.count(); ++i)
+    {
         if (depth(i) < depth(deepest))
             deepest = i;
     }
@@ -19,8 +20,10 @@ void collide_half_space_hull(const LeafView& a, const LeafView& b, const Relativ
     const int after = hull.next(deepest);
     const int second = depth(after) <= depth(before) ? after : before;
     out.normal = n;
-    for (int i : {deepest, second}) {
-        if (depth(i) <= margin && (i == deepest || out.count == 1)) {
+    for (int i : {deepest, second})
+    {
+        if (depth(i) <= margin && (i == deepest || out.count == 1))
+        {
             const Vec2 on_b = hull.point(i) - hull.radius(i) * n;
             out.add(on_b - depth(i) * n, on_b, depth(i), static_cast<std::uint32_t>(i));
         }

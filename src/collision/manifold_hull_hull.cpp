@@ -23,7 +23,8 @@ struct Axis
 int lowest(const Hull& hull, Vec2 n)
 {
     int lowest = 0;
-    for (int i = 1; i < hull.count(); ++i) {
+    for (int i = 1; i < hull.count(); ++i)
+    {
         if (dot(n, hull.point(i)) - hull.radius(i) < dot(n, hull.point(lowest)) - hull.radius(lowest))
             lowest = i;
     }
@@ -33,7 +34,8 @@ int lowest(const Hull& hull, Vec2 n)
 Axis best_axis(const Hull& reference, const Hull& other)
 {
     Axis best;
-    for (int i = 0; i < reference.count(); ++i) {
+    for (int i = 0; i < reference.count(); ++i)
+    {
         const int support = lowest(other, reference.normal(i));
         const float s = dot(reference.normal(i), other.point(support)) - other.radius(support) - reference.offset(i);
         if (s > best.separation)
@@ -46,9 +48,11 @@ int most_opposed_edge(const Hull& hull, Vec2 n)
 {
     int edge = 0;
     float least = 3e38f;
-    for (int i = 0; i < hull.count(); ++i) {
+    for (int i = 0; i < hull.count(); ++i)
+    {
         const float d = dot(n, hull.normal(i));
-        if (d < least) {
+        if (d < least)
+        {
             least = d;
             edge = i;
         }
@@ -58,7 +62,8 @@ int most_opposed_edge(const Hull& hull, Vec2 n)
 
 std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
 {
-    return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) | static_cast<std::uint32_t>(incident_point);
+    return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) |
+           static_cast<std::uint32_t>(incident_point);
 }
 
 // A point of the incident edge: its core and the radius there.
@@ -79,7 +84,8 @@ bool clip(ClipPoint points[2], Vec2 n, float offset)
     if (d0 >= 0 && d1 >= 0)
         return true;
     const float t = d0 / (d0 - d1);
-    const ClipPoint cut{points[0].core + t * (points[1].core - points[0].core), points[0].radius + t * (points[1].radius - points[0].radius), 0};
+    const ClipPoint cut{points[0].core + t * (points[1].core - points[0].core),
+                        points[0].radius + t * (points[1].radius - points[0].radius), 0};
     ClipPoint& outside = d0 < 0 ? points[0] : points[1];
     outside = {cut.core, cut.radius, outside.id};
     return true;
@@ -106,20 +112,23 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
     // Where corners overlap deeply nothing of the incident edge may be left: then its own lowest corner is the contact.
     const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));
-    if (!left) {
+    if (!left)
+    {
         const int lowest_corner = lowest(ref.other, n);
         points[0] = points[1] = {ref.other.point(lowest_corner), ref.other.radius(lowest_corner), lowest_corner};
     }
     // Keep what is near.
     const float offset = ref.hull.offset(edge);
     out.normal = ref.flipped ? -n : n;
-    for (const ClipPoint& p : points) {
+    for (const ClipPoint& p : points)
+    {
         const float separation = dot(n, p.core) - p.radius - offset;
         if (separation > margin || (!left && out.count == 1))
             continue;
         const Vec2 on_other = p.core - p.radius * n;
         const Vec2 on_reference = on_other - separation * n;
-        out.add(ref.flipped ? on_other : on_reference, ref.flipped ? on_reference : on_other, separation, feature_id(ref.flipped, edge, p.id));
+        out.add(ref.flipped ? on_other : on_reference, ref.flipped ? on_reference : on_other, separation,
+                feature_id(ref.flipped, edge, p.id));
     }
 }
 
@@ -136,7 +145,8 @@ struct Nearest
 // False where a corner lies inside the other core: then nearest corners mean nothing.
 bool offer_corners(const Hull& surface, const Hull& corners, bool corners_are_a, Nearest& nearest)
 {
-    for (int i = 0; i < corners.count(); ++i) {
+    for (int i = 0; i < corners.count(); ++i)
+    {
         const Vec2 c = corners.point(i);
         const Surface<float> s = surface.surface_at(c);
         if (surface.count() > 2 && s.distance + surface.radius(0) < 0)
@@ -147,8 +157,10 @@ bool offer_corners(const Hull& surface, const Hull& corners, bool corners_are_a,
         const Vec2 n = {s.nx, s.ny};
         const Vec2 on_surface = c - s.distance * n;
         const Vec2 on_corner = c - corners.radius(i) * n;
-        const std::uint32_t feature = (0x4000u << 16) | (corners_are_a ? 0x8000u : 0u) | (static_cast<std::uint32_t>(s.feature & 0x7f) << 8) | static_cast<std::uint32_t>(i & 0xff);
-        nearest = corners_are_a ? Nearest{separation, -n, on_corner, on_surface, feature} : Nearest{separation, n, on_surface, on_corner, feature};
+        const std::uint32_t feature = (0x4000u << 16) | (corners_are_a ? 0x8000u : 0u) |
+                                      (static_cast<std::uint32_t>(s.feature & 0x7f) << 8) | static_cast<std::uint32_t>(i & 0xff);
+        nearest = corners_are_a ? Nearest{separation, -n, on_corner, on_surface, feature}
+                                : Nearest{separation, n, on_surface, on_corner, feature};
     }
     return true;
 }
@@ -161,8 +173,10 @@ bool lines_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d)
 // Cores that cross have no nearest corners.
 bool cores_cross(const Hull& a, const Hull& b)
 {
-    for (int i = 0; i < (a.count() == 2 ? 1 : a.count()); ++i) {
-        for (int j = 0; j < (b.count() == 2 ? 1 : b.count()); ++j) {
+    for (int i = 0; i < (a.count() == 2 ? 1 : a.count()); ++i)
+    {
+        for (int j = 0; j < (b.count() == 2 ? 1 : b.count()); ++j)
+        {
             if (lines_cross(a.point(i), a.point(a.next(i)), b.point(j), b.point(b.next(j))))
                 return true;
         }
@@ -199,14 +213,17 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     // Edge normals are all the separating axes of cores that overlap. Of cores that are apart, and of the ends of capsules, they are not: there
     // the nearest corner may be farther than any edge normal tells.
     const bool slender = a.count() == 2 || b.count() == 2;
-    const float core_gap = axis.separation + std::max(reference.radius(axis.edge), reference.radius(reference.next(axis.edge))) + incident.radius(axis.support);
+    const float core_gap = axis.separation + std::max(reference.radius(axis.edge), reference.radius(reference.next(axis.edge))) +
+                           incident.radius(axis.support);
     Nearest nearest;
-    const bool apart = (slender || core_gap > 1e-6f) && !cores_cross(a, b) && offer_corners(a, b, false, nearest) && offer_corners(b, a, true, nearest);
+    const bool apart = (slender || core_gap > 1e-6f) && !cores_cross(a, b) && offer_corners(a, b, false, nearest) &&
+                       offer_corners(b, a, true, nearest);
     const float tolerance = 1e-4f * std::max(edge_a, edge_b);
     if (!apart || nearest.separation <= axis.separation + tolerance)
         clip_to_edge({reference, incident, flipped}, axis.edge, margin, out);
     // Clipping may also cut off the very corner that is nearest.
-    if (apart && nearest.separation <= margin && (out.count == 0 || least_separation(out) > nearest.separation + tolerance)) {
+    if (apart && nearest.separation <= margin && (out.count == 0 || least_separation(out) > nearest.separation + tolerance))
+    {
         out.count = 0;
         out.normal = nearest.normal;
         out.add(nearest.on_a, nearest.on_b, nearest.separation, nearest.feature);
@@ -224,7 +241,8 @@ void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float 
 {
     const Vec2 tangent = normalize(edge.point(1) - edge.point(0));
     const float side = cross(tangent, hull.center() - edge.point(0));
-    if ((piece.sides == Sides::Left && side < 0) || (piece.sides == Sides::Right && side > 0)) {
+    if ((piece.sides == Sides::Left && side < 0) || (piece.sides == Sides::Right && side > 0))
+    {
         out.count = 0;
         return;
     }

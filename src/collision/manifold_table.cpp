@@ -18,25 +18,55 @@ void mirrored(const LeafView& a, const LeafView& b, const RelativePose& pose, fl
 
 // Row: type of a, column: type of b, both in the order of LeafType: half-space, circle, polygon, capsule, segment, arc.
 constexpr CollideFunction table[leaf_type_count * leaf_type_count] = {
-    nullptr, collide_surface_circle, collide_half_space_hull, collide_half_space_hull, collide_half_space_hull, nullptr,
+    nullptr,
+    collide_surface_circle,
+    collide_half_space_hull,
+    collide_half_space_hull,
+    collide_half_space_hull,
+    nullptr,
 
-    mirrored<collide_surface_circle>, collide_surface_circle, mirrored<collide_surface_circle>, mirrored<collide_surface_circle>,
-    mirrored<collide_surface_circle>, mirrored<collide_surface_circle>,
+    mirrored<collide_surface_circle>,
+    collide_surface_circle,
+    mirrored<collide_surface_circle>,
+    mirrored<collide_surface_circle>,
+    mirrored<collide_surface_circle>,
+    mirrored<collide_surface_circle>,
 
-    mirrored<collide_half_space_hull>, collide_surface_circle, collide_hull_hull, collide_hull_hull, collide_hull_hull, mirrored<collide_arc_hull>,
-
-    mirrored<collide_half_space_hull>, collide_surface_circle, mirrored<collide_hull_hull>, collide_hull_hull, collide_hull_hull,
+    mirrored<collide_half_space_hull>,
+    collide_surface_circle,
+    collide_hull_hull,
+    collide_hull_hull,
+    collide_hull_hull,
     mirrored<collide_arc_hull>,
 
-    mirrored<collide_half_space_hull>, collide_surface_circle, mirrored<collide_hull_hull>, mirrored<collide_hull_hull>, collide_hull_hull,
+    mirrored<collide_half_space_hull>,
+    collide_surface_circle,
+    mirrored<collide_hull_hull>,
+    collide_hull_hull,
+    collide_hull_hull,
     mirrored<collide_arc_hull>,
 
-    nullptr, collide_surface_circle, collide_arc_hull, collide_arc_hull, collide_arc_hull, nullptr,
+    mirrored<collide_half_space_hull>,
+    collide_surface_circle,
+    mirrored<collide_hull_hull>,
+    mirrored<collide_hull_hull>,
+    collide_hull_hull,
+    mirrored<collide_arc_hull>,
+
+    nullptr,
+    collide_surface_circle,
+    collide_arc_hull,
+    collide_arc_hull,
+    collide_arc_hull,
+    nullptr,
 };
 
 } // namespace
 
-CollideFunction collide_function(LeafType a, LeafType b) { return table[static_cast<int>(a) * leaf_type_count + static_cast<int>(b)]; }
+CollideFunction collide_function(LeafType a, LeafType b)
+{
+    return table[static_cast<int>(a) * leaf_type_count + static_cast<int>(b)];
+}
 
 LocalManifold collide(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin)
 {

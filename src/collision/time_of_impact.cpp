@@ -21,9 +21,9 @@ struct Sight
     double distance; ///< gap between ball and surface
     double nx;       ///< world
     double ny;
-    double rate;     ///< of the gap along the fixed normal
-    double bend;     ///< M: bound on minus its second derivative
-    double speed;    ///< bound on the relative speed over the rest of the time
+    double rate;          ///< of the gap along the fixed normal
+    double bend;          ///< M: bound on minus its second derivative
+    double speed;         ///< bound on the relative speed over the rest of the time
     double hollow_radius; ///< from the arc's center to the ball's, on the hollow side; 0 elsewhere
     double curvature;
     int feature;
@@ -52,7 +52,8 @@ public:
         const double ry = m_ball.y - f.y + t * (m_ball.vy - f.vy) + 0.5 * t * t * m_ay;
         double c = m_frame.c;
         double s = m_frame.s;
-        if (m_frame.w != 0) {
+        if (m_frame.w != 0)
+        {
             const SinCos turn = sin_cos(m_frame.w * t);
             c = m_frame.c * turn.cos - m_frame.s * turn.sin;
             s = m_frame.s * turn.cos + m_frame.c * turn.sin;
@@ -74,13 +75,17 @@ public:
         const double rest = m_duration - t;
         const double w = std::fabs(m_frame.w);
         sight.speed = std::sqrt(vx * vx + vy * vy) + rest * (m_acceleration + w * w * std::sqrt(rx * rx + ry * ry));
-        if (w == 0) {
+        if (w == 0)
+        {
             sight.bend = std::max(0.0, -(m_ax * sight.nx + m_ay * sight.ny));
-        } else {
+        }
+        else
+        {
             const double reach = std::sqrt(rx * rx + ry * ry) + rest * sight.speed;
             sight.bend = m_acceleration + 2 * w * sight.speed + w * w * reach;
         }
-        if (surface->curvature < 0) {
+        if (surface->curvature < 0)
+        {
             sight.hollow_radius = -1 / surface->curvature;
             sight.bend += 2 * sight.speed * sight.speed / sight.hollow_radius;
         }
@@ -124,20 +129,22 @@ double next_step(const Sight& sight)
     return std::max(std::max(sight.distance, 0.0) / sight.speed, std::min(step, 0.5 * sight.hollow_radius / sight.speed));
 }
 
-constexpr int max_looks = 1024;     // 1000 m/s past an unfacing piece in half radii of a pinball; others need 3 to 10
-constexpr double touch = 1e-7;      // of the radius: a nanometre on a pinball
+constexpr int max_looks = 1024; // 1000 m/s past an unfacing piece in half radii of a pinball; others need 3 to 10
+constexpr double touch = 1e-7;  // of the radius: a nanometre on a pinball
 constexpr double nearly_touch = 1e-3;
 
 } // namespace
 
-std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame, double duration,
-                                          double least_approach)
+std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame,
+                                           double duration, double least_approach)
 {
     const Approach approach(ball, radius, leaf, frame, duration);
     double t = 0;
-    for (int i = 0; i < max_looks && t <= duration; ++i) {
+    for (int i = 0; i < max_looks && t <= duration; ++i)
+    {
         const std::optional<Sight> sight = approach.look(t);
-        if (!sight) {
+        if (!sight)
+        {
             const double speed = approach.relative_speed() + std::fabs(frame.w) * radius;
             t += speed > 0 ? 0.5 * radius / speed : duration + 1;
             continue;

@@ -21,14 +21,21 @@ double sin_polynomial(double x)
 {
     const double z = x * x;
     const double p =
-        1.0 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0 + z * (-1.0 / 1307674368000.0)))))));
+        1.0 + z * (-1.0 / 6 +
+                   z * (1.0 / 120 +
+                        z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 +
+                                                                    z * (1.0 / 6227020800.0 + z * (-1.0 / 1307674368000.0)))))));
     return x * p;
 }
 
 double cos_polynomial(double x)
 {
     const double z = x * x;
-    return 1.0 + z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200.0 + z * (1.0 / 20922789888000.0))))))));
+    return 1.0 + z * (-0.5 + z * (1.0 / 24 +
+                                  z * (-1.0 / 720 +
+                                       z * (1.0 / 40320 +
+                                            z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200.0 +
+                                                                                              z * (1.0 / 20922789888000.0))))))));
 }
 
 // atan on |x| <= tan(pi/16): alternating series, the terms left out are below 1e-17.
@@ -36,7 +43,8 @@ double atan_small(double x)
 {
     const double z = x * x;
     double sum = 0;
-    for (int k = 23; k >= 1; k -= 2) {
+    for (int k = 23; k >= 1; k -= 2)
+    {
         const double term = 1.0 / k;
         sum = (k % 4 == 1 ? term : -term) + z * sum;
     }
@@ -64,15 +72,12 @@ SinCos sin_cos(double radians)
     x = x > 1 ? 1 : (x < -1 ? -1 : x);
     const double s = sin_polynomial(x);
     const double c = cos_polynomial(x);
-    switch (static_cast<std::uint64_t>(n) & 3u) {
-    case 0:
-        return {s, c};
-    case 1:
-        return {c, -s};
-    case 2:
-        return {-s, -c};
-    default:
-        return {-c, s};
+    switch (static_cast<std::uint64_t>(n) & 3u)
+    {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
     }
 }
 

@@ -12,17 +12,20 @@ namespace {
 LeafMass total_mass(const SceneState& state, int body)
 {
     LeafMass total;
-    for_each_leaf(state, body, [&](int shape) {
-        const ShapeRecord& record = state.shapes[shape];
-        if (record.trigger)
-            return;
-        const LeafMass part = leaf_mass(leaf_view(state, shape), record.density);
-        total.mass += part.mass;
-        total.center_x += part.mass * part.center_x;
-        total.center_y += part.mass * part.center_y;
-        total.inertia += part.inertia + part.mass * (part.center_x * part.center_x + part.center_y * part.center_y);
-    });
-    if (total.mass > 0) {
+    for_each_leaf(state, body,
+                  [&](int shape)
+                  {
+                      const ShapeRecord& record = state.shapes[shape];
+                      if (record.trigger)
+                          return;
+                      const LeafMass part = leaf_mass(leaf_view(state, shape), record.density);
+                      total.mass += part.mass;
+                      total.center_x += part.mass * part.center_x;
+                      total.center_y += part.mass * part.center_y;
+                      total.inertia += part.inertia + part.mass * (part.center_x * part.center_x + part.center_y * part.center_y);
+                  });
+    if (total.mass > 0)
+    {
         total.center_x /= total.mass;
         total.center_y /= total.mass;
         total.inertia -= total.mass * (total.center_x * total.center_x + total.center_y * total.center_y);
@@ -59,12 +62,15 @@ void update_mass(SceneState& state, int body)
 {
     const BodyRecord& record = state.bodies[body];
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    if (record.type != BodyType::Dynamic) {
+    if (record.type != BodyType::Dynamic)
+    {
         // Static and kinematic bodies turn about the origin of their frame.
         sim.mass = 0;
         sim.inertia = 0;
         move_center(sim, {});
-    } else if (!record.mass_overridden) {
+    }
+    else if (!record.mass_overridden)
+    {
         const LeafMass total = total_mass(state, body);
         // A dynamic body without mass weighs 1 kg and does not turn, so that it can be moved before it gets its shapes.
         sim.mass = total.mass > 0 ? static_cast<float>(total.mass) : 1;
@@ -73,20 +79,24 @@ void update_mass(SceneState& state, int body)
     }
     update_inverse_mass(state, body);
     sim.extent = 0;
-    for_each_leaf(state, body, [&](int shape) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, shape), sim.local_center)); });
+    for_each_leaf(state, body,
+                  [&](int shape) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, shape), sim.local_center)); });
 }
 
 void include_mass(SceneState& state, int body, int shape)
 {
-    if (state.bodies[body].type == BodyType::Dynamic) {
+    if (state.bodies[body].type == BodyType::Dynamic)
+    {
         update_mass(state, body);
         return;
     }
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    const auto include = [&](int leaf) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, leaf), sim.local_center)); };
+    const auto include = [&](int leaf)
+    { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, leaf), sim.local_center)); };
     if (state.shapes[shape].has_leaf)
         include(shape);
-    for (int piece = state.shapes[shape].has_leaf ? none : state.shapes[shape].next_piece; piece != none; piece = state.shapes[piece].next_piece)
+    for (int piece = state.shapes[shape].has_leaf ? none : state.shapes[shape].next_piece; piece != none;
+         piece = state.shapes[piece].next_piece)
         include(piece);
 }
 
@@ -111,12 +121,14 @@ void add_to_broad_phase(SceneData& scene, int shape)
 void refresh_boxes(SceneData& scene, int body)
 {
     SceneState& state = scene.state;
-    for_each_leaf(state, body, [&](int shape) {
-        if (!state.broad_phase.has(shape))
-            return;
-        state.broad_phase.set_box(shape, fat_box(scene, shape));
-        state.fresh_shapes.push_back(shape);
-    });
+    for_each_leaf(state, body,
+                  [&](int shape)
+                  {
+                      if (!state.broad_phase.has(shape))
+                          return;
+                      state.broad_phase.set_box(shape, fat_box(scene, shape));
+                      state.fresh_shapes.push_back(shape);
+                  });
 }
 
 } // namespace carom::internal

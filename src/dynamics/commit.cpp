@@ -31,7 +31,8 @@ Rotation renormalized(Rotation q)
 void record_kinematic(StepContext& ctx, int body)
 {
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    for (int k = 1; k <= ctx.substeps; ++k) {
+    for (int k = 1; k <= ctx.substeps; ++k)
+    {
         const float t = ctx.h * static_cast<float>(k);
         BodySim then = sim;
         then.center += t * sim.velocity;
@@ -44,7 +45,8 @@ void commit_kinematic(const StepContext& ctx, BodyRecord& record, BodySim& sim)
 {
     sim.previous_center = sim.center;
     sim.previous_rotation = sim.rotation;
-    if (record.has_target) {
+    if (record.has_target)
+    {
         sim.center = sim.target_center;
         sim.rotation = sim.target_rotation;
         return;
@@ -56,7 +58,8 @@ void commit_kinematic(const StepContext& ctx, BodyRecord& record, BodySim& sim)
 
 bool is_sound(const BodyState& s, double x, double y)
 {
-    return is_finite(s.velocity) && is_finite(s.angular_velocity) && is_finite(x) && is_finite(y) && is_finite(s.delta_rotation.c) && is_finite(s.delta_rotation.s);
+    return is_finite(s.velocity) && is_finite(s.angular_velocity) && is_finite(x) && is_finite(y) &&
+           is_finite(s.delta_rotation.c) && is_finite(s.delta_rotation.s);
 }
 
 // Struck or pulled in the step, farther than the rows it was given cover.
@@ -78,16 +81,19 @@ void commit_state(StepContext& ctx, std::int32_t index)
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     double x = s.delta_position.x;
     double y = s.delta_position.y;
-    if (const std::int32_t f = ctx.scratch.flier_of_state[static_cast<std::size_t>(index)]; f != none) {
+    if (const std::int32_t f = ctx.scratch.flier_of_state[static_cast<std::size_t>(index)]; f != none)
+    {
         const Flier& flier = ctx.scratch.fliers[static_cast<std::size_t>(f)];
         x = flier.landed ? x : flier.x; // the path itself, in double
         y = flier.landed ? y : flier.y;
     }
-    if (!is_sound(s, x, y)) {
+    if (!is_sound(s, x, y))
+    {
         ctx.scratch.unsound.push_back(body);
         return;
     }
-    if (went_beyond_its_rows(ctx, s, body)) {
+    if (went_beyond_its_rows(ctx, s, body))
+    {
         const double part = free_part_of_path(ctx, body, x, y);
         x *= part;
         y *= part;
@@ -112,7 +118,8 @@ void commit_row(StepContext& ctx, const ContactRow& row)
     m.count = row.count;
     m.rolling_impulse = row.rolling_impulse;
     contact.flags &= ~contact_flag::loaded;
-    for (int i = 0; i < row.count; ++i) {
+    for (int i = 0; i < row.count; ++i)
+    {
         const RowPoint& p = row.points[i];
         m.points[i].anchor_a = p.ra;
         m.points[i].anchor_b = p.rb;
@@ -127,7 +134,8 @@ void commit_row(StepContext& ctx, const ContactRow& row)
 
 void clear_unsolved_impulses(StepContext& ctx)
 {
-    for (const std::int32_t index : ctx.state.awake_contacts) {
+    for (const std::int32_t index : ctx.state.awake_contacts)
+    {
         Contact& contact = ctx.state.contacts[index];
         if (contact.color != none)
             continue;
@@ -158,15 +166,19 @@ void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
 // A bounce within the step: touching at neither end, it begins and ends in it.
 void end_bounces(StepContext& ctx, const UnitOutput& output)
 {
-    for (const RawTouch& touch : output.begins) {
+    for (const RawTouch& touch : output.begins)
+    {
         const SceneState& state = ctx.state;
-        if (touch.contact == none) {
-            ctx.scene.events.ends.push_back({shape_id(state, touch.shape_a), shape_id(state, touch.shape_b), body_id(state, state.shapes[touch.shape_a].body),
+        if (touch.contact == none)
+        {
+            ctx.scene.events.ends.push_back({shape_id(state, touch.shape_a), shape_id(state, touch.shape_b),
+                                             body_id(state, state.shapes[touch.shape_a].body),
                                              body_id(state, state.shapes[touch.shape_b].body), touch.time});
             continue;
         }
         const Contact& contact = ctx.state.contacts[touch.contact];
-        const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
+        const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a),
+                                          pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
         if (m.count == 0)
             end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
     }
@@ -177,14 +189,17 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
     const SceneState& state = ctx.state;
     for (const ContactRow& row : output.late_rows)
         commit_row(ctx, row);
-    for (const RawTouch& t : output.begins) {
+    for (const RawTouch& t : output.begins)
+    {
         ctx.state.graph_dirty = true;
         if (t.contact != none && touches_elsewhere(state, t.contact))
             continue;
-        ctx.scene.events.begins.push_back({shape_id(state, t.shape_a), shape_id(state, t.shape_b), body_id(state, state.shapes[t.shape_a].body),
+        ctx.scene.events.begins.push_back({shape_id(state, t.shape_a), shape_id(state, t.shape_b),
+                                           body_id(state, state.shapes[t.shape_a].body),
                                            body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
     }
-    for (const RawImpact& raw : output.impacts) {
+    for (const RawImpact& raw : output.impacts)
+    {
         ImpactEvent event = raw.event;
         event.shape_a = shape_id(state, raw.shape_a);
         event.shape_b = shape_id(state, raw.shape_b);
@@ -209,7 +224,8 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
 
 bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
 {
-    for (int edge = record.first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1]) {
+    for (int edge = record.first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
+    {
         if (state.joints[edge >> 1].kind == JointType::Spring)
             return true;
     }
@@ -231,14 +247,17 @@ void update_sleep_time(const StepContext& ctx, int body)
 void keep_carried_awake(const StepContext& ctx)
 {
     const SceneState& state = ctx.state;
-    for (const std::int32_t index : state.awake_contacts) {
+    for (const std::int32_t index : state.awake_contacts)
+    {
         const Contact& contact = state.contacts[index];
         if ((contact.flags & contact_flag::touching) == 0)
             continue;
         const int sides[2] = {contact.body_a, contact.body_b};
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < 2; ++i)
+        {
             const BodySim& carrier = state.sims[static_cast<std::size_t>(sides[i])];
-            if (state.bodies[sides[i]].type == BodyType::Kinematic && (carrier.velocity != Vec2{} || carrier.angular_velocity != 0))
+            if (state.bodies[sides[i]].type == BodyType::Kinematic &&
+                (carrier.velocity != Vec2{} || carrier.angular_velocity != 0))
                 ctx.state.sims[static_cast<std::size_t>(sides[1 - i])].sleep_time = 0;
         }
     }
@@ -254,11 +273,13 @@ void put_to_sleep(StepContext& ctx)
     keep_carried_awake(ctx);
     // The least sleep time of each island, at the place of its label.
     std::vector<float> least(state.awake_bodies.size(), 3e38f);
-    const auto label_of = [&](int body) {
+    const auto label_of = [&](int body)
+    {
         const int island = state.bodies[body].type == BodyType::Dynamic ? state.bodies[body].island : body;
         return island != none ? state.bodies[island].awake_index : none;
     };
-    for (const std::int32_t body : state.awake_bodies) {
+    for (const std::int32_t body : state.awake_bodies)
+    {
         const int label = label_of(body);
         const float time = label == none ? 0 : state.sims[static_cast<std::size_t>(body)].sleep_time;
         float& slot = least[static_cast<std::size_t>(label == none ? state.bodies[body].awake_index : label)];
@@ -266,7 +287,8 @@ void put_to_sleep(StepContext& ctx)
     }
     std::vector<std::int32_t>& sleepers = ctx.scratch.order;
     sleepers.clear();
-    for (const std::int32_t body : state.awake_bodies) {
+    for (const std::int32_t body : state.awake_bodies)
+    {
         const int label = label_of(body);
         if (label != none && least[static_cast<std::size_t>(label)] >= time_to_sleep)
             sleepers.push_back(body);
@@ -277,13 +299,16 @@ void put_to_sleep(StepContext& ctx)
 
 void clear_forces(StepContext& ctx)
 {
-    for (const std::int32_t body : ctx.state.awake_bodies) {
+    for (const std::int32_t body : ctx.state.awake_bodies)
+    {
         BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-        if (!ctx.scene.keep_forces) {
+        if (!ctx.scene.keep_forces)
+        {
             sim.force = {};
             sim.torque = 0;
         }
-        if (ctx.state.bodies[body].has_target) {
+        if (ctx.state.bodies[body].has_target)
+        {
             ctx.state.bodies[body].has_target = false;
             sim.velocity = {};
             sim.angular_velocity = 0;
@@ -297,7 +322,8 @@ void commit_and_sleep(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     scratch.unsound.clear();
-    for (const std::int32_t body : ctx.state.awake_bodies) {
+    for (const std::int32_t body : ctx.state.awake_bodies)
+    {
         if (ctx.state.bodies[body].type != BodyType::Kinematic)
             continue;
         if (ctx.scene.def.record_substeps)

@@ -35,8 +35,7 @@ struct Pair
 
     Pair(const SolverView& view, const ContactRow& row)
         : sa(view.states[row.a]), sb(view.states[row.b]), ca(view.constants[row.a]), cb(view.constants[row.b])
-    {
-    }
+    {}
 
     [[nodiscard]] Vec2 relative_velocity(const RowPoint& p) const
     {
@@ -130,10 +129,12 @@ void solve_both_normals(const SolverView& view, const Pair& pair, ContactRow& ro
     const float inverse_det = 1 / (a11 * a22 - k12 * k12);
     float x = inverse_det * (k12 * b2 - a22 * b1);
     float y = inverse_det * (k12 * b1 - a11 * b2);
-    if (x < 0 || y < 0) {
+    if (x < 0 || y < 0)
+    {
         x = std::max(-b1 / a11, 0.0f);
         y = 0;
-        if (k12 * x + b2 < 0) { // the second point would sink: it bears the load alone
+        if (k12 * x + b2 < 0)
+        { // the second point would sink: it bears the load alone
             y = std::max(-b2 / a22, 0.0f);
             x = 0;
         }
@@ -154,9 +155,11 @@ float row_separation(const SolverView& view, const ContactRow& row, const RowPoi
 
 void warm_start(const SolverView& view, std::span<ContactRow> rows)
 {
-    for (ContactRow& row : rows) {
+    for (ContactRow& row : rows)
+    {
         const Pair pair(view, row);
-        for (int i = 0; i < row.count; ++i) {
+        for (int i = 0; i < row.count; ++i)
+        {
             const RowPoint& p = row.points[i];
             pair.apply(p, p.normal_impulse * row.n + p.tangent_impulse * perp(row.n));
         }
@@ -167,7 +170,8 @@ void warm_start(const SolverView& view, std::span<ContactRow> rows)
 
 void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias)
 {
-    for (ContactRow& row : rows) {
+    for (ContactRow& row : rows)
+    {
         const Pair pair(view, row);
         if (row.rolling > 0)
             solve_rolling(pair, row);

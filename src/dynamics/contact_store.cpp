@@ -39,10 +39,12 @@ bool filters_agree(const Filter& a, const Filter& b)
 
 bool joint_forbids(const SceneState& state, int body_a, int body_b)
 {
-    for (int edge = state.bodies[body_a].first_joint; edge != none;) {
+    for (int edge = state.bodies[body_a].first_joint; edge != none;)
+    {
         const JointRecord& joint = state.joints[edge >> 1];
         edge = joint.next[edge & 1];
-        const bool joins = (joint.body_a == body_a && joint.body_b == body_b) || (joint.body_a == body_b && joint.body_b == body_a);
+        const bool joins =
+            (joint.body_a == body_a && joint.body_b == body_b) || (joint.body_a == body_b && joint.body_b == body_a);
         if (joins && !joint.collide_connected)
             return true;
     }
@@ -83,7 +85,8 @@ namespace {
 void link_contact(SceneState& state, int index)
 {
     Contact& contact = state.contacts[index];
-    for (int side = 0; side < 2; ++side) {
+    for (int side = 0; side < 2; ++side)
+    {
         BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
         contact.next[side] = body.first_contact;
         contact.previous[side] = none;
@@ -96,7 +99,8 @@ void link_contact(SceneState& state, int index)
 void unlink_contact(SceneState& state, int index)
 {
     Contact& contact = state.contacts[index];
-    for (int side = 0; side < 2; ++side) {
+    for (int side = 0; side < 2; ++side)
+    {
         BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
         const int next = contact.next[side];
         const int previous = contact.previous[side];
@@ -141,7 +145,8 @@ void create_contact(SceneData& scene, int shape_a, int shape_b)
     const ShapeRecord* a = &state.shapes[shape_a];
     const ShapeRecord* b = &state.shapes[shape_b];
     const bool trigger = a->trigger || b->trigger;
-    if (trigger ? b->trigger : a->leaf.type > b->leaf.type) {
+    if (trigger ? b->trigger : a->leaf.type > b->leaf.type)
+    {
         std::swap(shape_a, shape_b);
         std::swap(a, b);
     }
@@ -157,10 +162,13 @@ void create_contact(SceneData& scene, int shape_a, int shape_b)
     state.pairs.insert(pair_key(shape_a, shape_b));
     link_contact(state, index);
     mix_materials(scene, state.contacts[index]);
-    if (trigger) {
+    if (trigger)
+    {
         state.contacts[index].awake_index = static_cast<std::int32_t>(state.trigger_contacts.size());
         state.trigger_contacts.push_back(index);
-    } else if (is_awake(state, contact.body_a) || is_awake(state, contact.body_b)) {
+    }
+    else if (is_awake(state, contact.body_a) || is_awake(state, contact.body_b))
+    {
         add_awake_contact(state, index);
     }
 }
@@ -174,7 +182,8 @@ bool touches_elsewhere(const SceneState& state, int index)
         return false;
     // The body without the chain has the shorter list.
     const int body = owner_a == contact.shape_a ? contact.body_a : contact.body_b;
-    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    {
         const Contact& other = state.contacts[edge >> 1];
         if ((edge >> 1) != index && (other.flags & contact_flag::touching) != 0 && state.shapes[other.shape_a].owner == owner_a &&
             state.shapes[other.shape_b].owner == owner_b)
@@ -198,9 +207,12 @@ void end_touch(SceneData& scene, int index, Events& events, float time)
     const ShapeId b = shape_id(state, contact.shape_b);
     const BodyId body_a = body_id(state, contact.body_a);
     const BodyId body_b = body_id(state, contact.body_b);
-    if ((contact.flags & contact_flag::trigger) != 0) {
+    if ((contact.flags & contact_flag::trigger) != 0)
+    {
         events.exits.push_back({a, b, body_a, body_b, time});
-    } else {
+    }
+    else
+    {
         events.ends.push_back({a, b, body_a, body_b, time});
     }
 }
@@ -232,11 +244,13 @@ void destroy_and_wake(SceneData& scene, int index, int body)
 void destroy_contacts_of_shape(SceneData& scene, int shape)
 {
     const int body = scene.state.shapes[shape].body;
-    for_each_contact(scene.state, body, [&](int index) {
-        const Contact& contact = scene.state.contacts[index];
-        if (contact.shape_a == shape || contact.shape_b == shape)
-            destroy_and_wake(scene, index, body);
-    });
+    for_each_contact(scene.state, body,
+                     [&](int index)
+                     {
+                         const Contact& contact = scene.state.contacts[index];
+                         if (contact.shape_a == shape || contact.shape_b == shape)
+                             destroy_and_wake(scene, index, body);
+                     });
 }
 
 void destroy_contacts_of_body(SceneData& scene, int body)

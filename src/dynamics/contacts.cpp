@@ -14,13 +14,14 @@ namespace carom::internal {
 
 Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
 {
-    const LocalManifold local =
-        collide(leaf_view(state, contact.shape_a), leaf_view(state, contact.shape_b), relative_pose(a.frame(), b.frame()), margin);
+    const LocalManifold local = collide(leaf_view(state, contact.shape_a), leaf_view(state, contact.shape_b),
+                                        relative_pose(a.frame(), b.frame()), margin);
     Manifold m;
     m.count = local.count;
     m.normal = rotate(a.rotation, local.normal);
     const Vec2 center_b = inverse_rotate(a.rotation, b.center - a.frame().position); // in a's frame
-    for (int i = 0; i < local.count; ++i) {
+    for (int i = 0; i < local.count; ++i)
+    {
         const LocalPoint& p = local.points[i];
         m.points[i].anchor_a = rotate(a.rotation, p.on_a - a.local_center);
         m.points[i].anchor_b = rotate(a.rotation, p.on_b - center_b);
@@ -33,13 +34,17 @@ Manifold world_manifold(const SceneState& state, const Contact& contact, const B
 void carry_impulses(const Manifold& old, Manifold& fresh)
 {
     fresh.rolling_impulse = old.rolling_impulse;
-    if (fresh.count == 0) { // kept for the next piece of the chain, should the ball have rolled over to it
+    if (fresh.count == 0)
+    { // kept for the next piece of the chain, should the ball have rolled over to it
         fresh.points[0].normal_impulse = old.points[0].normal_impulse;
         fresh.points[0].tangent_impulse = old.points[0].tangent_impulse;
     }
-    for (int i = 0; i < fresh.count; ++i) {
-        for (int j = 0; j < old.count; ++j) {
-            if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1)) {
+    for (int i = 0; i < fresh.count; ++i)
+    {
+        for (int j = 0; j < old.count; ++j)
+        {
+            if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1))
+            {
                 fresh.points[i].normal_impulse = old.points[j].normal_impulse;
                 fresh.points[i].tangent_impulse = old.points[j].tangent_impulse;
             }
@@ -48,12 +53,6 @@ void carry_impulses(const Manifold& old, Manifold& fresh)
 }
 
 namespace {
-
-float motion_of(const StepContext& ctx, int body)
-{
-    const int place = ctx.state.bodies[body].awake_index;
-    return place == none ? 0 : ctx.scratch.motion[static_cast<std::size_t>(place)];
-}
 
 bool is_one_way(const SceneState& state, const Contact& contact)
 {
@@ -77,7 +76,8 @@ void update_manifold(const StepContext& ctx, Contact& contact)
     const SceneState& state = ctx.state;
     const float margin = ctx.scene.tolerances.speculation + motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b);
     const Manifold old = contact.manifold;
-    contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), margin);
+    contact.manifold =
+        world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), margin);
     carry_impulses(old, contact.manifold);
     if (is_one_way(state, contact))
         update_passing(ctx, contact);
@@ -102,19 +102,21 @@ void inherit_load(StepContext& ctx, int index)
     const int visitor = piece_is_a ? contact.shape_b : contact.shape_a;
     if (state.shapes[piece].owner == piece || (contact.flags & contact_flag::loaded) != 0)
         return;
-    for_each_contact(state, state.shapes[visitor].body, [&](int other_index) {
-        Contact& other = state.contacts[other_index];
-        const int other_piece = piece_is_a ? other.shape_a : other.shape_b;
-        const int other_visitor = piece_is_a ? other.shape_b : other.shape_a;
-        if (other_visitor != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner || (other.flags & contact_flag::loaded) == 0 ||
-            other.manifold.count > 0)
-            return;
-        contact.flags |= contact_flag::loaded;
-        other.flags &= ~contact_flag::loaded;
-        contact.manifold.rolling_impulse = other.manifold.rolling_impulse;
-        contact.manifold.points[0].normal_impulse = other.manifold.points[0].normal_impulse;
-        contact.manifold.points[0].tangent_impulse = other.manifold.points[0].tangent_impulse;
-    });
+    for_each_contact(state, state.shapes[visitor].body,
+                     [&](int other_index)
+                     {
+                         Contact& other = state.contacts[other_index];
+                         const int other_piece = piece_is_a ? other.shape_a : other.shape_b;
+                         const int other_visitor = piece_is_a ? other.shape_b : other.shape_a;
+                         if (other_visitor != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner ||
+                             (other.flags & contact_flag::loaded) == 0 || other.manifold.count > 0)
+                             return;
+                         contact.flags |= contact_flag::loaded;
+                         other.flags &= ~contact_flag::loaded;
+                         contact.manifold.rolling_impulse = other.manifold.rolling_impulse;
+                         contact.manifold.points[0].normal_impulse = other.manifold.points[0].normal_impulse;
+                         contact.manifold.points[0].tangent_impulse = other.manifold.points[0].tangent_impulse;
+                     });
 }
 
 void begin_touch(StepContext& ctx, int index)
@@ -129,8 +131,9 @@ void begin_touch(StepContext& ctx, int index)
     if (touches_elsewhere(state, index))
         return;
     const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
-    ctx.scene.events.begins.push_back({shape_id(state, contact.shape_a), shape_id(state, contact.shape_b), body_id(state, contact.body_a),
-                                       body_id(state, contact.body_b), point, contact.manifold.normal, 0});
+    ctx.scene.events.begins.push_back({shape_id(state, contact.shape_a), shape_id(state, contact.shape_b),
+                                       body_id(state, contact.body_a), body_id(state, contact.body_b), point,
+                                       contact.manifold.normal, 0});
 }
 
 // Something fast that may hit a sleeper in this step wakes it before the units are built.
@@ -145,9 +148,12 @@ void begin_or_wake(StepContext& ctx, int index)
     Contact& contact = ctx.state.contacts[index];
     contact.flags &= ~contact_flag::fresh;
     const bool touching = (contact.flags & contact_flag::touching) != 0;
-    if (!touching && should_touch(ctx, contact)) {
+    if (!touching && should_touch(ctx, contact))
+    {
         begin_touch(ctx, index);
-    } else if (may_hit(ctx, contact)) {
+    }
+    else if (may_hit(ctx, contact))
+    {
         wake_body(ctx.scene, contact.body_a);
         wake_body(ctx.scene, contact.body_b);
     }

@@ -14,15 +14,14 @@ template <class Event>
 void sort_events(std::vector<Event>& events)
 {
     // Stable: events of one pair at one time keep the order in which they happened.
-    std::stable_sort(events.begin(), events.end(),
-                     [](const Event& x, const Event& y) { return std::tie(x.time, x.shape_a, x.shape_b) < std::tie(y.time, y.shape_a, y.shape_b); });
+    std::stable_sort(events.begin(), events.end(), [](const Event& x, const Event& y)
+                     { return std::tie(x.time, x.shape_a, x.shape_b) < std::tie(y.time, y.shape_a, y.shape_b); });
 }
 
 void sort_triggers(std::vector<TriggerEvent>& events)
 {
-    std::stable_sort(events.begin(), events.end(), [](const TriggerEvent& x, const TriggerEvent& y) {
-        return std::tie(x.time, x.trigger, x.visitor) < std::tie(y.time, y.trigger, y.visitor);
-    });
+    std::stable_sort(events.begin(), events.end(), [](const TriggerEvent& x, const TriggerEvent& y)
+                     { return std::tie(x.time, x.trigger, x.visitor) < std::tie(y.time, y.trigger, y.visitor); });
 }
 
 template <class Event>
@@ -72,10 +71,12 @@ void mirror(ImpactEvent& event)
 template <class Event, class Callback>
 void call_both(SceneData& scene, Scene& owner, const std::vector<Event>& events, Callback ShapeCallbacks::* which)
 {
-    for (const Event& event : events) {
+    for (const Event& event : events)
+    {
         if (const auto callbacks = callbacks_of(scene, event.shape_a); callbacks && (*callbacks).*which)
             ((*callbacks).*which)(owner, event);
-        if (const auto callbacks = callbacks_of(scene, event.shape_b); callbacks && (*callbacks).*which) {
+        if (const auto callbacks = callbacks_of(scene, event.shape_b); callbacks && (*callbacks).*which)
+        {
             Event mirrored = event;
             mirror(mirrored);
             ((*callbacks).*which)(owner, mirrored);
@@ -85,10 +86,13 @@ void call_both(SceneData& scene, Scene& owner, const std::vector<Event>& events,
 
 using TriggerCallback = std::function<void(Scene&, const TriggerEvent&)>;
 
-void call_trigger(SceneData& scene, Scene& owner, const std::vector<TriggerEvent>& events, TriggerCallback ShapeCallbacks::* which)
+void call_trigger(SceneData& scene, Scene& owner, const std::vector<TriggerEvent>& events,
+                  TriggerCallback ShapeCallbacks::* which)
 {
-    for (const TriggerEvent& event : events) {
-        for (const ShapeId id : {event.trigger, event.visitor}) {
+    for (const TriggerEvent& event : events)
+    {
+        for (const ShapeId id : {event.trigger, event.visitor})
+        {
             if (const auto callbacks = callbacks_of(scene, id); callbacks && (*callbacks).*which)
                 ((*callbacks).*which)(owner, event);
         }
@@ -99,14 +103,17 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
 {
     std::vector<TriggerEvent> events;
     const SceneState& state = scene.state;
-    const auto listens = [&](int shape) {
+    const auto listens = [&](int shape)
+    {
         const auto& callbacks = scene.shape_extras[static_cast<std::size_t>(state.shapes[shape].owner)].callbacks;
         return callbacks && callbacks->on_trigger_inside;
     };
-    for (const std::int32_t index : state.trigger_contacts) {
+    for (const std::int32_t index : state.trigger_contacts)
+    {
         const Contact& c = state.contacts[index];
         if ((c.flags & contact_flag::touching) != 0 && (listens(c.shape_a) || listens(c.shape_b)))
-            events.push_back({shape_id(state, c.shape_a), shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), 0});
+            events.push_back(
+                {shape_id(state, c.shape_a), shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), 0});
     }
     sort_triggers(events);
     return events;

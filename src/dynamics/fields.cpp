@@ -1,7 +1,7 @@
 // Fields: forces of trigger shapes on the dynamic bodies inside them, constant over a step.
 
-#include "core/trigonometry.h"
 #include "dynamics/fields.h"
+#include "core/trigonometry.h"
 
 namespace carom::internal {
 
@@ -21,12 +21,14 @@ void act(const Field& field, float dt, BodySim& sim)
 void apply_fields(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    for (const std::int32_t index : state.trigger_contacts) {
+    for (const std::int32_t index : state.trigger_contacts)
+    {
         const Contact& contact = state.contacts[index];
         const Field& field = state.shapes[contact.shape_a].field;
         const bool acts = field.force != Vec2{} || field.acceleration != Vec2{} || field.drag > 0;
         const BodyRecord& visitor = state.bodies[contact.body_b];
-        if (acts && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic && visitor.awake_index != none)
+        if (acts && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic &&
+            visitor.awake_index != none)
             act(field, ctx.dt, state.sims[static_cast<std::size_t>(contact.body_b)]);
     }
 }

@@ -25,7 +25,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int impact_limit = 64;   // per ball and sub-step
+constexpr int impact_limit = 64; // per ball and sub-step
 constexpr int settling_rounds = 8;
 
 /// What a ball may hit, where it is and how it moves at a time of the sub-step.
@@ -44,9 +44,9 @@ class Flight
 {
 public:
     Flight(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
-        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit), m_k(k), m_h(ctx.h), m_tiny(1e-6 * static_cast<double>(ctx.scene.def.length_scale)), m_output(output)
-    {
-    }
+        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit), m_k(k), m_h(ctx.h),
+          m_tiny(1e-6 * static_cast<double>(ctx.scene.def.length_scale)), m_output(output)
+    {}
 
     void run()
     {
@@ -61,9 +61,16 @@ public:
     }
 
 private:
-    [[nodiscard]] std::span<Flier> fliers() { return std::span(m_scratch.fliers).subspan(static_cast<std::size_t>(m_unit.first_flier), static_cast<std::size_t>(m_unit.flier_count)); }
+    [[nodiscard]] std::span<Flier> fliers()
+    {
+        return std::span(m_scratch.fliers)
+            .subspan(static_cast<std::size_t>(m_unit.first_flier), static_cast<std::size_t>(m_unit.flier_count));
+    }
     [[nodiscard]] BodyState& state_of(const Flier& f) { return m_scratch.states[static_cast<std::size_t>(f.state)]; }
-    [[nodiscard]] const StateConstants& constants_of(std::int32_t state) const { return m_scratch.constants[static_cast<std::size_t>(state)]; }
+    [[nodiscard]] const StateConstants& constants_of(std::int32_t state) const
+    {
+        return m_scratch.constants[static_cast<std::size_t>(state)];
+    }
     [[nodiscard]] const BodySim& sim_of(int body) const { return m_state.sims[static_cast<std::size_t>(body)]; }
     [[nodiscard]] double radius_of(const Flier& f) const { return m_state.shapes[f.shape].leaf.r0; }
     [[nodiscard]] double time_of_step(double time) const { return m_k * static_cast<double>(m_h) + time; }
@@ -110,7 +117,8 @@ private:
         if (state == none)
             return nullptr;
         const std::int32_t f = m_scratch.flier_of_state[static_cast<std::size_t>(state)];
-        return f != none && !m_scratch.fliers[static_cast<std::size_t>(f)].landed ? &m_scratch.fliers[static_cast<std::size_t>(f)] : nullptr;
+        return f != none && !m_scratch.fliers[static_cast<std::size_t>(f)].landed ? &m_scratch.fliers[static_cast<std::size_t>(f)]
+                                                                                  : nullptr;
     }
 
     // The target as it moves from `time` on.
@@ -127,7 +135,8 @@ private:
         c.y = sim.center.y - origin.y;
         t.path.c = sim.rotation.c;
         t.path.s = sim.rotation.s;
-        if (m_state.bodies[body].type == BodyType::Dynamic) {
+        if (m_state.bodies[body].type == BodyType::Dynamic)
+        {
             t.inverse_mass_x = sim.inverse_mass.x;
             t.inverse_mass_y = sim.inverse_mass.y;
             t.inverse_inertia = sim.inverse_inertia;
@@ -162,7 +171,8 @@ private:
         CenterPath& c = t.path.center;
         c.vx = s.velocity.x;
         c.vy = s.velocity.y;
-        if ((s.flags & body_flag::unbound) != 0) {
+        if ((s.flags & body_flag::unbound) != 0)
+        {
             c.ax = constants_of(t.state).acceleration.x;
             c.ay = constants_of(t.state).acceleration.y;
         }
@@ -203,7 +213,8 @@ private:
         f.event_time = 1e300;
         if (f.landed || f.impacts >= impact_limit || f.time >= static_cast<double>(m_h))
             return;
-        for (int edge = m_state.bodies[f.body].first_contact; edge != none;) {
+        for (int edge = m_state.bodies[f.body].first_contact; edge != none;)
+        {
             const int index = edge >> 1;
             Contact& contact = m_state.contacts[index];
             edge = contact.next[edge & 1];
@@ -226,14 +237,17 @@ private:
                                              origin.x + std::max(f.x, end.x) + r, origin.y + std::max(f.y, end.y) + r);
         if (contains(m_state.broad_phase.box(f.shape), path))
             return;
-        const auto visit = [&](int shape) {
-            if (shape != f.shape && !m_state.pairs.contains(pair_key(f.shape, shape)) && !m_state.shapes[shape].trigger && may_collide(m_state, f.shape, shape))
+        const auto visit = [&](int shape)
+        {
+            if (shape != f.shape && !m_state.pairs.contains(pair_key(f.shape, shape)) && !m_state.shapes[shape].trigger &&
+                may_collide(m_state, f.shape, shape))
                 consider(f, shape, none);
             return true;
         };
         m_state.broad_phase.query(Layer::Moving, path, visit);
         m_state.broad_phase.query(Layer::Resting, path, visit);
-        for (const std::int32_t half_space : m_state.broad_phase.unbounded()) {
+        for (const std::int32_t half_space : m_state.broad_phase.unbounded())
+        {
             if (reaches_half_space(m_state, half_space, path, 0))
                 visit(half_space);
         }
@@ -246,11 +260,13 @@ private:
         const Target target = target_at(f, m_state.shapes[shape].body, f.time);
         const double left = std::min(static_cast<double>(m_h), f.event_time) - f.time;
         const CenterPath ball{f.x, f.y, f.vx, f.vy, f.ax, f.ay};
-        const std::optional<BallHit> hit = ball_time_of_impact(ball, radius_of(f), leaf_view(m_state, shape), target.path, left, m_tiny);
+        const std::optional<BallHit> hit =
+            ball_time_of_impact(ball, radius_of(f), leaf_view(m_state, shape), target.path, left, m_tiny);
         if (!hit || f.time + hit->time >= f.event_time)
             return;
         // The ball is b as the material sees it: the normal runs from the shape to the ball.
-        if (lets_pass(m_ctx.scene, shape, f.shape, {static_cast<float>(hit->nx), static_cast<float>(hit->ny)})) {
+        if (lets_pass(m_ctx.scene, shape, f.shape, {static_cast<float>(hit->nx), static_cast<float>(hit->ny)}))
+        {
             if (contact != none)
                 m_state.contacts[contact].flags |= contact_flag::passing;
             return;
@@ -265,7 +281,10 @@ private:
         f.event_version = version(target.state);
     }
 
-    [[nodiscard]] std::int32_t version(std::int32_t state) const { return state == none ? 0 : m_scratch.versions[static_cast<std::size_t>(state)]; }
+    [[nodiscard]] std::int32_t version(std::int32_t state) const
+    {
+        return state == none ? 0 : m_scratch.versions[static_cast<std::size_t>(state)];
+    }
     void path_changed(std::int32_t state)
     {
         if (state != none)
@@ -276,7 +295,8 @@ private:
     [[nodiscard]] Flier* earliest()
     {
         Flier* best = nullptr;
-        for (Flier& f : fliers()) {
+        for (Flier& f : fliers())
+        {
             if (f.event_time <= static_cast<double>(m_h) && (best == nullptr || f.event_time < best->event_time))
                 best = &f;
         }
@@ -285,7 +305,8 @@ private:
 
     void process(Flier& f)
     {
-        if (f.event_version != version(f.event_state)) {
+        if (f.event_version != version(f.event_state))
+        {
             find_next_event(f);
             return;
         }
@@ -295,7 +316,8 @@ private:
         if (other != nullptr)
             advance(*other, time);
         // A few rounds between two holds settle how they share; after that, what holds the ball keeps holding it.
-        if (f.impacts < settling_rounds) {
+        if (f.impacts < settling_rounds)
+        {
             release(f);
             if (other != nullptr)
                 release(*other);
@@ -307,7 +329,8 @@ private:
         path_changed(f.event_state);
         const std::int32_t struck = other == nullptr ? f.event_state : none;
         note_path(f);
-        if (other != nullptr) {
+        if (other != nullptr)
+        {
             note_path(*other);
             find_next_event(*other);
         }
@@ -338,7 +361,8 @@ private:
     void reconsider_neighbours(std::int32_t struck)
     {
         const int body = m_scratch.state_bodies[static_cast<std::size_t>(struck)];
-        for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1]) {
+        for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+        {
             if (Flier* f = flier_at(state_in_unit(other_body(m_state.contacts[edge >> 1], body))))
                 find_next_event(*f);
         }
@@ -350,7 +374,7 @@ private:
 
     struct Impact
     {
-        double u = 0;       ///< approach speed
+        double u = 0; ///< approach speed
         double e = 0;
         double kick = 0;
         double k = 0;
@@ -378,7 +402,8 @@ private:
         // Normal.
         const double turn = impact.arm_x * f.ny - impact.arm_y * f.nx; // arm x n
         const double inverse_mass = sim_of(f.body).inverse_mass.x;
-        impact.k = inverse_mass + f.nx * f.nx * target.inverse_mass_x + f.ny * f.ny * target.inverse_mass_y + turn * turn * target.inverse_inertia;
+        impact.k = inverse_mass + f.nx * f.nx * target.inverse_mass_x + f.ny * f.ny * target.inverse_mass_y +
+                   turn * turn * target.inverse_inertia;
         const double tvx = target.path.center.vx - target_w(target, other) * impact.arm_y;
         const double tvy = target.path.center.vy + target_w(target, other) * impact.arm_x;
         impact.u = (tvx - f.vx) * f.nx + (tvy - f.vy) * f.ny;
@@ -417,7 +442,8 @@ private:
             m_output.kicked_shapes.push_back(f.event_shape);
         // What presses the ball on: acceleration, and the bend of the surface under its slide.
         impact.slide = (f.vx - tvx) * -f.ny + (f.vy - tvy) * f.nx;
-        impact.pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny - f.curvature * impact.slide * impact.slide;
+        impact.pressing = -(f.ax - target.path.center.ax) * f.nx - (f.ay - target.path.center.ay) * f.ny -
+                          f.curvature * impact.slide * impact.slide;
         if (impact.kick == 0 && impact.e * impact.u <= std::max(0.5 * impact.pressing * static_cast<double>(m_h), 0.0) + m_tiny)
             hold(f, impact);
     }
@@ -427,7 +453,8 @@ private:
         impact.e = 0;
         add_hold(f, f.event_shape);
         f.hold_curvature = target_is_still(f) ? f.curvature : 0;
-        if (impact.pressing > 0) { // the surface takes the part of the acceleration that presses
+        if (impact.pressing > 0)
+        { // the surface takes the part of the acceleration that presses
             const double an = f.ax * f.nx + f.ay * f.ny;
             f.ax -= an * f.nx;
             f.ay -= an * f.ny;
@@ -448,12 +475,13 @@ private:
         const BodyState& ball = state_of(f);
         const double inertia = sim_of(f.body).inverse_inertia;
         const double turn = impact.arm_x * ty - impact.arm_y * tx;
-        const double k = static_cast<double>(sim_of(f.body).inverse_mass.x) + r * r * inertia + tx * tx * target.inverse_mass_x + ty * ty * target.inverse_mass_y +
-                         turn * turn * target.inverse_inertia;
+        const double k = static_cast<double>(sim_of(f.body).inverse_mass.x) + r * r * inertia + tx * tx * target.inverse_mass_x +
+                         ty * ty * target.inverse_mass_y + turn * turn * target.inverse_inertia;
         const Vec2 tv = target_velocity(target, other);
         const double tw = target_spin(target, other);
         // The ball's arm is -r n, so that its surface moves by -r w along t.
-        const double slip = (f.vx - tv.x + tw * impact.arm_y) * tx + (f.vy - tv.y - tw * impact.arm_x) * ty - r * static_cast<double>(ball.angular_velocity) - surface_speed(f);
+        const double slip = (f.vx - tv.x + tw * impact.arm_y) * tx + (f.vy - tv.y - tw * impact.arm_x) * ty -
+                            r * static_cast<double>(ball.angular_velocity) - surface_speed(f);
         impact.tangent = std::clamp(-slip / k, -mu * impact.normal, mu * impact.normal);
         apply(f, other, target, impact, impact.tangent * tx, impact.tangent * ty);
         state_of(f).angular_velocity -= static_cast<float>(r * inertia * impact.tangent);
@@ -461,9 +489,13 @@ private:
 
     [[nodiscard]] double friction_of(const Flier& f) const
     {
-        return f.event_contact != none ? m_state.contacts[f.event_contact].friction : mixed_friction(m_ctx.scene, f.shape, f.event_shape);
+        return f.event_contact != none ? m_state.contacts[f.event_contact].friction
+                                       : mixed_friction(m_ctx.scene, f.shape, f.event_shape);
     }
-    [[nodiscard]] double surface_speed(const Flier& f) const { return static_cast<double>(m_state.shapes[f.shape].surface_speed) + m_state.shapes[f.event_shape].surface_speed; }
+    [[nodiscard]] double surface_speed(const Flier& f) const
+    {
+        return static_cast<double>(m_state.shapes[f.shape].surface_speed) + m_state.shapes[f.event_shape].surface_speed;
+    }
 
     // Velocity of the target's center now: after the normal impulse it has changed.
     [[nodiscard]] Vec2 target_velocity(const Target& target, const Flier* other) const
@@ -477,7 +509,9 @@ private:
 
     [[nodiscard]] double target_spin(const Target& target, const Flier*) const
     {
-        return target.state == none ? target.path.w : static_cast<double>(m_scratch.states[static_cast<std::size_t>(target.state)].angular_velocity);
+        return target.state == none
+                   ? target.path.w
+                   : static_cast<double>(m_scratch.states[static_cast<std::size_t>(target.state)].angular_velocity);
     }
 
     // The impulse (px, py) on the ball at the point of contact, its opposite on the target there.
@@ -489,13 +523,17 @@ private:
         if (target.inverse_mass_x == 0 && target.inverse_mass_y == 0 && target.inverse_inertia == 0)
             return;
         const auto spin = static_cast<float>(-target.inverse_inertia * (impact.arm_x * py - impact.arm_y * px));
-        if (target.state == none) {
-            m_output.deferred.push_back({target.body, {static_cast<float>(-px), static_cast<float>(-py)}, {static_cast<float>(impact.arm_x), static_cast<float>(impact.arm_y)}});
+        if (target.state == none)
+        {
+            m_output.deferred.push_back({target.body,
+                                         {static_cast<float>(-px), static_cast<float>(-py)},
+                                         {static_cast<float>(impact.arm_x), static_cast<float>(impact.arm_y)}});
             return;
         }
         BodyState& s = m_scratch.states[static_cast<std::size_t>(target.state)];
         s.angular_velocity += spin;
-        if (other != nullptr) {
+        if (other != nullptr)
+        {
             other->vx -= target.inverse_mass_x * px;
             other->vy -= target.inverse_mass_y * py;
             return;
@@ -513,7 +551,8 @@ private:
         const auto part = [](double inverse, double v) { return inverse > 0 ? 0.5 * v * v / inverse : 0; };
         const BodySim& sim = sim_of(f.body);
         const Vec2 tv = target_velocity(target, other);
-        return part(sim.inverse_mass.x, f.vx) + part(sim.inverse_mass.y, f.vy) + part(sim.inverse_inertia, ball.angular_velocity) + part(target.inverse_mass_x, tv.x) +
+        return part(sim.inverse_mass.x, f.vx) + part(sim.inverse_mass.y, f.vy) +
+               part(sim.inverse_inertia, ball.angular_velocity) + part(target.inverse_mass_x, tv.x) +
                part(target.inverse_mass_y, tv.y) + part(target.inverse_inertia, target_spin(target, other));
     }
 
@@ -524,7 +563,8 @@ private:
     {
         const bool along_chain = m_state.shapes[f.event_shape].owner != f.event_shape;
         const double shallow = along_chain ? 0.005 * std::fabs(impact.slide) : 0;
-        return impact.u > std::max({static_cast<double>(m_ctx.scene.tolerances.rest_speed), impact.pressing * static_cast<double>(m_h), shallow});
+        return impact.u > std::max({static_cast<double>(m_ctx.scene.tolerances.rest_speed),
+                                    impact.pressing * static_cast<double>(m_h), shallow});
     }
 
     void report(const Flier& f, const Impact& impact)
@@ -556,7 +596,8 @@ private:
         e.effective_mass_b = ball_is_a ? mass_target : mass_ball;
         const std::int32_t shape_a = ball_is_a ? f.shape : f.event_shape;
         const std::int32_t shape_b = ball_is_a ? f.event_shape : f.shape;
-        if (is_worth_telling(f, impact)) {
+        if (is_worth_telling(f, impact))
+        {
             m_output.impacts.push_back({shape_a, shape_b, e});
             ++m_output.flight_impacts;
         }
@@ -610,7 +651,8 @@ private:
         BodyState& s = state_of(f);
         s.flags &= ~(body_flag::flier | body_flag::unbound);
         const float margin = m_ctx.scene.tolerances.speculation + length(s.velocity) * m_ctx.dt;
-        for (int edge = m_state.bodies[f.body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1]) {
+        for (int edge = m_state.bodies[f.body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+        {
             const int index = edge >> 1;
             const Contact& contact = m_state.contacts[index];
             if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) == 0)
@@ -622,10 +664,13 @@ private:
     {
         const Contact& contact = m_state.contacts[index];
         const int body = other_body(contact, f.body);
-        const std::int32_t other = m_state.bodies[body].awake_index == none ? m_unit.first_state : m_scratch.state_of[static_cast<std::size_t>(m_state.bodies[body].awake_index)];
+        const std::int32_t other = m_state.bodies[body].awake_index == none
+                                       ? m_unit.first_state
+                                       : m_scratch.state_of[static_cast<std::size_t>(m_state.bodies[body].awake_index)];
         if (other < m_unit.first_state || other >= m_unit.first_state + m_unit.state_count || flier_at(other) != nullptr)
             return; // another unit's, or still in flight: the next step links them
-        const Manifold manifold = world_manifold(m_state, contact, pose_now(contact.body_a, f, other), pose_now(contact.body_b, f, other), margin);
+        const Manifold manifold =
+            world_manifold(m_state, contact, pose_now(contact.body_a, f, other), pose_now(contact.body_b, f, other), margin);
         if (manifold.count == 0)
             return;
         const bool ball_is_a = contact.body_a == f.body;

@@ -24,8 +24,7 @@ struct Bodies
 
     Bodies(const SolverView& view, const JointWork& work)
         : sa(view.states[work.a]), sb(view.states[work.b]), ca(view.constants[work.a]), cb(view.constants[work.b])
-    {
-    }
+    {}
 
     [[nodiscard]] float speed(const JointRow& r) const
     {
@@ -60,7 +59,8 @@ struct Bodies
 float angle_of(Rotation turn)
 {
     const float s = turn.s;
-    if (turn.c > 0 && std::fabs(s) < 0.15f) {
+    if (turn.c > 0 && std::fabs(s) < 0.15f)
+    {
         const float z = s * s;
         return s * (1 + z * (1.0f / 6 + z * (3.0f / 40 + z * (15.0f / 336))));
     }
@@ -84,18 +84,12 @@ JointPose present_pose(const SolverView& view, const JointWork& work)
 JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
 {
     JointRows rows;
-    switch (joint.kind) {
-    case JointType::Spring:
-        break;
-    case JointType::Distance:
-        distance_rows(joint, pose, rows);
-        break;
-    case JointType::Revolute:
-        revolute_rows(joint, pose, h, rows);
-        break;
-    case JointType::Prismatic:
-        prismatic_rows(joint, pose, h, rows);
-        break;
+    switch (joint.kind)
+    {
+    case JointType::Spring: break;
+    case JointType::Distance: distance_rows(joint, pose, rows); break;
+    case JointType::Revolute: revolute_rows(joint, pose, h, rows); break;
+    case JointType::Prismatic: prismatic_rows(joint, pose, h, rows); break;
     }
     return rows;
 }
@@ -121,7 +115,8 @@ void solve_block(const Bodies& bodies, JointRecord& joint, const JointRows& rows
     const float det = k11 * k22 - k12 * k12;
     float jx = k11 > 0 ? bx / k11 : 0;
     float jy = k22 > 0 ? by / k22 : 0;
-    if (det > 1e-6f * k11 * k22) {
+    if (det > 1e-6f * k11 * k22)
+    {
         jx = (k22 * bx - k12 * by) / det;
         jy = (k11 * by - k12 * bx) / det;
     }
@@ -140,15 +135,18 @@ float soft_impulse(const Bodies& bodies, const JointRow& row, float accumulated,
     return -bodies.mass(row) * s.mass_scale * (bodies.speed(row) + bias) - s.impulse_scale * accumulated;
 }
 
-void solve_row(const Bodies& bodies, JointRecord& joint, const JointRow& row, const SolverView& view, float joint_hertz, bool use_bias)
+void solve_row(const Bodies& bodies, JointRecord& joint, const JointRow& row, const SolverView& view, float joint_hertz,
+               bool use_bias)
 {
     float& accumulated = joint.impulses[row.slot];
     float updated = accumulated;
     const Softness soft = softness_of(row, joint_hertz, view.h);
-    switch (row.kind) {
+    switch (row.kind)
+    {
     case RowKind::Hold:
         updated += use_bias ? soft_impulse(bodies, row, accumulated, soft, soft.bias_rate * row.error)
-                            : -bodies.mass(row) * bodies.speed(row) * (row.hertz > 0 ? 0.0f : 1.0f); // soft holds are springs: not relaxed
+                            : -bodies.mass(row) * bodies.speed(row) *
+                                  (row.hertz > 0 ? 0.0f : 1.0f); // soft holds are springs: not relaxed
         break;
     case RowKind::Limit:
         if (row.error > 0)
@@ -160,7 +158,8 @@ void solve_row(const Bodies& bodies, JointRecord& joint, const JointRow& row, co
         updated = std::max(updated, 0.0f);
         break;
     case RowKind::Motor:
-        updated = std::clamp(accumulated - bodies.mass(row) * (bodies.speed(row) - row.target), -row.max_impulse, row.max_impulse);
+        updated =
+            std::clamp(accumulated - bodies.mass(row) * (bodies.speed(row) - row.target), -row.max_impulse, row.max_impulse);
         break;
     case RowKind::Spring:
         if (use_bias)
@@ -191,9 +190,12 @@ SpringStep fitted_spring(double stiffness, double damping, double mass, double h
     const double d2 = stiffness / mass - decay * decay;
     const double fade = exponential(-decay * h);
     double sum;
-    if (d2 >= 0) {
+    if (d2 >= 0)
+    {
         sum = 2 * fade * sin_cos(std::sqrt(d2) * h).cos;
-    } else {
+    }
+    else
+    {
         const double r = std::sqrt(-d2);
         sum = exponential((r - decay) * h) + exponential((-r - decay) * h);
     }
@@ -236,7 +238,8 @@ void fit_spring(const SolverView& view, const JointRecord& joint, JointWork& wor
         return;
     // h q, about h² k / m, summed over the springs of a body must stay below 1.
     const bool soft = view.h * view.h * joint.stiffness * static_cast<float>(work.spring_count) <= 0.9f * m;
-    const SpringStep s = soft ? fitted_spring(joint.stiffness, joint.damping, m, view.h) : implicit_spring(joint.stiffness, joint.damping, m, view.h);
+    const SpringStep s = soft ? fitted_spring(joint.stiffness, joint.damping, m, view.h)
+                              : implicit_spring(joint.stiffness, joint.damping, m, view.h);
     work.spring_speed = static_cast<float>(s.p - 1);
     work.spring_stretch = static_cast<float>(s.q);
     work.spring_acceleration = static_cast<float>(s.g - s.p * static_cast<double>(view.h));
@@ -247,17 +250,18 @@ void apply_spring(const SolverView& view, JointRecord& joint, const JointWork& w
     const SpringRow spring = spring_row(view, joint, work);
     const Bodies bodies(view, work);
     const JointRow& row = spring.row;
-    const float acceleration = dot(row.d, bodies.cb.acceleration - bodies.ca.acceleration) + row.arm_b * bodies.cb.angular_acceleration -
-                               row.arm_a * bodies.ca.angular_acceleration;
-    joint.impulses[slot_spring] =
-        spring.mass * (work.spring_speed * bodies.speed(row) - work.spring_stretch * row.error + work.spring_acceleration * acceleration);
+    const float acceleration = dot(row.d, bodies.cb.acceleration - bodies.ca.acceleration) +
+                               row.arm_b * bodies.cb.angular_acceleration - row.arm_a * bodies.ca.angular_acceleration;
+    joint.impulses[slot_spring] = spring.mass * (work.spring_speed * bodies.speed(row) - work.spring_stretch * row.error +
+                                                 work.spring_acceleration * acceleration);
     bodies.apply(row, joint.impulses[slot_spring]);
 }
 
 int count_springs(const SceneState& state, int body)
 {
     int count = 0;
-    for (int edge = body == none ? none : state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
+    for (int edge = body == none ? none : state.bodies[body].first_joint; edge != none;
+         edge = state.joints[edge >> 1].next[edge & 1])
         count += state.joints[edge >> 1].kind == JointType::Spring ? 1 : 0;
     return count;
 }
@@ -273,8 +277,10 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     work.b = b;
     if (joint.kind == JointType::Spring)
         work.spring_count = std::max(count_springs(ctx.state, joint.body_a), count_springs(ctx.state, joint.body_b));
-    const auto place = [&](int body, Vec2 anchor, Vec2& arm, Rotation& q) {
-        if (body == none) {
+    const auto place = [&](int body, Vec2 anchor, Vec2& arm, Rotation& q)
+    {
+        if (body == none)
+        {
             arm = {};
             q = {};
             return Position(anchor);
@@ -299,7 +305,8 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
 
 void apply_springs(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
-    for (const JointWork& work : joints) {
+    for (const JointWork& work : joints)
+    {
         JointRecord& joint = state.joints[work.joint];
         if (joint.kind == JointType::Spring)
             apply_spring(view, joint, work);
@@ -308,7 +315,8 @@ void apply_springs(const SolverView& view, SceneState& state, std::span<JointWor
 
 void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
-    for (const JointWork& work : joints) {
+    for (const JointWork& work : joints)
+    {
         const JointRecord& joint = state.joints[work.joint];
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
@@ -320,7 +328,8 @@ void warm_start_joints(const SolverView& view, SceneState& state, std::span<Join
 void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, float joint_hertz, bool use_bias)
 {
     const Softness soft = make_softness(joint_hertz, 0, view.h);
-    for (const JointWork& work : joints) {
+    for (const JointWork& work : joints)
+    {
         JointRecord& joint = state.joints[work.joint];
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
@@ -337,28 +346,33 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
 
 void note_limit_approach(const SolverView& view, const SceneState& state, std::span<JointWork> joints)
 {
-    for (JointWork& work : joints) {
+    for (JointWork& work : joints)
+    {
         const JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0)
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
-        for (int i = 0; i < rows.count; ++i) {
+        for (int i = 0; i < rows.count; ++i)
+        {
             if (rows.rows[i].kind == RowKind::Limit)
-                work.approach[rows.rows[i].slot == slot_upper] = joint.impulses[rows.rows[i].slot] > 0 ? 0 : -bodies.speed(rows.rows[i]);
+                work.approach[rows.rows[i].slot == slot_upper] =
+                    joint.impulses[rows.rows[i].slot] > 0 ? 0 : -bodies.speed(rows.rows[i]);
         }
     }
 }
 
 void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, float rest_speed)
 {
-    for (JointWork& work : joints) {
+    for (JointWork& work : joints)
+    {
         JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0)
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
-        for (int i = 0; i < rows.count; ++i) {
+        for (int i = 0; i < rows.count; ++i)
+        {
             const JointRow& row = rows.rows[i];
             if (row.kind != RowKind::Limit || joint.impulses[row.slot] <= 0)
                 continue;
@@ -373,11 +387,13 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
 
 void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
-    for (JointWork& work : joints) {
+    for (JointWork& work : joints)
+    {
         const JointRecord& joint = state.joints[work.joint];
         const JointPose pose = present_pose(view, work);
         const JointRows rows = rows_of(joint, pose, view.h);
-        for (int i = 0; i < rows.count; ++i) {
+        for (int i = 0; i < rows.count; ++i)
+        {
             const float impulse = joint.impulses[rows.rows[i].slot];
             work.force_sum += impulse * rows.rows[i].d;
             if (rows.rows[i].d == Vec2{})

@@ -16,21 +16,15 @@ struct Side
 
 float mix(const SceneDef& def, MixedValue what, const Side& a, const Side& b)
 {
-    switch (what == MixedValue::Friction ? def.friction_rule : def.restitution_rule) {
-    case MixRule::Average:
-        return 0.5f * (a.value + b.value);
-    case MixRule::GeometricMean:
-        return std::sqrt(a.value * b.value);
-    case MixRule::Minimum:
-        return std::min(a.value, b.value);
-    case MixRule::Maximum:
-        return std::max(a.value, b.value);
-    case MixRule::Product:
-        return a.value * b.value;
-    case MixRule::OtherDecides:
-        return a.yields == b.yields ? 0.5f * (a.value + b.value) : (a.yields ? b.value : a.value);
-    case MixRule::Function:
-        return def.mix_function(what, a.value, a.user_data, b.value, b.user_data);
+    switch (what == MixedValue::Friction ? def.friction_rule : def.restitution_rule)
+    {
+    case MixRule::Average: return 0.5f * (a.value + b.value);
+    case MixRule::GeometricMean: return std::sqrt(a.value * b.value);
+    case MixRule::Minimum: return std::min(a.value, b.value);
+    case MixRule::Maximum: return std::max(a.value, b.value);
+    case MixRule::Product: return a.value * b.value;
+    case MixRule::OtherDecides: return a.yields == b.yields ? 0.5f * (a.value + b.value) : (a.yields ? b.value : a.value);
+    case MixRule::Function: return def.mix_function(what, a.value, a.user_data, b.value, b.user_data);
     }
     return 0;
 }
@@ -48,8 +42,10 @@ float restitution_at(const ShapeRecord& shape, float speed)
     const auto& p = shape.curve.points;
     if (speed <= p[0].speed)
         return p[0].restitution;
-    for (std::uint32_t i = 1; i < n; ++i) {
-        if (speed < p[i].speed) {
+    for (std::uint32_t i = 1; i < n; ++i)
+    {
+        if (speed < p[i].speed)
+        {
             const float t = (speed - p[i - 1].speed) / (p[i].speed - p[i - 1].speed);
             return p[i - 1].restitution + t * (p[i].restitution - p[i - 1].restitution);
         }
@@ -93,8 +89,9 @@ float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float 
 {
     const ShapeRecord& a = scene.state.shapes[shape_a];
     const ShapeRecord& b = scene.state.shapes[shape_b];
-    const float value = mix(scene.def, MixedValue::Restitution, {restitution_at(a, speed), a.yields_material, user_data_of(scene, shape_a)},
-                            {restitution_at(b, speed), b.yields_material, user_data_of(scene, shape_b)});
+    const float value =
+        mix(scene.def, MixedValue::Restitution, {restitution_at(a, speed), a.yields_material, user_data_of(scene, shape_a)},
+            {restitution_at(b, speed), b.yields_material, user_data_of(scene, shape_b)});
     return value > 0 ? std::min(value, 1.0f) : 0;
 }
 

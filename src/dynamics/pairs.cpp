@@ -23,11 +23,13 @@ void look_around(StepContext& ctx, int shape)
 {
     const SceneState& state = ctx.state;
     const BroadPhase& broad_phase = state.broad_phase;
-    const auto offer = [&](int other) {
+    const auto offer = [&](int other)
+    {
         offer_pair(ctx, shape, other);
         return true;
     };
-    if (state.shapes[shape].leaf.type == LeafType::HalfSpace) {
+    if (state.shapes[shape].leaf.type == LeafType::HalfSpace)
+    {
         const auto reaches = [&](const FloatBox& box) { return reaches_half_space(state, shape, box, 0); };
         broad_phase.descend(Layer::Moving, reaches, offer);
         broad_phase.descend(Layer::Resting, reaches, offer);
@@ -36,7 +38,8 @@ void look_around(StepContext& ctx, int shape)
     const FloatBox box = broad_phase.box(shape);
     broad_phase.query(Layer::Moving, box, offer);
     broad_phase.query(Layer::Resting, box, offer);
-    for (const std::int32_t half_space : broad_phase.unbounded()) {
+    for (const std::int32_t half_space : broad_phase.unbounded())
+    {
         if (reaches_half_space(state, half_space, box, 0))
             offer_pair(ctx, shape, half_space);
     }
@@ -51,7 +54,8 @@ void find_pairs(StepContext& ctx)
     scratch.new_pairs.clear();
     for (const std::int32_t shape : scratch.moved_items)
         look_around(ctx, shape);
-    for (const std::int32_t shape : state.fresh_shapes) {
+    for (const std::int32_t shape : state.fresh_shapes)
+    {
         if (state.shapes.is_live(shape) && state.broad_phase.has(shape))
             look_around(ctx, shape);
     }

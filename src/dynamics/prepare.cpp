@@ -19,7 +19,10 @@ BodyState initial_state(const SceneState& state, int body)
 
 namespace {
 
-float decay(float damping, float h) { return damping > 0 ? static_cast<float>(exponential(-static_cast<double>(damping) * static_cast<double>(h))) : 1.0f; }
+float decay(float damping, float h)
+{
+    return damping > 0 ? static_cast<float>(exponential(-static_cast<double>(damping) * static_cast<double>(h))) : 1.0f;
+}
 
 } // namespace
 
@@ -31,7 +34,8 @@ StateConstants state_constants(const StepContext& ctx, int body)
     StateConstants c;
     c.inverse_mass = sim.inverse_mass;
     c.inverse_inertia = sim.inverse_inertia;
-    c.acceleration = {(locks.linear_x ? 0 : g.x) + sim.inverse_mass.x * sim.force.x, (locks.linear_y ? 0 : g.y) + sim.inverse_mass.y * sim.force.y};
+    c.acceleration = {(locks.linear_x ? 0 : g.x) + sim.inverse_mass.x * sim.force.x,
+                      (locks.linear_y ? 0 : g.y) + sim.inverse_mass.y * sim.force.y};
     c.angular_acceleration = sim.inverse_inertia * sim.torque;
     c.linear_decay = decay(sim.linear_damping, ctx.h);
     c.angular_decay = decay(sim.angular_damping, ctx.h);
@@ -67,8 +71,9 @@ float coupling(const StateConstants& a, const StateConstants& b, const ContactRo
 {
     const RowPoint& p = row.points[0];
     const RowPoint& q = row.points[1];
-    const float k = row.n.x * row.n.x * (a.inverse_mass.x + b.inverse_mass.x) + row.n.y * row.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
-                    cross(p.ra, row.n) * cross(q.ra, row.n) * a.inverse_inertia + cross(p.rb, row.n) * cross(q.rb, row.n) * b.inverse_inertia;
+    const float k =
+        row.n.x * row.n.x * (a.inverse_mass.x + b.inverse_mass.x) + row.n.y * row.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
+        cross(p.ra, row.n) * cross(q.ra, row.n) * a.inverse_inertia + cross(p.rb, row.n) * cross(q.rb, row.n) * b.inverse_inertia;
     const bool distinct = p.normal_mass > 0 && q.normal_mass > 0 && k * k * p.normal_mass * q.normal_mass < 0.999f;
     return distinct ? k : 0;
 }
@@ -83,7 +88,8 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
     const StateConstants& cb = scratch.constants[static_cast<std::size_t>(row.b)];
     row.n = m.normal;
     row.count = m.count;
-    for (int i = 0; i < m.count; ++i) {
+    for (int i = 0; i < m.count; ++i)
+    {
         RowPoint& p = row.points[i];
         p.ra = m.points[i].anchor_a;
         p.rb = m.points[i].anchor_b;
@@ -123,11 +129,13 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
     if (immovable && (contact.flags & contact_flag::round) != 0)
         row.core = 0.5f * ball_radius(ctx.state, contact, ca.inverse_mass != Vec2{});
     set_row_geometry(ctx.scratch, row, manifold);
-    for (int i = 0; i < row.count; ++i) {
+    for (int i = 0; i < row.count; ++i)
+    {
         row.points[i].normal_impulse = manifold.points[i].normal_impulse;
         row.points[i].tangent_impulse = manifold.points[i].tangent_impulse;
     }
-    if (contact.rolling_resistance > 0) {
+    if (contact.rolling_resistance > 0)
+    {
         // The limit is a length: coefficient times the radius of what rolls.
         const Leaf& leaf_a = ctx.state.shapes[contact.shape_a].leaf;
         const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;

@@ -43,10 +43,11 @@ public:
     UnitSolver(StepContext& ctx, const Unit& unit, UnitOutput& output)
         : m_ctx(ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, ctx.scene.tolerances.push_speed},
-          m_rows(std::span(ctx.scratch.rows).subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
-          m_joints(std::span(ctx.scratch.joints).subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count)))
-    {
-    }
+          m_rows(std::span(ctx.scratch.rows)
+                     .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
+          m_joints(std::span(ctx.scratch.joints)
+                       .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count)))
+    {}
 
     void run()
     {
@@ -72,7 +73,11 @@ private:
     }
 
     [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
-    [[nodiscard]] std::span<BodyState> states() { return std::span(m_scratch.states).subspan(static_cast<std::size_t>(m_unit.first_state), static_cast<std::size_t>(m_unit.state_count)); }
+    [[nodiscard]] std::span<BodyState> states()
+    {
+        return std::span(m_scratch.states)
+            .subspan(static_cast<std::size_t>(m_unit.first_state), static_cast<std::size_t>(m_unit.state_count));
+    }
 
     void note_approaches()
     {
@@ -83,13 +88,15 @@ private:
 
     [[nodiscard]] ContactRow& impact_row(int i)
     {
-        return m_scratch.rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
+        return m_scratch
+            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
     }
 
     // v += h a, then damping. Balls in flight have their own way.
     void integrate_velocities()
     {
-        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i) {
+        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+        {
             BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
             const StateConstants& c = m_scratch.constants[static_cast<std::size_t>(i)];
             if ((s.flags & body_flag::dynamic) == 0 || (s.flags & body_flag::flier) != 0)
@@ -117,7 +124,8 @@ private:
     // x += h v. What no row or joint touches moves along its exact parabola: the mean of the velocities before and after.
     void integrate_positions()
     {
-        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i) {
+        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+        {
             BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
             if ((s.flags & body_flag::flier) != 0)
                 continue;
@@ -132,7 +140,8 @@ private:
     // The last line of defence, for balls that something far heavier presses into what does not give way: no deeper than half the radius.
     void guard_cores()
     {
-        for (const ContactRow& row : m_rows) {
+        for (const ContactRow& row : m_rows)
+        {
             if (row.core > 0 && row.count == 1)
                 guard_core(row);
         }
@@ -163,7 +172,8 @@ private:
     [[nodiscard]] Manifold manifold_of(int index, const ContactRow& row, float ahead) const
     {
         const Contact& contact = m_ctx.state.contacts[index];
-        return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, row.a, ahead), pose_of(contact.body_b, row.b, ahead), 1e9f);
+        return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, row.a, ahead), pose_of(contact.body_b, row.b, ahead),
+                              1e9f);
     }
 
     struct Facing
@@ -183,10 +193,13 @@ private:
         const int visitor = chain_is_a ? contact.shape_b : contact.shape_a;
         if (best.manifold.count == 1 || state.shapes[piece].owner == piece)
             return best;
-        for (int edge = state.bodies[state.shapes[visitor].body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+        for (int edge = state.bodies[state.shapes[visitor].body].first_contact; edge != none;
+             edge = state.contacts[edge >> 1].next[edge & 1])
+        {
             const Contact& other = state.contacts[edge >> 1];
             const int other_piece = chain_is_a ? other.shape_a : other.shape_b;
-            if ((chain_is_a ? other.shape_b : other.shape_a) != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner)
+            if ((chain_is_a ? other.shape_b : other.shape_a) != visitor ||
+                state.shapes[other_piece].owner != state.shapes[piece].owner)
                 continue;
             const Manifold m = manifold_of(edge >> 1, row, ahead);
             if (m.count == 1 && (best.manifold.count != 1 || m.points[0].separation < best.manifold.points[0].separation))
@@ -238,7 +251,8 @@ private:
         const Facing now = facing(row, 0);
         if (now.manifold.count != 1)
             return;
-        if (now.contact != row.contact && has_row(now.contact)) {
+        if (now.contact != row.contact && has_row(now.contact))
+        {
             row.count = 0; // rolled over to a piece that has its own row
             return;
         }
@@ -253,7 +267,8 @@ private:
     [[nodiscard]] bool has_row(int contact)
     {
         const auto is_it = [&](const ContactRow& row) { return row.contact == contact; };
-        return std::any_of(m_rows.begin(), m_rows.end(), is_it) || std::any_of(m_output.late_rows.begin(), m_output.late_rows.end(), is_it);
+        return std::any_of(m_rows.begin(), m_rows.end(), is_it) ||
+               std::any_of(m_output.late_rows.begin(), m_output.late_rows.end(), is_it);
     }
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------
@@ -271,7 +286,8 @@ private:
             return;
         float approach = 0;
         float load = 0;
-        for (int i = 0; i < row.count; ++i) {
+        for (int i = 0; i < row.count; ++i)
+        {
             load += row.points[i].normal_impulse;
             if (row.points[i].normal_impulse > 0)
                 approach = std::max(approach, row.points[i].approach);
@@ -304,7 +320,10 @@ private:
         ++m_output.bulk_impacts;
     }
 
-    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick) { return e * std::max(p.approach, 0.0f) + kick; }
+    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
+    {
+        return e * std::max(p.approach, 0.0f) + kick;
+    }
 
     // How much separating speed a point still lacks.
     [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
@@ -329,7 +348,8 @@ private:
             return;
         RowPoint& p = row.points[0];
         RowPoint& q = row.points[1];
-        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0) {
+        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
+        {
             const float k11 = 1 / p.normal_mass;
             const float k22 = 1 / q.normal_mass;
             const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
@@ -337,13 +357,15 @@ private:
             const float d2 = missing_speed(row, q, e, kick);
             const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
             const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
-            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0) {
+            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0)
+            {
                 push(row, p, j1);
                 push(row, q, j2);
                 return;
             }
         }
-        for (int i = 0; i < row.count; ++i) {
+        for (int i = 0; i < row.count; ++i)
+        {
             RowPoint& r = row.points[i];
             if (r.normal_impulse > 0)
                 push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
@@ -356,7 +378,8 @@ private:
         event.impulse += p.normal_impulse;
         event.friction_impulse += p.tangent_impulse;
         event.energy_lost += 0.5f * p.normal_impulse * (p.approach - wanted);
-        if (wanted > 0) { // what flies off is not pushed again by warm starting
+        if (wanted > 0)
+        { // what flies off is not pushed again by warm starting
             p.total_impulse += p.normal_impulse;
             p.total_tangent += p.tangent_impulse;
             p.normal_impulse = p.tangent_impulse = 0;
@@ -392,14 +415,16 @@ private:
     [[nodiscard]] Position point_of(const ContactRow& row) const
     {
         const Contact& contact = m_ctx.state.contacts[row.contact];
-        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position + row.points[0].ra;
+        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position +
+               row.points[0].ra;
     }
 
     void begin_touch(const ContactRow& row, int k)
     {
         Contact& contact = m_ctx.state.contacts[row.contact];
         contact.flags |= contact_flag::touching;
-        m_output.begins.push_back({row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
+        m_output.begins.push_back(
+            {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
     }
 
     // --- sums over the step ------------------------------------------------------------------------------------------------------------
@@ -417,7 +442,8 @@ private:
 
     static void sum_impulses(ContactRow& row)
     {
-        for (int i = 0; i < row.count; ++i) {
+        for (int i = 0; i < row.count; ++i)
+        {
             row.points[i].total_impulse += row.points[i].normal_impulse;
             row.points[i].total_tangent += row.points[i].tangent_impulse;
         }
@@ -436,7 +462,8 @@ private:
 
 void UnitSolver::record_poses(int k)
 {
-    for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i) {
+    for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+    {
         const int body = m_scratch.state_bodies[static_cast<std::size_t>(i)];
         if (body != none && (m_scratch.states[static_cast<std::size_t>(i)].flags & body_flag::dynamic) != 0)
             m_output.poses.push_back({body, m_ctx.h * static_cast<float>(k + 1), pose_of(body, i, 0).frame()});
@@ -456,17 +483,21 @@ void solve_units(StepContext& ctx)
     std::vector<std::int32_t>& starts = scratch.order;
     starts.assign(1, 0);
     int bodies = 0;
-    for (std::size_t i = 0; i < scratch.units.size(); ++i) {
+    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+    {
         bodies += scratch.units[i].state_count;
         if (bodies < 256 && i + 1 < scratch.units.size())
             continue;
         starts.push_back(static_cast<std::int32_t>(i) + 1);
         bodies = 0;
     }
-    run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1, [&](int task) {
-        for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1]; ++u)
-            UnitSolver(ctx, scratch.units[static_cast<std::size_t>(u)], scratch.outputs[static_cast<std::size_t>(u)]).run();
-    });
+    run_tasks(
+        ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
+        [&](int task)
+        {
+            for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1]; ++u)
+                UnitSolver(ctx, scratch.units[static_cast<std::size_t>(u)], scratch.outputs[static_cast<std::size_t>(u)]).run();
+        });
 }
 
 } // namespace carom::internal

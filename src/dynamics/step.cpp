@@ -30,8 +30,17 @@ StepContext begin_step(SceneData& scene, float dt)
     const float h = dt / static_cast<float>(def.substeps);
     // 3/16 of the sub-step rate: at 1/4 a pyramid of twenty rows creeps apart by 16 cm, at 3/16 by 4 cm (and softer ones sag).
     const float hertz = std::min(def.contact_hertz, 0.1875f / h);
-    StepContext ctx{scene, scene.state, scene.scratch, report, dt, h, def.substeps, make_softness(hertz, def.contact_damping_ratio, h),
-                    make_softness(2 * hertz, def.contact_damping_ratio, h), 0.25f / h, 0};
+    StepContext ctx{scene,
+                    scene.state,
+                    scene.scratch,
+                    report,
+                    dt,
+                    h,
+                    def.substeps,
+                    make_softness(hertz, def.contact_damping_ratio, h),
+                    make_softness(2 * hertz, def.contact_damping_ratio, h),
+                    0.25f / h,
+                    0};
     ctx.rest_speed = 2 * h * length(scene.state.gravity) + scene.tolerances.rest_speed;
     report.substeps = def.substeps;
     apply_fields(ctx);
@@ -55,17 +64,19 @@ void end_step(StepContext& ctx)
 const StepReport& step(SceneData& scene, float dt)
 {
     StageTimes ms;
-    timed(ms.total, [&] {
-        StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness once
-        timed(ms.sweep, [&] { sweep_paths(ctx); });
-        timed(ms.pairs, [&] { find_pairs(ctx); });
-        timed(ms.contacts, [&] { update_contacts(ctx); });
-        timed(ms.units, [&] { build_units(ctx); });
-        timed(ms.solve, [&] { solve_units(ctx); });
-        timed(ms.commit, [&] { commit_and_sleep(ctx); });
-        timed(ms.events, [&] { publish_events(ctx); });
-        end_step(ctx);
-    });
+    timed(ms.total,
+          [&]
+          {
+              StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness once
+              timed(ms.sweep, [&] { sweep_paths(ctx); });
+              timed(ms.pairs, [&] { find_pairs(ctx); });
+              timed(ms.contacts, [&] { update_contacts(ctx); });
+              timed(ms.units, [&] { build_units(ctx); });
+              timed(ms.solve, [&] { solve_units(ctx); });
+              timed(ms.commit, [&] { commit_and_sleep(ctx); });
+              timed(ms.events, [&] { publish_events(ctx); });
+              end_step(ctx);
+          });
     scene.report.ms = ms;
     return scene.report;
 }

@@ -46,9 +46,11 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
     const Position start = transform(sim.pose(), core.center);
     const CenterPath path{0, 0, dx, dy, 0, 0};
     double part = 1;
-    const auto visit = [&](int other) {
+    const auto visit = [&](int other)
+    {
         const ShapeRecord& wall = state.shapes[other];
-        if (state.bodies[wall.body].type != BodyType::Static || wall.trigger || wall.one_way != Vec2{} || !may_collide(state, shape, other))
+        if (state.bodies[wall.body].type != BodyType::Static || wall.trigger || wall.one_way != Vec2{} ||
+            !may_collide(state, shape, other))
             return true;
         const Pose pose = state.sims[static_cast<std::size_t>(wall.body)].pose();
         const FramePath frame{{pose.position.x - start.x, pose.position.y - start.y}, {}, pose.rotation.c, pose.rotation.s, 0};
@@ -57,10 +59,11 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
             part = hit->time; // 0 where the core is in the wall already and would go deeper
         return true;
     };
-    const FloatBox box = round_outwards(start.x + std::min(dx, 0.0) - core.radius, start.y + std::min(dy, 0.0) - core.radius, start.x + std::max(dx, 0.0) + core.radius,
-                                        start.y + std::max(dy, 0.0) + core.radius);
+    const FloatBox box = round_outwards(start.x + std::min(dx, 0.0) - core.radius, start.y + std::min(dy, 0.0) - core.radius,
+                                        start.x + std::max(dx, 0.0) + core.radius, start.y + std::max(dy, 0.0) + core.radius);
     state.broad_phase.query(Layer::Resting, box, visit);
-    for (const std::int32_t half_space : state.broad_phase.unbounded()) {
+    for (const std::int32_t half_space : state.broad_phase.unbounded())
+    {
         if (reaches_half_space(state, half_space, box, 0))
             visit(half_space);
     }
@@ -72,10 +75,12 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
 double free_part_of_path(const StepContext& ctx, int body, double dx, double dy)
 {
     double part = 1;
-    for_each_leaf(ctx.state, body, [&](int shape) {
-        if (!ctx.state.shapes[shape].trigger)
-            part = std::min(part, free_part(ctx, shape, dx, dy));
-    });
+    for_each_leaf(ctx.state, body,
+                  [&](int shape)
+                  {
+                      if (!ctx.state.shapes[shape].trigger)
+                          part = std::min(part, free_part(ctx, shape, dx, dy));
+                  });
     return part;
 }
 

@@ -60,15 +60,17 @@ void sweep_body(StepContext& ctx, int body, float& motion)
     const float turn = turn_motion(sim, ctx.dt);
     motion = length(shift) + turn;
     const float margin = ctx.scene.tolerances.box_margin;
-    for_each_leaf(state, body, [&](int shape) {
-        const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
-        const FloatBox needed = swept(tight, shift, turn + 0.25f * margin);
-        const FloatBox& fat = state.broad_phase.box(shape);
-        if (contains(fat, needed) && !too_wide(fat, needed, margin))
-            return;
-        ctx.scratch.moved_items.push_back(shape);
-        ctx.scratch.moved_boxes.push_back(grow(needed, margin));
-    });
+    for_each_leaf(state, body,
+                  [&](int shape)
+                  {
+                      const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
+                      const FloatBox needed = swept(tight, shift, turn + 0.25f * margin);
+                      const FloatBox& fat = state.broad_phase.box(shape);
+                      if (contains(fat, needed) && !too_wide(fat, needed, margin))
+                          return;
+                      ctx.scratch.moved_items.push_back(shape);
+                      ctx.scratch.moved_boxes.push_back(grow(needed, margin));
+                  });
 }
 
 // Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
@@ -76,9 +78,11 @@ void put_aside_unsound(StepContext& ctx)
 {
     std::vector<std::int32_t>& unsound = ctx.scratch.unsound;
     unsound.clear();
-    for (const std::int32_t body : ctx.state.awake_bodies) {
+    for (const std::int32_t body : ctx.state.awake_bodies)
+    {
         const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-        const float reach = length(predicted_shift(ctx, ctx.state.bodies[body], sim)) + std::fabs(sim.angular_velocity) + std::fabs(sim.torque);
+        const float reach =
+            length(predicted_shift(ctx, ctx.state.bodies[body], sim)) + std::fabs(sim.angular_velocity) + std::fabs(sim.torque);
         if (!(reach < 1e15f))
             unsound.push_back(body);
     }

@@ -37,19 +37,23 @@ BodyPose pose_along(const StepContext& ctx, int body, float time)
     const float t = ctx.dt > 0 ? time / ctx.dt : 1;
     const Rotation turn = sim.rotation * inverse(sim.previous_rotation);
     const float angle = turn.s != 0 ? static_cast<float>(arc_tangent(turn.s, turn.c)) : 0;
-    return {sim.previous_center + t * (sim.center - sim.previous_center), Rotation::from_angle(t * angle) * sim.previous_rotation, sim.local_center};
+    return {sim.previous_center + t * (sim.center - sim.previous_center), Rotation::from_angle(t * angle) * sim.previous_rotation,
+            sim.local_center};
 }
 
 class TriggerUpdate
 {
 public:
-    TriggerUpdate(StepContext& ctx, int contact) : m_ctx(ctx), m_state(ctx.state), m_index(contact), m_contact(ctx.state.contacts[contact]) {}
+    TriggerUpdate(StepContext& ctx, int contact)
+        : m_ctx(ctx), m_state(ctx.state), m_index(contact), m_contact(ctx.state.contacts[contact])
+    {}
 
     void run()
     {
         const bool was_inside = (m_contact.flags & contact_flag::touching) != 0;
         const bool is_inside = separation(m_ctx.dt) <= 0;
-        if (!was_inside) {
+        if (!was_inside)
+        {
             const float enter = is_inside && !may_cross() ? m_ctx.dt : first_touch(false);
             if (is_inside || enter <= m_ctx.dt)
                 enter_at(std::min(enter, m_ctx.dt));
@@ -65,19 +69,21 @@ private:
         m_contact.flags |= contact_flag::touching;
         if (touches_elsewhere(m_state, m_index))
             return;
-        m_ctx.scene.events.enters.push_back({shape_id(m_state, m_contact.shape_a), shape_id(m_state, m_contact.shape_b), body_id(m_state, m_contact.body_a),
-                                             body_id(m_state, m_contact.body_b), time});
+        m_ctx.scene.events.enters.push_back({shape_id(m_state, m_contact.shape_a), shape_id(m_state, m_contact.shape_b),
+                                             body_id(m_state, m_contact.body_a), body_id(m_state, m_contact.body_b), time});
     }
 
     [[nodiscard]] float motion() const
     {
         float sum = 0;
-        for (const int body : {m_contact.body_a, m_contact.body_b}) {
+        for (const int body : {m_contact.body_a, m_contact.body_b})
+        {
             if (!is_awake(m_state, body))
                 continue;
             const BodySim& sim = m_state.sims[static_cast<std::size_t>(body)];
             const Rotation turn = sim.rotation * inverse(sim.previous_rotation);
-            sum += length(sim.center - sim.previous_center) + sim.extent * std::fabs(static_cast<float>(arc_tangent(turn.s, turn.c)));
+            sum += length(sim.center - sim.previous_center) +
+                   sim.extent * std::fabs(static_cast<float>(arc_tangent(turn.s, turn.c)));
         }
         for (const PathPoint& p : path())
             sum += static_cast<float>(std::fabs(p.x) + std::fabs(p.y));
@@ -95,7 +101,8 @@ private:
         const std::int32_t unit = m_ctx.scratch.unit_of[static_cast<std::size_t>(place)];
         if (unit == none)
             return points;
-        for (const PathPoint& p : m_ctx.scratch.outputs[static_cast<std::size_t>(unit)].path) {
+        for (const PathPoint& p : m_ctx.scratch.outputs[static_cast<std::size_t>(unit)].path)
+        {
             if (p.body == m_contact.body_b)
                 points.push_back(p);
         }
@@ -110,12 +117,16 @@ private:
             return pose;
         const BodySim& sim = m_state.sims[static_cast<std::size_t>(m_contact.body_b)];
         Piece piece{0, m_ctx.dt, sim.previous_center, sim.center};
-        for (const PathPoint& p : corners) {
+        for (const PathPoint& p : corners)
+        {
             const Position corner{sim.previous_center.x + p.x, sim.previous_center.y + p.y};
-            if (p.time <= time) {
+            if (p.time <= time)
+            {
                 piece.start = p.time;
                 piece.from = corner;
-            } else {
+            }
+            else
+            {
                 piece.end = p.time;
                 piece.to = corner;
                 break;
@@ -144,7 +155,8 @@ private:
         const float nearest = 1e-3f * m_ctx.scene.tolerances.slop;
         const float least_step = 1e-4f * m_ctx.dt;
         float t = 0;
-        for (int i = 0; i < 400 && t <= m_ctx.dt; ++i) {
+        for (int i = 0; i < 400 && t <= m_ctx.dt; ++i)
+        {
             const float gap = separation(backwards ? m_ctx.dt - t : t);
             // What only touches and moves away has not come in.
             const float after = std::min(t + least_step, m_ctx.dt);
@@ -168,7 +180,8 @@ void update_triggers(StepContext& ctx)
     SceneState& state = ctx.state;
     std::vector<std::int32_t>& order = ctx.scratch.order;
     order.assign(state.trigger_contacts.begin(), state.trigger_contacts.end());
-    for (const std::int32_t index : order) {
+    for (const std::int32_t index : order)
+    {
         Contact& contact = state.contacts[index];
         const bool moves = is_awake(state, contact.body_a) || is_awake(state, contact.body_b);
         if (!moves && (contact.flags & contact_flag::fresh) == 0)

@@ -19,14 +19,15 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int precise_limit = 32;  // bodies: beyond it a contact more or less does not decide where a ball goes
-constexpr int color_limit = 63;    // the mask's last bit stands for "no colour left"
+constexpr int precise_limit = 32; // bodies: beyond it a contact more or less does not decide where a ball goes
+constexpr int color_limit = 63;   // the mask's last bit stands for "no colour left"
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
 
 std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i)
 {
-    while (parent[static_cast<std::size_t>(i)] != i) {
+    while (parent[static_cast<std::size_t>(i)] != i)
+    {
         std::int32_t& up = parent[static_cast<std::size_t>(i)];
         up = parent[static_cast<std::size_t>(up)];
         i = up;
@@ -69,16 +70,19 @@ void label_islands(StepContext& ctx)
     if (!state.graph_dirty)
         return;
     reset_parents(ctx);
-    for (const std::int32_t index : state.awake_contacts) {
+    for (const std::int32_t index : state.awake_contacts)
+    {
         const Contact& contact = state.contacts[index];
         if ((contact.flags & contact_flag::touching) != 0)
             link_bodies(ctx, contact.body_a, contact.body_b);
     }
-    for (int j = 0; j < state.joints.capacity(); ++j) {
+    for (int j = 0; j < state.joints.capacity(); ++j)
+    {
         if (state.joints.is_live(j))
             link_bodies(ctx, state.joints[j].body_a, state.joints[j].body_b);
     }
-    for (const std::int32_t body : state.awake_bodies) {
+    for (const std::int32_t body : state.awake_bodies)
+    {
         const std::int32_t root = find_root(ctx.scratch.parent, state.bodies[body].awake_index);
         state.bodies[body].island = state.awake_bodies[static_cast<std::size_t>(root)];
     }
@@ -101,11 +105,13 @@ std::int32_t ball_shape(const SceneState& state, int body)
     if (record.first_joint != none || sim.inverse_mass.x == 0 || sim.inverse_mass.y == 0)
         return none;
     std::int32_t ball = none;
-    for (int shape = record.first_shape; shape != none; shape = state.shapes[shape].next_shape) {
+    for (int shape = record.first_shape; shape != none; shape = state.shapes[shape].next_shape)
+    {
         const ShapeRecord& s = state.shapes[shape];
         if (s.trigger)
             continue;
-        const bool centered = s.has_leaf && s.leaf.type == LeafType::Circle && length(s.leaf.p0 - sim.local_center) <= 1e-4f * s.leaf.r0;
+        const bool centered =
+            s.has_leaf && s.leaf.type == LeafType::Circle && length(s.leaf.p0 - sim.local_center) <= 1e-4f * s.leaf.r0;
         if (ball != none || !centered)
             return none;
         ball = shape;
@@ -117,12 +123,17 @@ std::int32_t ball_shape(const SceneState& state, int body)
 bool is_unloaded(const StepContext& ctx, int body)
 {
     const SceneState& state = ctx.state;
-    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    {
         const Contact& contact = state.contacts[edge >> 1];
         if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0 || contact.manifold.count == 0)
             continue;
-        const bool touches = least_separation(contact.manifold) <= ctx.scene.tolerances.speculation;
-        if ((touches && (contact.flags & contact_flag::loaded) != 0) || least_separation(contact.manifold) < -ctx.scene.tolerances.slop)
+        const float separation = least_separation(contact.manifold);
+        const bool loaded = separation <= ctx.scene.tolerances.speculation && (contact.flags & contact_flag::loaded) != 0;
+        // Overlap must be pushed out, unless the two will be apart by themselves within the step.
+        const bool overlaps = separation < -ctx.scene.tolerances.slop &&
+                              motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) < -4 * separation;
+        if (loaded || overlaps)
             return false;
     }
     return true;
@@ -144,7 +155,8 @@ struct Builder
         flier_shape.assign(state.awake_bodies.size(), none);
         if (!ctx.scene.def.continuous)
             return;
-        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i) {
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
+        {
             const int body = state.awake_bodies[i];
             if (state.bodies[body].type != BodyType::Dynamic)
                 continue;
@@ -163,11 +175,13 @@ struct Builder
     void link_units()
     {
         reset_parents(ctx);
-        for (const std::int32_t body : state.awake_bodies) {
+        for (const std::int32_t body : state.awake_bodies)
+        {
             if (state.bodies[body].type == BodyType::Dynamic)
                 link_bodies(ctx, body, state.bodies[body].island);
         }
-        for (const std::int32_t index : state.awake_contacts) {
+        for (const std::int32_t index : state.awake_contacts)
+        {
             const Contact& contact = state.contacts[index];
             if (gets_rows(state, contact))
                 link_bodies(ctx, contact.body_a, contact.body_b);
@@ -184,7 +198,8 @@ struct Builder
             int body;
         };
         std::vector<Reach> reaches;
-        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i) {
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
+        {
             const int body = state.awake_bodies[i];
             if (flier_shape[i] == none || !may_be_deflected(body))
                 continue;
@@ -192,16 +207,22 @@ struct Builder
             const double r = static_cast<double>(scratch.motion[i]) + static_cast<double>(state.shapes[flier_shape[i]].leaf.r0);
             reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
         }
-        for (const Reach& reach : reaches) {
-            state.broad_phase.query(Layer::Moving, reach.box, [&](int shape) {
-                link_bodies(ctx, reach.body, state.shapes[shape].body);
-                return true;
-            });
+        for (const Reach& reach : reaches)
+        {
+            state.broad_phase.query(Layer::Moving, reach.box,
+                                    [&](int shape)
+                                    {
+                                        link_bodies(ctx, reach.body, state.shapes[shape].body);
+                                        return true;
+                                    });
         }
         // Two that are both deflected: reach against reach, by a sweep along x.
-        std::sort(reaches.begin(), reaches.end(), [](const Reach& a, const Reach& b) { return a.box.lx != b.box.lx ? a.box.lx < b.box.lx : a.body < b.body; });
-        for (std::size_t i = 0; i < reaches.size(); ++i) {
-            for (std::size_t j = i + 1; j < reaches.size() && reaches[j].box.lx <= reaches[i].box.ux; ++j) {
+        std::sort(reaches.begin(), reaches.end(),
+                  [](const Reach& a, const Reach& b) { return a.box.lx != b.box.lx ? a.box.lx < b.box.lx : a.body < b.body; });
+        for (std::size_t i = 0; i < reaches.size(); ++i)
+        {
+            for (std::size_t j = i + 1; j < reaches.size() && reaches[j].box.lx <= reaches[i].box.ux; ++j)
+            {
                 if (overlaps(reaches[i].box, reaches[j].box))
                     link_bodies(ctx, reaches[i].body, reaches[j].body);
             }
@@ -210,9 +231,11 @@ struct Builder
 
     [[nodiscard]] bool may_be_deflected(int body) const
     {
-        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
             if (gets_rows(state, state.contacts[edge >> 1]))
-                return scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] > ctx.scene.tolerances.speculation;
+                return scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] >
+                       ctx.scene.tolerances.speculation;
         }
         return false;
     }
@@ -223,14 +246,18 @@ struct Builder
         const std::size_t n = state.awake_bodies.size();
         scratch.units.clear();
         scratch.unit_of.assign(n, none);
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < n; ++i)
+        {
             if (state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
                 continue;
             const auto root = static_cast<std::size_t>(find_root(scratch.parent, static_cast<std::int32_t>(i)));
-            if (root == i) {
+            if (root == i)
+            {
                 scratch.unit_of[i] = static_cast<std::int32_t>(scratch.units.size());
                 scratch.units.emplace_back();
-            } else {
+            }
+            else
+            {
                 scratch.unit_of[i] = scratch.unit_of[root];
             }
         }
@@ -244,21 +271,25 @@ struct Builder
 
     // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count).
     template <class UnitOf, class SetRange>
-    void sort_by_unit(const std::vector<std::int32_t>& items, std::vector<std::int32_t>& sorted, UnitOf&& unit_of, SetRange&& set_range)
+    void sort_by_unit(const std::vector<std::int32_t>& items, std::vector<std::int32_t>& sorted, UnitOf&& unit_of,
+                      SetRange&& set_range)
     {
         std::vector<std::int32_t> starts(scratch.units.size() + 1, 0);
         std::vector<std::int32_t> units(items.size());
-        for (std::size_t i = 0; i < items.size(); ++i) {
+        for (std::size_t i = 0; i < items.size(); ++i)
+        {
             units[i] = unit_of(items[i]);
             if (units[i] != none)
                 ++starts[static_cast<std::size_t>(units[i]) + 1];
         }
-        for (std::size_t u = 0; u < scratch.units.size(); ++u) {
+        for (std::size_t u = 0; u < scratch.units.size(); ++u)
+        {
             set_range(scratch.units[u], starts[u], starts[u + 1]);
             starts[u + 1] += starts[u];
         }
         sorted.resize(static_cast<std::size_t>(starts.back()));
-        for (std::size_t i = 0; i < items.size(); ++i) {
+        for (std::size_t i = 0; i < items.size(); ++i)
+        {
             if (units[i] != none)
                 sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(units[i])]++)] = items[i];
         }
@@ -267,7 +298,8 @@ struct Builder
     void sort_contacts()
     {
         std::vector<std::int32_t> chosen;
-        for (const std::int32_t index : state.awake_contacts) {
+        for (const std::int32_t index : state.awake_contacts)
+        {
             Contact& contact = state.contacts[index];
             contact.color = none;
             // Balls in flight meet things at their own time; a row would stop them early.
@@ -275,8 +307,10 @@ struct Builder
                 chosen.push_back(index);
         }
         sort_by_unit(
-            chosen, scratch.solved_contacts, [&](int i) { return unit_of_pair(state.contacts[i].body_a, state.contacts[i].body_b); },
-            [](Unit& unit, int first, int count) {
+            chosen, scratch.solved_contacts,
+            [&](int i) { return unit_of_pair(state.contacts[i].body_a, state.contacts[i].body_b); },
+            [](Unit& unit, int first, int count)
+            {
                 unit.first_row = first;
                 unit.row_count = count;
             });
@@ -285,17 +319,20 @@ struct Builder
     void sort_joints()
     {
         std::vector<std::int32_t> chosen;
-        for (int j = 0; j < state.joints.capacity(); ++j) {
+        for (int j = 0; j < state.joints.capacity(); ++j)
+        {
             if (!state.joints.is_live(j))
                 continue;
             const JointRecord& joint = state.joints[j];
-            const bool enabled = (joint.body_a == none || state.bodies[joint.body_a].enabled) && (joint.body_b == none || state.bodies[joint.body_b].enabled);
+            const bool enabled = (joint.body_a == none || state.bodies[joint.body_a].enabled) &&
+                                 (joint.body_b == none || state.bodies[joint.body_b].enabled);
             if (enabled && (is_moving_dynamic(state, joint.body_a) || is_moving_dynamic(state, joint.body_b)))
                 chosen.push_back(j);
         }
         sort_by_unit(
             chosen, scratch.solved_joints, [&](int j) { return unit_of_pair(state.joints[j].body_a, state.joints[j].body_b); },
-            [](Unit& unit, int first, int count) {
+            [](Unit& unit, int first, int count)
+            {
                 unit.first_joint = first;
                 unit.joint_count = count;
             });
@@ -310,7 +347,8 @@ struct Builder
         std::vector<std::int32_t> sorted;
         sort_by_unit(
             places, sorted, [&](int i) { return scratch.unit_of[static_cast<std::size_t>(i)]; },
-            [](Unit& unit, int first, int count) {
+            [](Unit& unit, int first, int count)
+            {
                 unit.first_state = first;
                 unit.state_count = count;
             });
@@ -319,7 +357,8 @@ struct Builder
         scratch.state_bodies.clear();
         scratch.state_of.assign(state.awake_bodies.size(), none);
         scratch.fliers.clear();
-        for (Unit& unit : scratch.units) {
+        for (Unit& unit : scratch.units)
+        {
             const int first = unit.first_state;
             unit.first_state = static_cast<std::int32_t>(scratch.states.size());
             unit.first_flier = static_cast<std::int32_t>(scratch.fliers.size());
@@ -343,7 +382,8 @@ struct Builder
         scratch.states.push_back(initial_state(state, body));
         scratch.constants.push_back(state_constants(ctx, body));
         scratch.state_bodies.push_back(body);
-        if (const std::int32_t shape = flier_shape[static_cast<std::size_t>(place)]; shape != none) {
+        if (const std::int32_t shape = flier_shape[static_cast<std::size_t>(place)]; shape != none)
+        {
             scratch.states.back().flags |= body_flag::flier;
             scratch.fliers.push_back(make_flier(ctx, index, body, shape));
         }
@@ -352,7 +392,8 @@ struct Builder
     // A ball may land on a kinematic body, which then needs its place in the unit.
     void copy_kinematic_neighbours(const Unit& unit, int body)
     {
-        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
             const int other = other_body(state.contacts[edge >> 1], body);
             if (state.bodies[other].type == BodyType::Kinematic)
                 static_cast<void>(state_for(unit, other));
@@ -392,7 +433,8 @@ struct Builder
         order.assign(scratch.solved_contacts.begin() + first, scratch.solved_contacts.begin() + first + unit.row_count);
         for (const std::int32_t index : order)
             assign_color(unit, state.contacts[index]);
-        std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return state.contacts[x].color < state.contacts[y].color; });
+        std::stable_sort(order.begin(), order.end(),
+                         [&](int x, int y) { return state.contacts[x].color < state.contacts[y].color; });
         std::copy(order.begin(), order.end(), scratch.solved_contacts.begin() + first);
         unit.first_impact_row = static_cast<std::int32_t>(scratch.impact_rows.size());
         for (const std::int32_t index : order)
@@ -405,13 +447,18 @@ struct Builder
     void assign_color(Unit& unit, Contact& contact)
     {
         std::uint64_t unused = 0;
-        std::uint64_t& mask_a = is_moving_dynamic(state, contact.body_a) ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_a))] : unused;
-        std::uint64_t& mask_b = is_moving_dynamic(state, contact.body_b) ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_b))] : unused;
+        std::uint64_t& mask_a = is_moving_dynamic(state, contact.body_a)
+                                    ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_a))]
+                                    : unused;
+        std::uint64_t& mask_b = is_moving_dynamic(state, contact.body_b)
+                                    ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_b))]
+                                    : unused;
         int color = 0;
         while (color < color_limit && (((mask_a | mask_b) >> color) & 1) != 0)
             ++color;
         contact.color = color;
-        if (color == color_limit) {
+        if (color == color_limit)
+        {
             ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
             return;
         }

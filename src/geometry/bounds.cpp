@@ -47,7 +47,8 @@ void add_arc(Extremes& e, const Leaf& leaf, Rotation q)
     e.add(rotate(q, leaf.arc_start), leaf.r0);
     e.add(rotate(q, leaf.arc_end), leaf.r0);
     const Vec2 compass[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    for (Vec2 d : compass) {
+    for (Vec2 d : compass)
+    {
         if (dot(d, mid) >= leaf.cos_half_sweep)
             e.add(c + leaf.arc_radius * d, leaf.r0);
     }
@@ -55,7 +56,10 @@ void add_arc(Extremes& e, const Leaf& leaf, Rotation q)
 
 } // namespace
 
-FloatBox round_outwards(double lx, double ly, double ux, double uy) { return {round_down(lx), round_down(ly), round_up(ux), round_up(uy)}; }
+FloatBox round_outwards(double lx, double ly, double ux, double uy)
+{
+    return {round_down(lx), round_down(ly), round_up(ux), round_up(uy)};
+}
 FloatBox round_outwards(const Box& b) { return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y); }
 FloatBox grow(const FloatBox& b, float m) { return {b.lx - m, b.ly - m, b.ux + m, b.uy + m}; }
 
@@ -64,12 +68,10 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
     const Leaf& leaf = *v.leaf;
     const Rotation q = pose.rotation;
     Extremes e;
-    switch (leaf.type) {
-    case LeafType::HalfSpace:
-        return {{-1e30, -1e30}, {1e30, 1e30}};
-    case LeafType::Circle:
-        e.add(rotate(q, leaf.p0), leaf.r0);
-        break;
+    switch (leaf.type)
+    {
+    case LeafType::HalfSpace: return {{-1e30, -1e30}, {1e30, 1e30}};
+    case LeafType::Circle: e.add(rotate(q, leaf.p0), leaf.r0); break;
     case LeafType::Polygon:
         for (int i = 0; i < leaf.count; ++i)
             e.add(rotate(q, v.points[i]), leaf.r0);
@@ -79,9 +81,7 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
         e.add(rotate(q, leaf.p0), leaf.r0);
         e.add(rotate(q, leaf.p1), leaf.r1);
         break;
-    case LeafType::Arc:
-        add_arc(e, leaf, q);
-        break;
+    case LeafType::Arc: add_arc(e, leaf, q); break;
     }
     return e.at(pose.position);
 }
@@ -89,22 +89,20 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
 float leaf_extent(const LeafView& v, Vec2 from)
 {
     const Leaf& leaf = *v.leaf;
-    switch (leaf.type) {
-    case LeafType::HalfSpace:
-        return 0;
-    case LeafType::Circle:
-        return length(leaf.p0 - from) + leaf.r0;
-    case LeafType::Polygon: {
+    switch (leaf.type)
+    {
+    case LeafType::HalfSpace: return 0;
+    case LeafType::Circle: return length(leaf.p0 - from) + leaf.r0;
+    case LeafType::Polygon:
+    {
         float extent = 0;
         for (int i = 0; i < leaf.count; ++i)
             extent = std::max(extent, length(v.points[i] - from));
         return extent + leaf.r0;
     }
     case LeafType::Capsule:
-    case LeafType::Segment:
-        return std::max(length(leaf.p0 - from) + leaf.r0, length(leaf.p1 - from) + leaf.r1);
-    case LeafType::Arc:
-        return length(leaf.p0 - from) + leaf.arc_radius + leaf.r0;
+    case LeafType::Segment: return std::max(length(leaf.p0 - from) + leaf.r0, length(leaf.p1 - from) + leaf.r1);
+    case LeafType::Arc: return length(leaf.p0 - from) + leaf.arc_radius + leaf.r0;
     }
     return 0;
 }

@@ -9,8 +9,10 @@ namespace carom::internal {
 
 int VertexStore::allocate(int count)
 {
-    for (std::size_t i = 0; i < m_holes.size(); ++i) {
-        if (m_holes[i].count == count) {
+    for (std::size_t i = 0; i < m_holes.size(); ++i)
+    {
+        if (m_holes[i].count == count)
+        {
             const int first = m_holes[i].first;
             m_holes.erase(m_holes.begin() + static_cast<std::ptrdiff_t>(i));
             return first;
@@ -49,7 +51,8 @@ Vec2 end_point(const Leaf& leaf) { return leaf.type == LeafType::Segment ? leaf.
 double signed_area(std::span<const Vec2> outline)
 {
     double twice = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
+    for (std::size_t i = 0; i < outline.size(); ++i)
+    {
         const Vec2 a = outline[i];
         const Vec2 b = outline[(i + 1) % outline.size()];
         twice += static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x;
@@ -84,12 +87,16 @@ std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance)
     std::vector<Vec2> points(outline.begin(), outline.end());
     if (signed_area(points) < 0)
         points = {points.rbegin(), points.rend()};
-    for (std::size_t i = 0; i < points.size() && points.size() >= 3;) {
+    for (std::size_t i = 0; i < points.size() && points.size() >= 3;)
+    {
         const std::size_t n = points.size();
-        if (is_redundant(points[(i + n - 1) % n], points[i], points[(i + 1) % n], tolerance)) {
+        if (is_redundant(points[(i + n - 1) % n], points[i], points[(i + 1) % n], tolerance))
+        {
             points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
             i = i > 0 ? i - 1 : 0;
-        } else {
+        }
+        else
+        {
             ++i;
         }
     }
@@ -100,7 +107,8 @@ bool is_convex(std::span<const Vec2> points)
 {
     const std::size_t n = points.size();
     double turned = 0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
+    {
         const Vec2 a = points[i];
         const Vec2 b = points[(i + 1) % n];
         const Vec2 c = points[(i + 2) % n];
@@ -129,7 +137,8 @@ bool normalize_shape(const Checker& check, Polygon& p)
 {
     if (!check.not_negative("Polygon.radius", p.radius))
         return false;
-    for (Vec2 v : p.vertices) {
+    for (Vec2 v : p.vertices)
+    {
         if (!check.finite("Polygon.vertices", v))
             return false;
     }
@@ -137,10 +146,12 @@ bool normalize_shape(const Checker& check, Polygon& p)
     for (Vec2 v : p.vertices)
         size = std::fmax(size, length(v - p.vertices.front()));
     std::vector<Vec2> clean = clean_outline(p.vertices, std::fmax(1e-5f * size, min_length));
-    if (!check.holds(clean.size() >= 3, "Polygon.vertices", std::to_string(p.vertices.size()) + " points, " + std::to_string(clean.size()) + " of them distinct corners",
+    if (!check.holds(clean.size() >= 3, "Polygon.vertices",
+                     std::to_string(p.vertices.size()) + " points, " + std::to_string(clean.size()) + " of them distinct corners",
                      "a polygon needs at least 3 corners that are not in line"))
         return false;
-    if (!check.holds(is_convex(clean), "Polygon.vertices", "a concave or self-crossing outline", "must be convex; split_concave splits concave ones"))
+    if (!check.holds(is_convex(clean), "Polygon.vertices", "a concave or self-crossing outline",
+                     "must be convex; split_concave splits concave ones"))
         return false;
     p.vertices = std::move(clean);
     return true;
@@ -156,17 +167,19 @@ bool normalize_shape(const Checker& check, Capsule& c)
 
 bool normalize_shape(const Checker& check, Segment& s)
 {
-    return check.finite("Segment.a", s.a) && check.finite("Segment.b", s.b) && check.not_negative("Segment.half_thickness", s.half_thickness) &&
+    return check.finite("Segment.a", s.a) && check.finite("Segment.b", s.b) &&
+           check.not_negative("Segment.half_thickness", s.half_thickness) &&
            check.holds(length(s.b - s.a) > min_length, "Segment.b", to_text(s.b), "must differ from a");
 }
 
 bool normalize_shape(const Checker& check, Arc& a)
 {
-    return check.finite("Arc.center", a.center) && check.positive("Arc.radius", a.radius) && check.finite("Arc.start_angle", a.start_angle) &&
-           check.in_range("Arc.sweep", a.sweep, -2.0001f * pi, 2.0001f * pi) &&
+    return check.finite("Arc.center", a.center) && check.positive("Arc.radius", a.radius) &&
+           check.finite("Arc.start_angle", a.start_angle) && check.in_range("Arc.sweep", a.sweep, -2.0001f * pi, 2.0001f * pi) &&
            check.holds(std::fabs(a.sweep) * a.radius > min_length, "Arc.sweep", to_text(a.sweep), "must not be 0") &&
            check.not_negative("Arc.half_thickness", a.half_thickness) &&
-           check.holds(a.half_thickness < a.radius, "Arc.half_thickness", to_text(a.half_thickness), "must be less than the radius");
+           check.holds(a.half_thickness < a.radius, "Arc.half_thickness", to_text(a.half_thickness),
+                       "must be less than the radius");
 }
 
 bool normalize_shape(const Checker& check, HalfSpace& h)
@@ -182,8 +195,10 @@ bool normalize_shape(const Checker& check, HalfSpace& h)
 
 bool normalize_piece(const Checker& check, Vec2 from, const ChainPiece& piece)
 {
-    return check.finite("Chain.pieces.end", piece.end) && check.in_range("Chain.pieces.sweep", piece.sweep, -1.999f * pi, 1.999f * pi) &&
-           check.holds(length(piece.end - from) > min_length, "Chain.pieces.end", to_text(piece.end), "must differ from the point before it");
+    return check.finite("Chain.pieces.end", piece.end) &&
+           check.in_range("Chain.pieces.sweep", piece.sweep, -1.999f * pi, 1.999f * pi) &&
+           check.holds(length(piece.end - from) > min_length, "Chain.pieces.end", to_text(piece.end),
+                       "must differ from the point before it");
 }
 
 double chain_area(const Chain& chain);
@@ -195,7 +210,8 @@ bool normalize_shape(const Checker& check, Chain& c)
         !check.holds(!c.pieces.empty(), "Chain.pieces", "empty", "must hold at least one piece"))
         return false;
     Vec2 from = c.start;
-    for (const ChainPiece& piece : c.pieces) {
+    for (const ChainPiece& piece : c.pieces)
+    {
         if (!normalize_piece(check, from, piece))
             return false;
         from = piece.end;
@@ -220,9 +236,11 @@ double chain_area(const Chain& chain)
     std::vector<Vec2> corners;
     double bulges = 0;
     Vec2 from = chain.start;
-    for (const ChainPiece& piece : chain.pieces) {
+    for (const ChainPiece& piece : chain.pieces)
+    {
         corners.push_back(piece.end);
-        if (piece.sweep != 0) {
+        if (piece.sweep != 0)
+        {
             const double chord = length(piece.end - from);
             const double radius = chord / (2 * sin_cos(0.5 * static_cast<double>(piece.sweep)).sin);
             bulges += 0.5 * radius * radius * (static_cast<double>(piece.sweep) - sin_cos(piece.sweep).sin);
@@ -236,7 +254,8 @@ void reverse_chain(Chain& chain)
 {
     Chain reversed = chain;
     reversed.pieces.clear();
-    for (std::size_t i = chain.pieces.size(); i-- > 0;) {
+    for (std::size_t i = chain.pieces.size(); i-- > 0;)
+    {
         const Vec2 end = i == 0 ? chain.start : chain.pieces[i - 1].end;
         reversed.pieces.push_back({.end = end, .sweep = -chain.pieces[i].sweep});
     }
@@ -365,18 +384,22 @@ std::vector<Leaf> leaves_of(const Chain& c, VertexStore&)
 {
     std::vector<Leaf> leaves;
     Vec2 from = c.start;
-    for (const ChainPiece& piece : c.pieces) {
+    for (const ChainPiece& piece : c.pieces)
+    {
         leaves.push_back(piece.sweep == 0 ? make_segment(from, piece.end, c.half_thickness, c.sides)
                                           : make_chain_arc(from, piece.end, piece.sweep, c.half_thickness, c.sides));
         from = piece.end;
     }
     const std::size_t n = leaves.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i > 0 || c.closed) {
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        if (i > 0 || c.closed)
+        {
             leaves[i].has_previous = true;
             leaves[i].previous_tangent = end_tangent(leaves[(i + n - 1) % n]);
         }
-        if (i + 1 < n || c.closed) {
+        if (i + 1 < n || c.closed)
+        {
             leaves[i].has_next = true;
             leaves[i].next_tangent = start_tangent(leaves[(i + 1) % n]);
         }
@@ -398,8 +421,8 @@ namespace carom {
 Polygon box(float half_width, float half_height, Vec2 center, float angle, float radius)
 {
     const internal::Checker check{"box"};
-    if (!check.positive("half_width", half_width) || !check.positive("half_height", half_height) || !check.finite("center", center) ||
-        !check.finite("angle", angle) || !check.not_negative("radius", radius))
+    if (!check.positive("half_width", half_width) || !check.positive("half_height", half_height) ||
+        !check.finite("center", center) || !check.finite("angle", angle) || !check.not_negative("radius", radius))
         return {};
     const Rotation q = Rotation::from_angle(angle);
     const Vec2 x = rotate(q, {half_width, 0});

@@ -14,7 +14,7 @@ constexpr double pi_d = 3.14159265358979323846;
 struct Moments
 {
     double area = 0;
-    double x = 0;      ///< integral of x
+    double x = 0; ///< integral of x
     double y = 0;
     double second = 0; ///< integral of x² + y²
 
@@ -62,7 +62,8 @@ Moments polygon_moments(const LeafView& v)
     Moments m;
     const int n = v.leaf->count;
     const double r = v.leaf->r0;
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i)
+    {
         const Vec2 a = v.points[i];
         const Vec2 b = v.points[(i + 1) % n];
         m.add_triangle(a.x, a.y, b.x, b.y);
@@ -96,9 +97,9 @@ Moments capsule_moments(Vec2 p0, Vec2 p1, double r0, double r1)
     const double upper_y = u.y * s + u.x * c;
     const double lower_x = u.x * s + u.y * c;
     const double lower_y = u.y * s - u.x * c;
-    const double corners[6][2] = {{p0.x + r0 * lower_x, p0.y + r0 * lower_y}, {p1.x + r1 * lower_x, p1.y + r1 * lower_y},
-                                  {p1.x, p1.y}, {p1.x + r1 * upper_x, p1.y + r1 * upper_y},
-                                  {p0.x + r0 * upper_x, p0.y + r0 * upper_y}, {p0.x, p0.y}};
+    const double corners[6][2] = {
+        {p0.x + r0 * lower_x, p0.y + r0 * lower_y}, {p1.x + r1 * lower_x, p1.y + r1 * lower_y}, {p1.x, p1.y},
+        {p1.x + r1 * upper_x, p1.y + r1 * upper_y}, {p0.x + r0 * upper_x, p0.y + r0 * upper_y}, {p0.x, p0.y}};
     for (int i = 0; i < 6; ++i)
         m.add_triangle(corners[i][0], corners[i][1], corners[(i + 1) % 6][0], corners[(i + 1) % 6][1]);
     m.add_sector(p0.x, p0.y, -u.x, -u.y, r0, 0.5 * pi_d + phi);
@@ -111,21 +112,19 @@ Moments capsule_moments(Vec2 p0, Vec2 p1, double r0, double r1)
 LeafMass leaf_mass(const LeafView& view, float density)
 {
     const Leaf& leaf = *view.leaf;
-    switch (leaf.type) {
-    case LeafType::Circle: {
+    switch (leaf.type)
+    {
+    case LeafType::Circle:
+    {
         const double r = leaf.r0;
         const double mass = density * pi_d * r * r;
         return {mass, leaf.p0.x, leaf.p0.y, 0.5 * mass * r * r};
     }
-    case LeafType::Polygon:
-        return polygon_moments(view).result(density);
-    case LeafType::Capsule:
-        return capsule_moments(leaf.p0, leaf.p1, leaf.r0, leaf.r1).result(density);
-    case LeafType::Segment:
-        return leaf.r0 > 0 ? capsule_moments(leaf.p0, leaf.p1, leaf.r0, leaf.r0).result(density) : LeafMass{};
+    case LeafType::Polygon: return polygon_moments(view).result(density);
+    case LeafType::Capsule: return capsule_moments(leaf.p0, leaf.p1, leaf.r0, leaf.r1).result(density);
+    case LeafType::Segment: return leaf.r0 > 0 ? capsule_moments(leaf.p0, leaf.p1, leaf.r0, leaf.r0).result(density) : LeafMass{};
     case LeafType::Arc:
-    case LeafType::HalfSpace:
-        break;
+    case LeafType::HalfSpace: break;
     }
     return {};
 }

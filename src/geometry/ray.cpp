@@ -64,7 +64,8 @@ void offer_edge(Nearest& nearest, const Ray& ray, Vec2 a, Vec2 b, Vec2 n)
     const double approach = -(static_cast<double>(n.x) * ray.d.x + static_cast<double>(n.y) * ray.d.y);
     if (approach <= 0)
         return;
-    const double height = static_cast<double>(n.x) * (static_cast<double>(ray.o.x) - a.x) + static_cast<double>(n.y) * (static_cast<double>(ray.o.y) - a.y);
+    const double height = static_cast<double>(n.x) * (static_cast<double>(ray.o.x) - a.x) +
+                          static_cast<double>(n.y) * (static_cast<double>(ray.o.y) - a.y);
     const double t = height / approach;
     const Vec2 p = ray.at(t);
     if (dot(p - a, b - a) >= 0 && dot(p - b, a - b) >= 0)
@@ -73,7 +74,8 @@ void offer_edge(Nearest& nearest, const Ray& ray, Vec2 a, Vec2 b, Vec2 n)
 
 void offer_hull(Nearest& nearest, const Ray& ray, const Vec2* points, const Vec2* normals, const float radii[2], int count)
 {
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
+    {
         const int j = i + 1 < count ? i + 1 : 0;
         const float ri = radii[i & (count == 2)];
         const float rj = radii[j & (count == 2)];
@@ -94,7 +96,8 @@ void offer_line(Nearest& nearest, const Ray& ray, const Leaf& leaf)
 
 void offer_arc(Nearest& nearest, const Ray& ray, const Leaf& leaf)
 {
-    const auto on_arc = [&](Vec2 p) {
+    const auto on_arc = [&](Vec2 p)
+    {
         const Vec2 r = p - leaf.p0;
         return dot(r, leaf.p1) >= length(r) * leaf.cos_half_sweep;
     };
@@ -110,22 +113,24 @@ void offer_arc(Nearest& nearest, const Ray& ray, const Leaf& leaf)
 void offer_leaf(Nearest& nearest, const Ray& ray, const LeafView& v)
 {
     const Leaf& leaf = *v.leaf;
-    switch (leaf.type) {
-    case LeafType::HalfSpace: {
+    switch (leaf.type)
+    {
+    case LeafType::HalfSpace:
+    {
         const float approach = -dot(leaf.p0, ray.d);
         if (approach > 0)
             nearest.offer((static_cast<double>(dot(leaf.p0, ray.o)) - leaf.r0) / approach, leaf.p0);
         break;
     }
-    case LeafType::Circle:
-        offer_circle(nearest, ray, leaf.p0, leaf.r0);
-        break;
-    case LeafType::Polygon: {
+    case LeafType::Circle: offer_circle(nearest, ray, leaf.p0, leaf.r0); break;
+    case LeafType::Polygon:
+    {
         const float radii[2] = {leaf.r0, leaf.r0};
         offer_hull(nearest, ray, v.points, v.normals, radii, leaf.count);
         break;
     }
-    case LeafType::Capsule: {
+    case LeafType::Capsule:
+    {
         const CapsuleSides sides = capsule_sides(leaf);
         offer_hull(nearest, ray, sides.points, sides.normals, sides.radii, 2);
         break;
@@ -133,7 +138,8 @@ void offer_leaf(Nearest& nearest, const Ray& ray, const LeafView& v)
     case LeafType::Segment:
     case LeafType::Arc:
         leaf.type == LeafType::Segment ? offer_line(nearest, ray, leaf) : offer_arc(nearest, ray, leaf);
-        if (leaf.r0 > 0 && leaf.sides == Sides::Both) {
+        if (leaf.r0 > 0 && leaf.sides == Sides::Both)
+        {
             offer_circle(nearest, ray, start_point(leaf), leaf.r0);
             offer_circle(nearest, ray, end_point(leaf), leaf.r0);
         }

@@ -36,8 +36,10 @@ bool segments_cross(const Outline& o, int a, int b, int c, int d)
 bool crosses_itself(const Outline& o)
 {
     const int n = static_cast<int>(o.points.size());
-    for (int i = 0; i < n; ++i) {
-        for (int j = i + 2; j < n; ++j) {
+    for (int i = 0; i < n; ++i)
+    {
+        for (int j = i + 2; j < n; ++j)
+        {
             if ((j + 1) % n != i && segments_cross(o, i, (i + 1) % n, j, (j + 1) % n))
                 return true;
         }
@@ -53,9 +55,9 @@ bool is_ear(const Outline& o, const Loop& loop, std::size_t i)
     const int c = loop[(i + 1) % n];
     if (o.turn(a, b, c) <= 0)
         return false;
-    return std::none_of(loop.begin(), loop.end(), [&](int p) {
-        return p != a && p != b && p != c && o.turn(a, b, p) >= 0 && o.turn(b, c, p) >= 0 && o.turn(c, a, p) >= 0;
-    });
+    return std::none_of(
+        loop.begin(), loop.end(), [&](int p)
+        { return p != a && p != b && p != c && o.turn(a, b, p) >= 0 && o.turn(b, c, p) >= 0 && o.turn(c, a, p) >= 0; });
 }
 
 std::vector<Loop> clip_ears(const Outline& o)
@@ -64,7 +66,8 @@ std::vector<Loop> clip_ears(const Outline& o)
     for (int i = 0; i < static_cast<int>(o.points.size()); ++i)
         rest.push_back(i);
     std::vector<Loop> triangles;
-    while (rest.size() > 3) {
+    while (rest.size() > 3)
+    {
         std::size_t ear = 0;
         while (ear < rest.size() && !is_ear(o, rest, ear))
             ++ear;
@@ -82,7 +85,8 @@ std::vector<Loop> clip_ears(const Outline& o)
 bool is_convex_loop(const Outline& o, const Loop& loop)
 {
     const std::size_t n = loop.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
+    {
         if (o.turn(loop[i], loop[(i + 1) % n], loop[(i + 2) % n]) <= 0)
             return false;
     }
@@ -92,8 +96,10 @@ bool is_convex_loop(const Outline& o, const Loop& loop)
 // The union of two loops over the edge that a runs forwards and b backwards; empty where they share none.
 Loop join(const Loop& a, const Loop& b)
 {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        for (std::size_t j = 0; j < b.size(); ++j) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+        for (std::size_t j = 0; j < b.size(); ++j)
+        {
             if (a[i] != b[(j + 1) % b.size()] || a[(i + 1) % a.size()] != b[j])
                 continue;
             Loop joined;
@@ -109,8 +115,10 @@ Loop join(const Loop& a, const Loop& b)
 
 bool merge_one(const Outline& o, std::vector<Loop>& loops)
 {
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-        for (std::size_t j = i + 1; j < loops.size(); ++j) {
+    for (std::size_t i = 0; i < loops.size(); ++i)
+    {
+        for (std::size_t j = i + 1; j < loops.size(); ++j)
+        {
             Loop joined = join(loops[i], loops[j]);
             if (joined.empty() || !is_convex_loop(o, joined))
                 continue;
@@ -127,20 +135,24 @@ bool merge_one(const Outline& o, std::vector<Loop>& loops)
 std::vector<Polygon> split_concave(std::span<const Vec2> outline)
 {
     const internal::Checker check{"split_concave"};
-    for (Vec2 p : outline) {
+    for (Vec2 p : outline)
+    {
         if (!check.finite("outline", p))
             return {};
     }
     Outline o{internal::clean_outline(outline, 1e-6f)};
-    if (!check.holds(o.points.size() >= 3, "outline", std::to_string(o.points.size()) + " distinct corners", "must have at least 3"))
+    if (!check.holds(o.points.size() >= 3, "outline", std::to_string(o.points.size()) + " distinct corners",
+                     "must have at least 3"))
         return {};
     if (!check.holds(!crosses_itself(o), "outline", "an outline that crosses itself", "must be simple"))
         return {};
     std::vector<Loop> loops = clip_ears(o);
-    while (merge_one(o, loops)) {
+    while (merge_one(o, loops))
+    {
     }
     std::vector<Polygon> polygons;
-    for (const Loop& loop : loops) {
+    for (const Loop& loop : loops)
+    {
         Polygon polygon;
         for (int i : loop)
             polygon.vertices.push_back(o.at(i));

@@ -18,14 +18,18 @@ bool check_def(const SceneDef& def)
 {
     const Checker check{"Scene::Scene"};
     return check.finite("SceneDef::gravity", def.gravity) && check.positive("SceneDef::length_scale", def.length_scale) &&
-           check.holds(def.substeps >= 1 && def.substeps <= 64, "SceneDef::substeps", std::to_string(def.substeps), "must be from 1 to 64") &&
-           check.positive("SceneDef::fixed_step", def.fixed_step) && check.positive("SceneDef::max_frame_time", def.max_frame_time) &&
-           check.positive("SceneDef::contact_hertz", def.contact_hertz) && check.positive("SceneDef::contact_damping_ratio", def.contact_damping_ratio) &&
+           check.holds(def.substeps >= 1 && def.substeps <= 64, "SceneDef::substeps", std::to_string(def.substeps),
+                       "must be from 1 to 64") &&
+           check.positive("SceneDef::fixed_step", def.fixed_step) &&
+           check.positive("SceneDef::max_frame_time", def.max_frame_time) &&
+           check.positive("SceneDef::contact_hertz", def.contact_hertz) &&
+           check.positive("SceneDef::contact_damping_ratio", def.contact_damping_ratio) &&
            check.not_negative("SceneDef::contact_push_speed", def.contact_push_speed) &&
-           check.holds((def.friction_rule != MixRule::Function && def.restitution_rule != MixRule::Function) || def.mix_function != nullptr,
+           check.holds((def.friction_rule != MixRule::Function && def.restitution_rule != MixRule::Function) ||
+                           def.mix_function != nullptr,
                        "SceneDef::mix_function", "null", "must be set where a rule is MixRule::Function") &&
-           check.holds(def.tasks.worker_count >= 1 && def.tasks.worker_count <= 64, "SceneDef::tasks.worker_count", std::to_string(def.tasks.worker_count),
-                       "must be from 1 to 64");
+           check.holds(def.tasks.worker_count >= 1 && def.tasks.worker_count <= 64, "SceneDef::tasks.worker_count",
+                       std::to_string(def.tasks.worker_count), "must be from 1 to 64");
 }
 
 // In lengths of the typical object. 0.005: overlap that the eye does not see; 0.02: far enough ahead for quiet contacts; 0.1: wide
@@ -90,7 +94,8 @@ const StepReport& Scene::step(float h)
 UpdateResult Scene::update(float frame_time)
 {
     const Checker check{"Scene::update"};
-    if (!check.not_negative("frame_time", frame_time) || !check.holds(!m_data->stepping, "the scene", "in a step", "callbacks must not step it"))
+    if (!check.not_negative("frame_time", frame_time) ||
+        !check.holds(!m_data->stepping, "the scene", "in a step", "callbacks must not step it"))
         return {};
     const SceneDef& def = m_data->def;
     double& accumulator = m_data->state.accumulator;
@@ -100,7 +105,8 @@ UpdateResult Scene::update(float frame_time)
     const double step_time = def.fixed_step;
     const double rounding = 1e-6 * step_time;
     UpdateResult result;
-    while (accumulator + rounding >= step_time) {
+    while (accumulator + rounding >= step_time)
+    {
         accumulator -= step_time;
         m_data->keep_forces = accumulator + rounding >= step_time;
         step(def.fixed_step);
@@ -132,7 +138,8 @@ void Scene::set_gravity(Vec2 gravity)
         return;
     m_data->state.gravity = gravity;
     m_data->def.gravity = gravity;
-    for (int i = 0; i < m_data->state.bodies.capacity(); ++i) {
+    for (int i = 0; i < m_data->state.bodies.capacity(); ++i)
+    {
         if (m_data->state.bodies.is_live(i) && m_data->state.bodies[i].type == BodyType::Dynamic)
             wake_body(*m_data, i);
     }
@@ -144,7 +151,8 @@ void Scene::set_record_substeps(bool record) { m_data->def.record_substeps = rec
 std::vector<BodyId> Scene::bodies() const
 {
     std::vector<BodyId> ids;
-    for (int i = 0; i < m_data->state.bodies.capacity(); ++i) {
+    for (int i = 0; i < m_data->state.bodies.capacity(); ++i)
+    {
         if (m_data->state.bodies.is_live(i))
             ids.push_back(body_id(m_data->state, i));
     }
@@ -154,7 +162,8 @@ std::vector<BodyId> Scene::bodies() const
 std::vector<JointId> Scene::joints() const
 {
     std::vector<JointId> ids;
-    for (int i = 0; i < m_data->state.joints.capacity(); ++i) {
+    for (int i = 0; i < m_data->state.joints.capacity(); ++i)
+    {
         if (m_data->state.joints.is_live(i))
             ids.push_back(joint_id(m_data->state, i));
     }
@@ -168,10 +177,12 @@ void Scene::ignore_pair(BodyId a, BodyId b)
     SceneState& state = m_data->state;
     if (!state.ignored.insert(pair_key(slot_of(a), slot_of(b))))
         return;
-    for_each_contact(state, slot_of(a), [&](int contact) {
-        if (other_body(state.contacts[contact], slot_of(a)) == slot_of(b))
-            destroy_contact(*m_data, contact, m_data->pending, 0);
-    });
+    for_each_contact(state, slot_of(a),
+                     [&](int contact)
+                     {
+                         if (other_body(state.contacts[contact], slot_of(a)) == slot_of(b))
+                             destroy_contact(*m_data, contact, m_data->pending, 0);
+                     });
     wake_body(*m_data, slot_of(a));
     wake_body(*m_data, slot_of(b));
 }

@@ -16,9 +16,11 @@ namespace {
 bool check_body_def(const BodyDef& def)
 {
     const Checker check{"Scene::create_body"};
-    return check.finite("BodyDef::position", def.position) && check.finite("BodyDef::angle", def.angle) && check.finite("BodyDef::velocity", def.velocity) &&
-           check.finite("BodyDef::angular_velocity", def.angular_velocity) && check.finite("BodyDef::gravity_scale", def.gravity_scale) &&
-           check.not_negative("BodyDef::linear_damping", def.linear_damping) && check.not_negative("BodyDef::angular_damping", def.angular_damping);
+    return check.finite("BodyDef::position", def.position) && check.finite("BodyDef::angle", def.angle) &&
+           check.finite("BodyDef::velocity", def.velocity) && check.finite("BodyDef::angular_velocity", def.angular_velocity) &&
+           check.finite("BodyDef::gravity_scale", def.gravity_scale) &&
+           check.not_negative("BodyDef::linear_damping", def.linear_damping) &&
+           check.not_negative("BodyDef::angular_damping", def.angular_damping);
 }
 
 BodySim make_sim(const BodyDef& def)
@@ -26,7 +28,8 @@ BodySim make_sim(const BodyDef& def)
     BodySim sim;
     sim.center = sim.previous_center = def.position;
     sim.rotation = sim.previous_rotation = Rotation::from_angle(def.angle);
-    if (def.type != BodyType::Static) {
+    if (def.type != BodyType::Static)
+    {
         sim.velocity = def.velocity;
         sim.angular_velocity = def.angular_velocity;
     }
@@ -183,16 +186,22 @@ bool ConstBody::can_sleep() const
 }
 std::uint64_t ConstBody::user_data() const
 {
-    return record_of(m_data, m_id, "Body::user_data") != nullptr ? m_data->body_extras[static_cast<std::size_t>(slot_of(m_id))].user_data : 0;
+    return record_of(m_data, m_id, "Body::user_data") != nullptr
+               ? m_data->body_extras[static_cast<std::size_t>(slot_of(m_id))].user_data
+               : 0;
 }
 
 Position ConstBody::world_point(Vec2 local) const { return transform(sim_of(m_data, m_id, "Body::world_point").pose(), local); }
-Vec2 ConstBody::local_point(Position world) const { return inverse_transform(sim_of(m_data, m_id, "Body::local_point").pose(), world); }
+Vec2 ConstBody::local_point(Position world) const
+{
+    return inverse_transform(sim_of(m_data, m_id, "Body::local_point").pose(), world);
+}
 
 std::vector<ShapeId> ConstBody::shapes() const
 {
     std::vector<ShapeId> ids;
-    if (const BodyRecord* r = record_of(m_data, m_id, "Body::shapes")) {
+    if (const BodyRecord* r = record_of(m_data, m_id, "Body::shapes"))
+    {
         for (int shape = r->first_shape; shape != none; shape = m_data->state.shapes[shape].next_shape)
             ids.push_back(shape_id(m_data->state, shape));
     }
@@ -202,7 +211,8 @@ std::vector<ShapeId> ConstBody::shapes() const
 std::vector<JointId> ConstBody::joints() const
 {
     std::vector<JointId> ids;
-    if (const BodyRecord* r = record_of(m_data, m_id, "Body::joints")) {
+    if (const BodyRecord* r = record_of(m_data, m_id, "Body::joints"))
+    {
         for (int edge = r->first_joint; edge != none; edge = m_data->state.joints[edge >> 1].next[edge & 1])
             ids.push_back(joint_id(m_data->state, edge >> 1));
     }
@@ -220,7 +230,9 @@ struct Target
     SceneData& data;
     int slot;
 
-    Target(SceneData* d, BodyId id, const char* function) : data(*d), slot(check_live(*d, function, "body", id) ? slot_of(id) : none) {}
+    Target(SceneData* d, BodyId id, const char* function)
+        : data(*d), slot(check_live(*d, function, "body", id) ? slot_of(id) : none)
+    {}
     [[nodiscard]] explicit operator bool() const { return slot != none; }
     [[nodiscard]] BodyRecord& record() const { return data.state.bodies[slot]; }
     [[nodiscard]] BodySim& sim() const { return data.state.sims[static_cast<std::size_t>(slot)]; }
@@ -245,18 +257,24 @@ void Body::set_type(BodyType type)
     const Target t(m_data, m_id, "Body::set_type");
     if (!t || t.record().type == type)
         return;
-    if (type != BodyType::Static && type != BodyType::Kinematic) {
-        for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape) {
+    if (type != BodyType::Static && type != BodyType::Kinematic)
+    {
+        for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape)
+        {
             const ShapeRecord& shape = m_data->state.shapes[s];
             const bool massless = !shape.has_leaf || shape.leaf.type == LeafType::Arc || shape.leaf.type == LeafType::HalfSpace;
-            if (!Checker{"Body::set_type"}.holds(!massless, "type", "Dynamic", "the body has an arc, chain or half-space, which carry no mass"))
+            if (!Checker{"Body::set_type"}.holds(!massless, "type", "Dynamic",
+                                                 "the body has an arc, chain or half-space, which carry no mass"))
                 return;
         }
     }
-    if (type == BodyType::Kinematic) {
-        for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape) {
-            if (!Checker{"Body::set_type"}.holds(!m_data->state.shapes[s].has_leaf || m_data->state.shapes[s].leaf.type != LeafType::HalfSpace, "type", "Kinematic",
-                                                 "the body has a half-space, which never moves"))
+    if (type == BodyType::Kinematic)
+    {
+        for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape)
+        {
+            if (!Checker{"Body::set_type"}.holds(!m_data->state.shapes[s].has_leaf ||
+                                                     m_data->state.shapes[s].leaf.type != LeafType::HalfSpace,
+                                                 "type", "Kinematic", "the body has a half-space, which never moves"))
                 return;
         }
     }
@@ -264,7 +282,8 @@ void Body::set_type(BodyType type)
     leave_awake(*m_data, t.slot);
     t.record().type = type;
     t.record().has_target = false;
-    if (type == BodyType::Static) {
+    if (type == BodyType::Static)
+    {
         t.sim().velocity = {};
         t.sim().angular_velocity = 0;
     }
@@ -286,16 +305,20 @@ void Body::teleport(Position position, float angle)
     sim.center = sim.previous_center = position + rotate(sim.rotation, sim.local_center);
     t.record().has_target = false;
     // Contacts that no longer meet end in the next step; the others are looked at anew, without the impulses of the old place.
-    for_each_contact(m_data->state, t.slot, [&](int index) {
-        Contact& contact = m_data->state.contacts[index];
-        contact.flags |= contact_flag::fresh;
-        contact.flags &= ~(contact_flag::passing | contact_flag::loaded);
-        contact.manifold = {};
-    });
+    for_each_contact(m_data->state, t.slot,
+                     [&](int index)
+                     {
+                         Contact& contact = m_data->state.contacts[index];
+                         contact.flags |= contact_flag::fresh;
+                         contact.flags &= ~(contact_flag::passing | contact_flag::loaded);
+                         contact.manifold = {};
+                     });
     refresh_boxes(*m_data, t.slot);
     t.wake();
-    if (t.record().type == BodyType::Static) {
-        for_each_contact(m_data->state, t.slot, [&](int contact) { wake_body(*m_data, other_body(m_data->state.contacts[contact], t.slot)); });
+    if (t.record().type == BodyType::Static)
+    {
+        for_each_contact(m_data->state, t.slot,
+                         [&](int contact) { wake_body(*m_data, other_body(m_data->state.contacts[contact], t.slot)); });
     }
 }
 
@@ -440,7 +463,8 @@ void Body::set_mass(const MassData& mass)
 {
     const Target t(m_data, m_id, "Body::set_mass");
     const Checker check{"Body::set_mass"};
-    if (!t || !check.positive("MassData::mass", mass.mass) || !check.finite("MassData::center", mass.center) || !check.not_negative("MassData::inertia", mass.inertia) ||
+    if (!t || !check.positive("MassData::mass", mass.mass) || !check.finite("MassData::center", mass.center) ||
+        !check.not_negative("MassData::inertia", mass.inertia) ||
         !check.holds(t.record().type == BodyType::Dynamic, "the body", "not dynamic", "only dynamic bodies have mass"))
         return;
     // The center moves through the same door as when shapes give it: the velocity of the material stays.
@@ -472,9 +496,11 @@ void Body::set_enabled(bool enabled)
     const Target t(m_data, m_id, "Body::set_enabled");
     if (!t || t.record().enabled == enabled)
         return;
-    if (!enabled) {
+    if (!enabled)
+    {
         destroy_contacts_of_body(*m_data, t.slot);
-        for (int edge = t.record().first_joint; edge != none; edge = m_data->state.joints[edge >> 1].next[edge & 1]) {
+        for (int edge = t.record().first_joint; edge != none; edge = m_data->state.joints[edge >> 1].next[edge & 1])
+        {
             const JointRecord& joint = m_data->state.joints[edge >> 1];
             wake_body(*m_data, joint.body_a == t.slot ? joint.body_b : joint.body_a);
         }
@@ -496,11 +522,13 @@ void Body::set_awake(bool awake)
     const Target t(m_data, m_id, "Body::set_awake");
     if (!t || !t.record().enabled || t.record().type == BodyType::Static)
         return;
-    if (awake) {
+    if (awake)
+    {
         t.wake();
         return;
     }
-    for (const std::int32_t body : island_of(m_data->state, t.slot)) {
+    for (const std::int32_t body : island_of(m_data->state, t.slot))
+    {
         if (internal::is_awake(m_data->state, body))
             sleep_body(*m_data, body);
     }

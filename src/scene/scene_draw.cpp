@@ -19,36 +19,42 @@ class Painter
 public:
     Painter(const SceneData& data, DebugDraw& draw, const DebugDrawOptions& options)
         : m_state(data.state), m_draw(draw), m_options(options), m_view(round_outwards(options.view))
-    {
-    }
+    {}
 
     void shapes() const
     {
-        for_each_body([&](int body) {
-            for_each_leaf(m_state, body, [&](int shape) {
-                const bool shown = m_state.shapes[shape].trigger ? m_options.triggers : m_options.shapes;
-                if (shown)
-                    draw_leaf(role_of(body, shape), leaf_view(m_state, shape), pose_of(body));
-                if (m_options.boxes && m_state.broad_phase.has(shape))
-                    draw_box(m_state.broad_phase.box(shape), DrawRole::Box);
+        for_each_body(
+            [&](int body)
+            {
+                for_each_leaf(m_state, body,
+                              [&](int shape)
+                              {
+                                  const bool shown = m_state.shapes[shape].trigger ? m_options.triggers : m_options.shapes;
+                                  if (shown)
+                                      draw_leaf(role_of(body, shape), leaf_view(m_state, shape), pose_of(body));
+                                  if (m_options.boxes && m_state.broad_phase.has(shape))
+                                      draw_box(m_state.broad_phase.box(shape), DrawRole::Box);
+                              });
             });
-        });
     }
 
     void bodies() const
     {
-        for_each_body([&](int body) {
-            const BodySim& sim = m_state.sims[static_cast<std::size_t>(body)];
-            if (m_options.centers && m_state.bodies[body].type == BodyType::Dynamic)
-                m_draw.point(DrawRole::CenterOfMass, sim.center);
-            if (m_options.velocities && sim.velocity != Vec2{})
-                m_draw.line(DrawRole::Velocity, sim.center, sim.center + m_options.velocity_scale * sim.velocity);
-        });
+        for_each_body(
+            [&](int body)
+            {
+                const BodySim& sim = m_state.sims[static_cast<std::size_t>(body)];
+                if (m_options.centers && m_state.bodies[body].type == BodyType::Dynamic)
+                    m_draw.point(DrawRole::CenterOfMass, sim.center);
+                if (m_options.velocities && sim.velocity != Vec2{})
+                    m_draw.line(DrawRole::Velocity, sim.center, sim.center + m_options.velocity_scale * sim.velocity);
+            });
     }
 
     void joints() const
     {
-        for (int j = 0; j < m_state.joints.capacity(); ++j) {
+        for (int j = 0; j < m_state.joints.capacity(); ++j)
+        {
             if (!m_state.joints.is_live(j))
                 continue;
             const JointRecord& joint = m_state.joints[j];
@@ -62,8 +68,10 @@ public:
 
     void contacts() const
     {
-        for (int i = 0; i < m_state.contacts.capacity(); ++i) {
-            if (!m_state.contacts.is_live(i) || (m_state.contacts[i].flags & contact_flag::touching) == 0 || (m_state.contacts[i].flags & contact_flag::trigger) != 0)
+        for (int i = 0; i < m_state.contacts.capacity(); ++i)
+        {
+            if (!m_state.contacts.is_live(i) || (m_state.contacts[i].flags & contact_flag::touching) == 0 ||
+                (m_state.contacts[i].flags & contact_flag::trigger) != 0)
                 continue;
             const Contact& contact = m_state.contacts[i];
             const Position center = m_state.sims[static_cast<std::size_t>(contact.body_a)].center;
@@ -76,16 +84,20 @@ public:
     void islands() const
     {
         std::vector<FloatBox> boxes(static_cast<std::size_t>(m_state.bodies.capacity()));
-        for (const std::int32_t body : m_state.awake_bodies) {
+        for (const std::int32_t body : m_state.awake_bodies)
+        {
             const int label = m_state.bodies[body].island;
             if (label == none || m_state.bodies[body].type != BodyType::Dynamic)
                 continue;
-            for_each_leaf(m_state, body, [&](int shape) {
-                FloatBox& b = boxes[static_cast<std::size_t>(label)];
-                b = unite(b, m_state.broad_phase.box(shape));
-            });
+            for_each_leaf(m_state, body,
+                          [&](int shape)
+                          {
+                              FloatBox& b = boxes[static_cast<std::size_t>(label)];
+                              b = unite(b, m_state.broad_phase.box(shape));
+                          });
         }
-        for (const FloatBox& b : boxes) {
+        for (const FloatBox& b : boxes)
+        {
             if (b.lx <= b.ux)
                 draw_box(b, DrawRole::Island);
         }
@@ -95,14 +107,18 @@ private:
     template <class Visit>
     void for_each_body(Visit&& visit) const
     {
-        for (int body = 0; body < m_state.bodies.capacity(); ++body) {
+        for (int body = 0; body < m_state.bodies.capacity(); ++body)
+        {
             if (m_state.bodies.is_live(body))
                 visit(body);
         }
     }
 
     [[nodiscard]] Pose pose_of(int body) const { return m_state.sims[static_cast<std::size_t>(body)].pose(); }
-    [[nodiscard]] Position anchor(int body, Vec2 local) const { return body == none ? Position(local) : transform(pose_of(body), local); }
+    [[nodiscard]] Position anchor(int body, Vec2 local) const
+    {
+        return body == none ? Position(local) : transform(pose_of(body), local);
+    }
 
     [[nodiscard]] DrawRole role_of(int body, int shape) const
     {
@@ -124,14 +140,12 @@ private:
         if (leaf.type != LeafType::HalfSpace && !overlaps(round_outwards(leaf_bounds(v, pose)), m_view))
             return;
         const Position p0 = transform(pose, leaf.p0);
-        switch (leaf.type) {
-        case LeafType::HalfSpace:
-            draw_half_space(role, leaf, pose);
-            break;
-        case LeafType::Circle:
-            m_draw.circle(role, p0, leaf.r0, pose.rotation);
-            break;
-        case LeafType::Polygon: {
+        switch (leaf.type)
+        {
+        case LeafType::HalfSpace: draw_half_space(role, leaf, pose); break;
+        case LeafType::Circle: m_draw.circle(role, p0, leaf.r0, pose.rotation); break;
+        case LeafType::Polygon:
+        {
             std::vector<Position> vertices;
             for (int i = 0; i < leaf.count; ++i)
                 vertices.push_back(transform(pose, v.points[i]));
@@ -155,9 +169,12 @@ private:
     void draw_half_space(DrawRole role, const Leaf& leaf, const Pose& pose) const
     {
         const Vec2 n = rotate(pose.rotation, leaf.p0);
-        const Position middle{0.5 * (m_options.view.lower.x + m_options.view.upper.x), 0.5 * (m_options.view.lower.y + m_options.view.upper.y)};
-        const double size = std::min(std::max(m_options.view.upper.x - m_options.view.lower.x, m_options.view.upper.y - m_options.view.lower.y), 1e6);
-        const double height = n.x * (middle.x - pose.position.x) + n.y * (middle.y - pose.position.y) - static_cast<double>(leaf.r0);
+        const Position middle{0.5 * (m_options.view.lower.x + m_options.view.upper.x),
+                              0.5 * (m_options.view.lower.y + m_options.view.upper.y)};
+        const double size = std::min(
+            std::max(m_options.view.upper.x - m_options.view.lower.x, m_options.view.upper.y - m_options.view.lower.y), 1e6);
+        const double height =
+            n.x * (middle.x - pose.position.x) + n.y * (middle.y - pose.position.y) - static_cast<double>(leaf.r0);
         const Position foot{middle.x - height * n.x, middle.y - height * n.y};
         const Vec2 along = static_cast<float>(size) * perp(n);
         m_draw.line(role, foot - along, foot + along);

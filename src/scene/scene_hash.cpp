@@ -38,8 +38,9 @@ void add(Hasher& h, const FloatBox& b)
 
 void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
 {
-    h.add(static_cast<int>(r.type) | (static_cast<int>(r.enabled) << 2) | (static_cast<int>(r.can_sleep) << 3) | (static_cast<int>(r.has_target) << 4) |
-          (static_cast<int>(r.locks.linear_x) << 5) | (static_cast<int>(r.locks.linear_y) << 6) | (static_cast<int>(r.locks.angular) << 7));
+    h.add(static_cast<int>(r.type) | (static_cast<int>(r.enabled) << 2) | (static_cast<int>(r.can_sleep) << 3) |
+          (static_cast<int>(r.has_target) << 4) | (static_cast<int>(r.locks.linear_x) << 5) |
+          (static_cast<int>(r.locks.linear_y) << 6) | (static_cast<int>(r.locks.angular) << 7));
     h.add(r.awake_index);
     add(h, s.center);
     add(h, s.rotation);
@@ -61,9 +62,11 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
 void add_material(Hasher& h, const ShapeRecord& s)
 {
     h.add(static_cast<int>(s.trigger) | (static_cast<int>(s.yields_material) << 1));
-    for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, s.kick.speed, s.kick.threshold, s.kick.cooldown, s.field.drag})
+    for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, s.kick.speed,
+                              s.kick.threshold, s.kick.cooldown, s.field.drag})
         h.add(value);
-    for (std::uint32_t i = 0; i < s.curve.count; ++i) {
+    for (std::uint32_t i = 0; i < s.curve.count; ++i)
+    {
         h.add(s.curve.points[i].speed);
         h.add(s.curve.points[i].restitution);
     }
@@ -109,7 +112,8 @@ void add_contact(Hasher& h, const Contact& c)
     h.add(static_cast<int>(c.flags));
     h.add(c.manifold.count);
     h.add(c.manifold.rolling_impulse);
-    for (int i = 0; i < c.manifold.count; ++i) {
+    for (int i = 0; i < c.manifold.count; ++i)
+    {
         h.add(c.manifold.points[i].normal_impulse);
         h.add(c.manifold.points[i].tangent_impulse);
         h.add(static_cast<int>(c.manifold.points[i].feature));
@@ -118,13 +122,15 @@ void add_contact(Hasher& h, const Contact& c)
 
 void add_joint(Hasher& h, const JointRecord& j)
 {
-    h.add(static_cast<int>(j.kind) | (static_cast<int>(j.collide_connected) << 8) | (static_cast<int>(j.enable_limit) << 9) | (static_cast<int>(j.enable_motor) << 10));
+    h.add(static_cast<int>(j.kind) | (static_cast<int>(j.collide_connected) << 8) | (static_cast<int>(j.enable_limit) << 9) |
+          (static_cast<int>(j.enable_motor) << 10));
     h.add(j.body_a);
     h.add(j.body_b);
     add(h, j.anchor_a);
     add(h, j.anchor_b);
     add(h, j.axis_a);
-    for (const float value : {j.reference_angle, j.stiffness, j.damping, j.lower, j.upper, j.limit_restitution, j.motor_speed, j.max_motor, j.hertz, j.damping_ratio, j.spring_target})
+    for (const float value : {j.reference_angle, j.stiffness, j.damping, j.lower, j.upper, j.limit_restitution, j.motor_speed,
+                              j.max_motor, j.hertz, j.damping_ratio, j.spring_target})
         h.add(value);
     for (const float impulse : j.impulses)
         h.add(impulse);
@@ -140,19 +146,23 @@ std::uint64_t Scene::state_hash() const
     h.add(state.accumulator);
     add(h, state.gravity);
     h.add(state.ignored.hash());
-    for (int i = 0; i < state.bodies.capacity(); ++i) {
+    for (int i = 0; i < state.bodies.capacity(); ++i)
+    {
         if (state.bodies.is_live(i))
             add_body(h, state.bodies[i], state.sims[static_cast<std::size_t>(i)]);
     }
-    for (int i = 0; i < state.shapes.capacity(); ++i) {
+    for (int i = 0; i < state.shapes.capacity(); ++i)
+    {
         if (state.shapes.is_live(i))
             add_shape(h, state, i);
     }
-    for (int i = 0; i < state.contacts.capacity(); ++i) {
+    for (int i = 0; i < state.contacts.capacity(); ++i)
+    {
         if (state.contacts.is_live(i))
             add_contact(h, state.contacts[i]);
     }
-    for (int i = 0; i < state.joints.capacity(); ++i) {
+    for (int i = 0; i < state.joints.capacity(); ++i)
+    {
         if (state.joints.is_live(i))
             add_joint(h, state.joints[i]);
     }

@@ -14,42 +14,57 @@ namespace {
 
 // --- from the public parameters to the record ----------------------------------------------------------------------------------------
 
-bool check_common(const Checker& check, Vec2 anchor_a, Vec2 anchor_b) { return check.finite("anchor_a", anchor_a) && check.finite("anchor_b", anchor_b); }
+bool check_common(const Checker& check, Vec2 anchor_a, Vec2 anchor_b)
+{
+    return check.finite("anchor_a", anchor_a) && check.finite("anchor_b", anchor_b);
+}
 
 bool check_def(const Checker& check, const SpringDef& d)
 {
-    return check_common(check, d.anchor_a, d.anchor_b) && check.not_negative("SpringDef::stiffness", d.stiffness) && check.not_negative("SpringDef::damping", d.damping) &&
-           check.finite("SpringDef::length", d.length);
+    return check_common(check, d.anchor_a, d.anchor_b) && check.not_negative("SpringDef::stiffness", d.stiffness) &&
+           check.not_negative("SpringDef::damping", d.damping) && check.finite("SpringDef::length", d.length);
 }
 
 bool check_def(const Checker& check, const DistanceDef& d)
 {
-    return check_common(check, d.anchor_a, d.anchor_b) && check.finite("DistanceDef::min_length", d.min_length) && check.finite("DistanceDef::max_length", d.max_length) &&
-           check.holds(d.min_length < 0 || d.max_length < 0 || d.min_length <= d.max_length, "DistanceDef::max_length", internal::to_text(d.max_length),
-                       "must be at least min_length") &&
+    return check_common(check, d.anchor_a, d.anchor_b) && check.finite("DistanceDef::min_length", d.min_length) &&
+           check.finite("DistanceDef::max_length", d.max_length) &&
+           check.holds(d.min_length < 0 || d.max_length < 0 || d.min_length <= d.max_length, "DistanceDef::max_length",
+                       internal::to_text(d.max_length), "must be at least min_length") &&
            check.not_negative("DistanceDef::hertz", d.hertz) && check.not_negative("DistanceDef::damping_ratio", d.damping_ratio);
 }
 
 bool check_def(const Checker& check, const RevoluteDef& d)
 {
     return check_common(check, d.anchor_a, d.anchor_b) && check.finite("RevoluteDef::reference_angle", d.reference_angle) &&
-           check.in_range("RevoluteDef::lower_angle", d.lower_angle, -pi, pi) && check.in_range("RevoluteDef::upper_angle", d.upper_angle, -pi, pi) &&
-           check.holds(d.lower_angle <= d.upper_angle, "RevoluteDef::upper_angle", internal::to_text(d.upper_angle), "must be at least lower_angle") &&
-           check.in_range("RevoluteDef::limit_restitution", d.limit_restitution, 0, 1) && check.finite("RevoluteDef::motor_speed", d.motor_speed) &&
-           check.not_negative("RevoluteDef::max_motor_torque", d.max_motor_torque) && check.not_negative("RevoluteDef::spring_hertz", d.spring_hertz) &&
-           check.not_negative("RevoluteDef::spring_damping_ratio", d.spring_damping_ratio) && check.finite("RevoluteDef::spring_angle", d.spring_angle);
+           check.in_range("RevoluteDef::lower_angle", d.lower_angle, -pi, pi) &&
+           check.in_range("RevoluteDef::upper_angle", d.upper_angle, -pi, pi) &&
+           check.holds(d.lower_angle <= d.upper_angle, "RevoluteDef::upper_angle", internal::to_text(d.upper_angle),
+                       "must be at least lower_angle") &&
+           check.in_range("RevoluteDef::limit_restitution", d.limit_restitution, 0, 1) &&
+           check.finite("RevoluteDef::motor_speed", d.motor_speed) &&
+           check.not_negative("RevoluteDef::max_motor_torque", d.max_motor_torque) &&
+           check.not_negative("RevoluteDef::spring_hertz", d.spring_hertz) &&
+           check.not_negative("RevoluteDef::spring_damping_ratio", d.spring_damping_ratio) &&
+           check.finite("RevoluteDef::spring_angle", d.spring_angle);
 }
 
 bool check_def(const Checker& check, const PrismaticDef& d)
 {
     return check_common(check, d.anchor_a, d.anchor_b) && check.finite("PrismaticDef::axis_a", d.axis_a) &&
-           check.holds(length(normalize(d.axis_a)) > 0.5f, "PrismaticDef::axis_a", internal::to_text(d.axis_a), "must not be zero") &&
-           check.finite("PrismaticDef::reference_angle", d.reference_angle) && check.finite("PrismaticDef::lower_translation", d.lower_translation) &&
+           check.holds(length(normalize(d.axis_a)) > 0.5f, "PrismaticDef::axis_a", internal::to_text(d.axis_a),
+                       "must not be zero") &&
+           check.finite("PrismaticDef::reference_angle", d.reference_angle) &&
+           check.finite("PrismaticDef::lower_translation", d.lower_translation) &&
            check.finite("PrismaticDef::upper_translation", d.upper_translation) &&
-           check.holds(d.lower_translation <= d.upper_translation, "PrismaticDef::upper_translation", internal::to_text(d.upper_translation), "must be at least lower_translation") &&
-           check.in_range("PrismaticDef::limit_restitution", d.limit_restitution, 0, 1) && check.finite("PrismaticDef::motor_speed", d.motor_speed) &&
-           check.not_negative("PrismaticDef::max_motor_force", d.max_motor_force) && check.not_negative("PrismaticDef::spring_hertz", d.spring_hertz) &&
-           check.not_negative("PrismaticDef::spring_damping_ratio", d.spring_damping_ratio) && check.finite("PrismaticDef::spring_translation", d.spring_translation);
+           check.holds(d.lower_translation <= d.upper_translation, "PrismaticDef::upper_translation",
+                       internal::to_text(d.upper_translation), "must be at least lower_translation") &&
+           check.in_range("PrismaticDef::limit_restitution", d.limit_restitution, 0, 1) &&
+           check.finite("PrismaticDef::motor_speed", d.motor_speed) &&
+           check.not_negative("PrismaticDef::max_motor_force", d.max_motor_force) &&
+           check.not_negative("PrismaticDef::spring_hertz", d.spring_hertz) &&
+           check.not_negative("PrismaticDef::spring_damping_ratio", d.spring_damping_ratio) &&
+           check.finite("PrismaticDef::spring_translation", d.spring_translation);
 }
 
 void write(JointRecord& r, const SpringDef& d, float measured)
@@ -172,19 +187,17 @@ PrismaticDef read_prismatic(const JointRecord& r)
 
 JointDef read_joint(const SceneData& data, const JointRecord& r, std::uint64_t user_data)
 {
-    const auto with_common = [&](auto d) -> JointDef {
+    const auto with_common = [&](auto d) -> JointDef
+    {
         read_common(data, r, user_data, d);
         return d;
     };
-    switch (r.kind) {
-    case JointType::Spring:
-        return with_common(read_spring(r));
-    case JointType::Distance:
-        return with_common(read_distance(r));
-    case JointType::Revolute:
-        return with_common(read_revolute(r));
-    case JointType::Prismatic:
-        break;
+    switch (r.kind)
+    {
+    case JointType::Spring: return with_common(read_spring(r));
+    case JointType::Distance: return with_common(read_distance(r));
+    case JointType::Revolute: return with_common(read_revolute(r));
+    case JointType::Prismatic: break;
     }
     return with_common(read_prismatic(r));
 }
@@ -194,7 +207,8 @@ JointDef read_joint(const SceneData& data, const JointRecord& r, std::uint64_t u
 void link_joint(SceneState& state, int index)
 {
     JointRecord& joint = state.joints[index];
-    for (int side = 0; side < 2; ++side) {
+    for (int side = 0; side < 2; ++side)
+    {
         const int body = side == 0 ? joint.body_a : joint.body_b;
         if (body == none)
             continue;
@@ -210,7 +224,8 @@ void link_joint(SceneState& state, int index)
 void unlink_joint(SceneState& state, int index)
 {
     const JointRecord joint = state.joints[index];
-    for (int side = 0; side < 2; ++side) {
+    for (int side = 0; side < 2; ++side)
+    {
         const int body = side == 0 ? joint.body_a : joint.body_b;
         if (body == none)
             continue;
@@ -240,11 +255,13 @@ void drop_contacts_between(SceneData& data, int a, int b)
 {
     if (a == none || b == none)
         return;
-    for_each_contact(data.state, a, [&](int contact) {
-        const bool trigger = (data.state.contacts[contact].flags & contact_flag::trigger) != 0;
-        if (!trigger && other_body(data.state.contacts[contact], a) == b)
-            destroy_contact(data, contact, data.pending, 0);
-    });
+    for_each_contact(data.state, a,
+                     [&](int contact)
+                     {
+                         const bool trigger = (data.state.contacts[contact].flags & contact_flag::trigger) != 0;
+                         if (!trigger && other_body(data.state.contacts[contact], a) == b)
+                             destroy_contact(data, contact, data.pending, 0);
+                     });
 }
 
 } // namespace
@@ -273,9 +290,12 @@ JointId Scene::create_joint(const JointDef& def)
     JointRecord record;
     std::uint64_t user_data = 0;
     const bool sound = std::visit(
-        [&](const auto& d) {
-            const bool live = (d.body_a.is_null() || check_live(*m_data, check.function, "body_a", d.body_a)) && (d.body_b.is_null() || check_live(*m_data, check.function, "body_b", d.body_b));
-            if (!live || !check.holds(d.body_a != d.body_b, "body_b", internal::to_text(d.body_b), "must differ from body_a") || !check_def(check, d))
+        [&](const auto& d)
+        {
+            const bool live = (d.body_a.is_null() || check_live(*m_data, check.function, "body_a", d.body_a)) &&
+                              (d.body_b.is_null() || check_live(*m_data, check.function, "body_b", d.body_b));
+            if (!live || !check.holds(d.body_a != d.body_b, "body_b", internal::to_text(d.body_b), "must differ from body_a") ||
+                !check_def(check, d))
                 return false;
             record.body_a = slot_of(d.body_a);
             record.body_b = slot_of(d.body_b);
@@ -283,7 +303,8 @@ JointId Scene::create_joint(const JointDef& def)
             record.anchor_b = d.anchor_b;
             record.collide_connected = d.collide_connected;
             user_data = d.user_data;
-            const Vec2 gap = anchor_in_world(state, record.body_b, d.anchor_b) - anchor_in_world(state, record.body_a, d.anchor_a);
+            const Vec2 gap =
+                anchor_in_world(state, record.body_b, d.anchor_b) - anchor_in_world(state, record.body_a, d.anchor_a);
             write(record, d, length(gap));
             return true;
         },
@@ -375,14 +396,12 @@ float ConstJoint::coordinate() const
     const JointRecord& r = record_of(m_data, m_id, "Joint::coordinate");
     const BodyMotion a = motion_at(m_data->state, r.body_a, r.anchor_a);
     const BodyMotion b = motion_at(m_data->state, r.body_b, r.anchor_b);
-    switch (r.kind) {
+    switch (r.kind)
+    {
     case JointType::Spring:
-    case JointType::Distance:
-        return length(b.point - a.point);
-    case JointType::Revolute:
-        return (b.rotation * inverse(a.rotation) * Rotation::from_angle(-r.reference_angle)).angle();
-    case JointType::Prismatic:
-        break;
+    case JointType::Distance: return length(b.point - a.point);
+    case JointType::Revolute: return (b.rotation * inverse(a.rotation) * Rotation::from_angle(-r.reference_angle)).angle();
+    case JointType::Prismatic: break;
     }
     return dot(rotate(a.rotation, r.axis_a), b.point - a.point);
 }
@@ -406,7 +425,9 @@ float ConstJoint::torque() const { return record_of(m_data, m_id, "Joint::torque
 
 std::uint64_t ConstJoint::user_data() const
 {
-    return check_live(*m_data, "Joint::user_data", "joint", m_id) ? m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data : 0;
+    return check_live(*m_data, "Joint::user_data", "joint", m_id)
+               ? m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data
+               : 0;
 }
 
 void Joint::set_def(const JointDef& def)
@@ -417,15 +438,19 @@ void Joint::set_def(const JointDef& def)
     JointRecord& record = m_data->state.joints[slot_of(m_id)];
     const JointDef old = read_joint(*m_data, record, 0);
     std::visit(
-        [&](const auto& d) {
-            const bool same = old.index() == def.index() && d.body_a == body_id(m_data->state, record.body_a) && d.body_b == body_id(m_data->state, record.body_b);
-            if (!check.holds(same, "def", "another kind of joint or other bodies", "must be the same kind on the same bodies") || !check_def(check, d))
+        [&](const auto& d)
+        {
+            const bool same = old.index() == def.index() && d.body_a == body_id(m_data->state, record.body_a) &&
+                              d.body_b == body_id(m_data->state, record.body_b);
+            if (!check.holds(same, "def", "another kind of joint or other bodies", "must be the same kind on the same bodies") ||
+                !check_def(check, d))
                 return;
             record.anchor_a = d.anchor_a;
             record.anchor_b = d.anchor_b;
             const bool forbids_now = record.collide_connected && !d.collide_connected;
             record.collide_connected = d.collide_connected;
-            const Vec2 gap = anchor_in_world(m_data->state, record.body_b, d.anchor_b) - anchor_in_world(m_data->state, record.body_a, d.anchor_a);
+            const Vec2 gap = anchor_in_world(m_data->state, record.body_b, d.anchor_b) -
+                             anchor_in_world(m_data->state, record.body_a, d.anchor_a);
             write(record, d, length(gap));
             m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data = d.user_data;
             if (forbids_now)

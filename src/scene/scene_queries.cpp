@@ -21,7 +21,8 @@ namespace {
 bool passes(const SceneState& state, int shape, const QueryFilter& filter)
 {
     const ShapeRecord& s = state.shapes[shape];
-    return (filter.include_triggers || !s.trigger) && (s.filter.category & filter.mask) != 0 && (filter.category & s.filter.mask) != 0;
+    return (filter.include_triggers || !s.trigger) && (s.filter.category & filter.mask) != 0 &&
+           (filter.category & s.filter.mask) != 0;
 }
 
 Pose pose_of(const SceneState& state, int shape) { return state.sims[static_cast<std::size_t>(state.shapes[shape].body)].pose(); }
@@ -31,7 +32,8 @@ template <class Test, class Visit>
 void visit_leaves(const SceneState& state, const QueryFilter& filter, Test&& test, Visit&& visit)
 {
     const auto filtered = [&](int shape) { return !passes(state, shape, filter) || visit(shape); };
-    for (const std::int32_t shape : state.broad_phase.unbounded()) {
+    for (const std::int32_t shape : state.broad_phase.unbounded())
+    {
         if (!filtered(shape))
             return;
     }
@@ -83,13 +85,18 @@ bool check_ray(const char* function, Position origin, Vec2 translation)
 std::optional<RayHit> hit_leaf(const SceneState& state, int shape, Position origin, Vec2 translation)
 {
     const Pose pose = pose_of(state, shape);
-    const std::optional<LeafHit> hit = ray_leaf(leaf_view(state, shape), inverse_transform(pose, origin), inverse_rotate(pose.rotation, translation));
+    const std::optional<LeafHit> hit =
+        ray_leaf(leaf_view(state, shape), inverse_transform(pose, origin), inverse_rotate(pose.rotation, translation));
     if (!hit)
         return std::nullopt;
-    return RayHit{shape_id(state, shape), origin + hit->fraction * translation, rotate(pose.rotation, hit->normal), hit->fraction};
+    return RayHit{shape_id(state, shape), origin + hit->fraction * translation, rotate(pose.rotation, hit->normal),
+                  hit->fraction};
 }
 
-bool is_nearer(const RayHit& a, const RayHit& b) { return a.fraction != b.fraction ? a.fraction < b.fraction : a.shape < b.shape; }
+bool is_nearer(const RayHit& a, const RayHit& b)
+{
+    return a.fraction != b.fraction ? a.fraction < b.fraction : a.shape < b.shape;
+}
 
 std::vector<ShapeId> sorted_unique(std::vector<ShapeId> ids)
 {
@@ -102,12 +109,14 @@ std::vector<ShapeId> overlap_leaf(const SceneState& state, const LeafView& leaf,
 {
     std::vector<ShapeId> ids;
     const FloatBox box = round_outwards(leaf_bounds(leaf, pose));
-    visit_box(state, filter, box, [&](int shape) {
-        const LocalManifold m = collide(leaf_view(state, shape), leaf, relative_pose(pose_of(state, shape), pose), 0);
-        if (m.count > 0)
-            ids.push_back(shape_id(state, shape));
-        return true;
-    });
+    visit_box(state, filter, box,
+              [&](int shape)
+              {
+                  const LocalManifold m = collide(leaf_view(state, shape), leaf, relative_pose(pose_of(state, shape), pose), 0);
+                  if (m.count > 0)
+                      ids.push_back(shape_id(state, shape));
+                  return true;
+              });
     return ids;
 }
 
@@ -120,14 +129,18 @@ std::optional<RayHit> Scene::raycast_closest(Position origin, Vec2 translation, 
     const SceneState& state = m_data->state;
     std::optional<RayHit> best;
     RayBox ray{origin.x, origin.y, translation.x, translation.y};
-    visit_leaves(state, filter, [&](const FloatBox& b) { return ray(b); }, [&](int shape) {
-        const std::optional<RayHit> hit = hit_leaf(state, shape, origin, translation);
-        if (hit && (!best || is_nearer(*hit, *best))) {
-            best = hit;
-            ray.reach = hit->fraction;
-        }
-        return true;
-    });
+    visit_leaves(
+        state, filter, [&](const FloatBox& b) { return ray(b); },
+        [&](int shape)
+        {
+            const std::optional<RayHit> hit = hit_leaf(state, shape, origin, translation);
+            if (hit && (!best || is_nearer(*hit, *best)))
+            {
+                best = hit;
+                ray.reach = hit->fraction;
+            }
+            return true;
+        });
     return best;
 }
 
@@ -138,15 +151,18 @@ std::vector<RayHit> Scene::raycast_all(Position origin, Vec2 translation, const 
         return hits;
     const SceneState& state = m_data->state;
     const RayBox ray{origin.x, origin.y, translation.x, translation.y};
-    visit_leaves(state, filter, ray, [&](int shape) {
-        if (const std::optional<RayHit> hit = hit_leaf(state, shape, origin, translation))
-            hits.push_back(*hit);
-        return true;
-    });
+    visit_leaves(state, filter, ray,
+                 [&](int shape)
+                 {
+                     if (const std::optional<RayHit> hit = hit_leaf(state, shape, origin, translation))
+                         hits.push_back(*hit);
+                     return true;
+                 });
     // Of the pieces of a chain only the nearest hit counts: one hit a shape.
     std::sort(hits.begin(), hits.end(), is_nearer);
     std::vector<RayHit> first_hits;
-    for (const RayHit& hit : hits) {
+    for (const RayHit& hit : hits)
+    {
         if (std::none_of(first_hits.begin(), first_hits.end(), [&](const RayHit& h) { return h.shape == hit.shape; }))
             first_hits.push_back(hit);
     }
@@ -160,10 +176,12 @@ bool Scene::raycast_any(Position origin, Vec2 translation, const QueryFilter& fi
     const SceneState& state = m_data->state;
     bool found = false;
     const RayBox ray{origin.x, origin.y, translation.x, translation.y};
-    visit_leaves(state, filter, ray, [&](int shape) {
-        found = hit_leaf(state, shape, origin, translation).has_value();
-        return !found;
-    });
+    visit_leaves(state, filter, ray,
+                 [&](int shape)
+                 {
+                     found = hit_leaf(state, shape, origin, translation).has_value();
+                     return !found;
+                 });
     return found;
 }
 
@@ -173,13 +191,15 @@ std::vector<ShapeId> Scene::overlap_point(Position point, const QueryFilter& fil
     if (!Checker{"Scene::overlap_point"}.finite("point", point))
         return ids;
     const SceneState& state = m_data->state;
-    visit_box(state, filter, round_outwards(point.x, point.y, point.x, point.y), [&](int shape) {
-        const Vec2 local = inverse_transform(pose_of(state, shape), point);
-        const auto surface = surface_at<float>(leaf_view(state, shape), local.x, local.y);
-        if (surface && surface->distance <= 0)
-            ids.push_back(shape_id(state, shape));
-        return true;
-    });
+    visit_box(state, filter, round_outwards(point.x, point.y, point.x, point.y),
+              [&](int shape)
+              {
+                  const Vec2 local = inverse_transform(pose_of(state, shape), point);
+                  const auto surface = surface_at<float>(leaf_view(state, shape), local.x, local.y);
+                  if (surface && surface->distance <= 0)
+                      ids.push_back(shape_id(state, shape));
+                  return true;
+              });
     return sorted_unique(std::move(ids));
 }
 
@@ -187,11 +207,13 @@ std::vector<ShapeId> Scene::overlap_box(const Box& b, const QueryFilter& filter)
 {
     const Checker check{"Scene::overlap_box"};
     if (!check.finite("box.lower", b.lower) || !check.finite("box.upper", b.upper) ||
-        !check.holds(b.lower.x <= b.upper.x && b.lower.y <= b.upper.y, "box.upper", internal::to_text(b.upper), "must not be below box.lower"))
+        !check.holds(b.lower.x <= b.upper.x && b.lower.y <= b.upper.y, "box.upper", internal::to_text(b.upper),
+                     "must not be below box.lower"))
         return {};
     const Position center{0.5 * (b.lower.x + b.upper.x), 0.5 * (b.lower.y + b.upper.y)};
     // A box without width or height is a very thin one.
-    const Vec2 half = {std::max(static_cast<float>(0.5 * (b.upper.x - b.lower.x)), 1e-5f), std::max(static_cast<float>(0.5 * (b.upper.y - b.lower.y)), 1e-5f)};
+    const Vec2 half = {std::max(static_cast<float>(0.5 * (b.upper.x - b.lower.x)), 1e-5f),
+                       std::max(static_cast<float>(0.5 * (b.upper.y - b.lower.y)), 1e-5f)};
     return overlap_shape(carom::box(half.x, half.y), {center, {}}, filter);
 }
 
@@ -200,12 +222,15 @@ std::vector<ShapeId> Scene::overlap_shape(const Geometry& geometry, const Pose& 
     constexpr const char* function = "Scene::overlap_shape";
     const Checker check{function};
     Geometry normal = geometry;
-    if (!check.finite("pose.position", pose.position) || !check.finite("pose.rotation", pose.rotation.c) || !check.finite("pose.rotation", pose.rotation.s) ||
-        !check.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") || !normalize_geometry(function, normal))
+    if (!check.finite("pose.position", pose.position) || !check.finite("pose.rotation", pose.rotation.c) ||
+        !check.finite("pose.rotation", pose.rotation.s) ||
+        !check.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") ||
+        !normalize_geometry(function, normal))
         return {};
     VertexStore store;
     std::vector<ShapeId> ids;
-    for (const Leaf& leaf : make_leaves(normal, store)) {
+    for (const Leaf& leaf : make_leaves(normal, store))
+    {
         const std::vector<ShapeId> found = overlap_leaf(m_data->state, view(leaf, store), pose, filter);
         ids.insert(ids.end(), found.begin(), found.end());
     }
@@ -220,18 +245,20 @@ std::optional<PointHit> Scene::closest_point(Position point, float max_distance,
     const SceneState& state = m_data->state;
     std::optional<PointHit> best;
     const double reach = max_distance;
-    visit_box(state, filter, round_outwards(point.x - reach, point.y - reach, point.x + reach, point.y + reach), [&](int shape) {
-        const Pose pose = pose_of(state, shape);
-        const Vec2 local = inverse_transform(pose, point);
-        const auto s = surface_at<float>(leaf_view(state, shape), local.x, local.y);
-        if (!s || s->distance > max_distance)
-            return true;
-        const Vec2 n = rotate(pose.rotation, {s->nx, s->ny});
-        const PointHit hit{shape_id(state, shape), point - s->distance * n, n, s->distance};
-        if (!best || hit.distance < best->distance || (hit.distance == best->distance && hit.shape < best->shape))
-            best = hit;
-        return true;
-    });
+    visit_box(state, filter, round_outwards(point.x - reach, point.y - reach, point.x + reach, point.y + reach),
+              [&](int shape)
+              {
+                  const Pose pose = pose_of(state, shape);
+                  const Vec2 local = inverse_transform(pose, point);
+                  const auto s = surface_at<float>(leaf_view(state, shape), local.x, local.y);
+                  if (!s || s->distance > max_distance)
+                      return true;
+                  const Vec2 n = rotate(pose.rotation, {s->nx, s->ny});
+                  const PointHit hit{shape_id(state, shape), point - s->distance * n, n, s->distance};
+                  if (!best || hit.distance < best->distance || (hit.distance == best->distance && hit.shape < best->shape))
+                      best = hit;
+                  return true;
+              });
     return best;
 }
 
@@ -249,7 +276,8 @@ ContactInfo describe(const SceneState& state, const Contact& contact)
     info.touching = (contact.flags & contact_flag::touching) != 0;
     info.color = contact.color;
     const Position center = state.sims[static_cast<std::size_t>(contact.body_a)].center;
-    for (int i = 0; i < contact.manifold.count; ++i) {
+    for (int i = 0; i < contact.manifold.count; ++i)
+    {
         const ManifoldPoint& p = contact.manifold.points[i];
         info.points[i] = {center + p.anchor_a, p.separation, p.total_impulse, p.total_tangent};
     }
@@ -264,7 +292,8 @@ std::vector<ContactInfo> Scene::contacts() const
 {
     std::vector<ContactInfo> list;
     const SceneState& state = m_data->state;
-    for (int i = 0; i < state.contacts.capacity(); ++i) {
+    for (int i = 0; i < state.contacts.capacity(); ++i)
+    {
         if (state.contacts.is_live(i) && is_listed(state.contacts[i]))
             list.push_back(describe(state, state.contacts[i]));
     }
@@ -277,7 +306,8 @@ std::vector<ContactInfo> ConstBody::contacts() const
     if (!check_live(*m_data, "Body::contacts", "body", m_id))
         return list;
     const SceneState& state = m_data->state;
-    for (int edge = state.bodies[slot_of(m_id)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1]) {
+    for (int edge = state.bodies[slot_of(m_id)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    {
         const Contact& contact = state.contacts[edge >> 1];
         if (is_listed(contact) && (contact.flags & contact_flag::touching) != 0)
             list.push_back(describe(state, contact));

@@ -16,12 +16,16 @@ namespace {
 
 bool check_curve(const Checker& check, const RestitutionCurve& curve)
 {
-    if (!check.holds(curve.count <= curve.points.size(), "RestitutionCurve::count", std::to_string(curve.count), "must be at most 8"))
+    if (!check.holds(curve.count <= curve.points.size(), "RestitutionCurve::count", std::to_string(curve.count),
+                     "must be at most 8"))
         return false;
-    for (std::uint32_t i = 0; i < curve.count; ++i) {
+    for (std::uint32_t i = 0; i < curve.count; ++i)
+    {
         const RestitutionCurve::Point& p = curve.points[i];
-        if (!check.not_negative("RestitutionCurve::points.speed", p.speed) || !check.in_range("RestitutionCurve::points.restitution", p.restitution, 0, 1) ||
-            !check.holds(i == 0 || p.speed > curve.points[i - 1].speed, "RestitutionCurve::points.speed", internal::to_text(p.speed), "must be greater than the one before"))
+        if (!check.not_negative("RestitutionCurve::points.speed", p.speed) ||
+            !check.in_range("RestitutionCurve::points.restitution", p.restitution, 0, 1) ||
+            !check.holds(i == 0 || p.speed > curve.points[i - 1].speed, "RestitutionCurve::points.speed",
+                         internal::to_text(p.speed), "must be greater than the one before"))
             return false;
     }
     return true;
@@ -32,10 +36,11 @@ bool check_def(const char* function, const ShapeDef& def)
     const Checker check{function};
     return check.not_negative("ShapeDef::density", def.density) && check.not_negative("ShapeDef::friction", def.friction) &&
            check.in_range("ShapeDef::restitution", def.restitution, 0, 1) && check_curve(check, def.restitution_curve) &&
-           check.not_negative("ShapeDef::rolling_resistance", def.rolling_resistance) && check.finite("ShapeDef::surface_speed", def.surface_speed) &&
-           check.finite("ShapeDef::one_way", def.one_way) && check.not_negative("Kick::speed", def.kick.speed) &&
-           check.not_negative("Kick::threshold", def.kick.threshold) && check.not_negative("Kick::cooldown", def.kick.cooldown) &&
-           check.finite("Field::force", def.field.force) && check.finite("Field::acceleration", def.field.acceleration) && check.not_negative("Field::drag", def.field.drag);
+           check.not_negative("ShapeDef::rolling_resistance", def.rolling_resistance) &&
+           check.finite("ShapeDef::surface_speed", def.surface_speed) && check.finite("ShapeDef::one_way", def.one_way) &&
+           check.not_negative("Kick::speed", def.kick.speed) && check.not_negative("Kick::threshold", def.kick.threshold) &&
+           check.not_negative("Kick::cooldown", def.kick.cooldown) && check.finite("Field::force", def.field.force) &&
+           check.finite("Field::acceleration", def.field.acceleration) && check.not_negative("Field::drag", def.field.drag);
 }
 
 // What the body's type allows.
@@ -45,8 +50,10 @@ bool check_placement(const SceneData& data, const char* function, int body, cons
     const BodyType type = data.state.bodies[body].type;
     const bool massless = std::holds_alternative<Arc>(geometry) || std::holds_alternative<Chain>(geometry);
     const bool half_space = std::holds_alternative<HalfSpace>(geometry);
-    return check.holds(!massless || type != BodyType::Dynamic, "geometry", "an arc or chain on a dynamic body", "arcs and chains carry no mass: static and kinematic bodies only") &&
-           check.holds(!half_space || type == BodyType::Static, "geometry", "a half-space on a body that moves", "half-spaces belong to static bodies");
+    return check.holds(!massless || type != BodyType::Dynamic, "geometry", "an arc or chain on a dynamic body",
+                       "arcs and chains carry no mass: static and kinematic bodies only") &&
+           check.holds(!half_space || type == BodyType::Static, "geometry", "a half-space on a body that moves",
+                       "half-spaces belong to static bodies");
 }
 
 void write_def(ShapeRecord& record, const ShapeDef& def)
@@ -85,11 +92,13 @@ ShapeDef read_def(const ShapeRecord& record, std::uint64_t user_data)
 template <class Visit>
 void for_each_own_leaf(const SceneState& state, int shape, Visit&& visit)
 {
-    if (state.shapes[shape].has_leaf) {
+    if (state.shapes[shape].has_leaf)
+    {
         visit(shape);
         return;
     }
-    for (int piece = state.shapes[shape].next_piece; piece != none;) {
+    for (int piece = state.shapes[shape].next_piece; piece != none;)
+    {
         const int next = state.shapes[piece].next_piece;
         visit(piece);
         piece = next;
@@ -105,7 +114,8 @@ void add_leaves(SceneData& data, int shape, const Geometry& geometry)
     SceneState& state = data.state;
     const std::vector<Leaf> leaves = make_leaves(geometry, state.vertices);
     const bool enabled = state.bodies[state.shapes[shape].body].enabled;
-    if (!std::holds_alternative<Chain>(geometry)) {
+    if (!std::holds_alternative<Chain>(geometry))
+    {
         state.shapes[shape].leaf = leaves.front();
         state.shapes[shape].has_leaf = true;
         if (enabled)
@@ -113,7 +123,8 @@ void add_leaves(SceneData& data, int shape, const Geometry& geometry)
         return;
     }
     int last = none;
-    for (const Leaf& leaf : leaves) {
+    for (const Leaf& leaf : leaves)
+    {
         ShapeRecord piece = state.shapes[shape];
         piece.leaf = leaf;
         piece.has_leaf = true;
@@ -131,14 +142,16 @@ void add_leaves(SceneData& data, int shape, const Geometry& geometry)
 void remove_leaves(SceneData& data, int shape)
 {
     SceneState& state = data.state;
-    for_each_own_leaf(state, shape, [&](int leaf) {
-        destroy_contacts_of_shape(data, leaf);
-        state.broad_phase.remove(leaf);
-        if (state.shapes[leaf].leaf.type == LeafType::Polygon)
-            state.vertices.release(state.shapes[leaf].leaf.first, state.shapes[leaf].leaf.count);
-        if (leaf != shape)
-            state.shapes.destroy(leaf);
-    });
+    for_each_own_leaf(state, shape,
+                      [&](int leaf)
+                      {
+                          destroy_contacts_of_shape(data, leaf);
+                          state.broad_phase.remove(leaf);
+                          if (state.shapes[leaf].leaf.type == LeafType::Polygon)
+                              state.vertices.release(state.shapes[leaf].leaf.first, state.shapes[leaf].leaf.count);
+                          if (leaf != shape)
+                              state.shapes.destroy(leaf);
+                      });
     state.shapes[shape].has_leaf = false;
     state.shapes[shape].next_piece = none;
 }
@@ -149,7 +162,8 @@ void unlink_shape(SceneData& data, int shape)
     BodyRecord& body = state.bodies[state.shapes[shape].body];
     int before = none;
     std::int32_t* link = &body.first_shape;
-    while (*link != shape) {
+    while (*link != shape)
+    {
         before = *link;
         link = &state.shapes[*link].next_shape;
     }
@@ -177,7 +191,8 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
         return {};
     const int body_slot = slot_of(body);
     Geometry normal = geometry;
-    if (!check_def(function, def) || !check_placement(*m_data, function, body_slot, geometry) || !normalize_geometry(function, normal))
+    if (!check_def(function, def) || !check_placement(*m_data, function, body_slot, geometry) ||
+        !normalize_geometry(function, normal))
         return {};
     SceneState& state = m_data->state;
     ShapeRecord record;
@@ -213,8 +228,8 @@ void Scene::set_callbacks(ShapeId id, ShapeCallbacks callbacks)
     if (!check_live(*m_data, "Scene::set_callbacks", "shape", id))
         return;
     auto& slot = m_data->shape_extras[static_cast<std::size_t>(slot_of(id))].callbacks;
-    const bool any = callbacks.on_contact_begin || callbacks.on_impact || callbacks.on_contact_end || callbacks.on_trigger_enter || callbacks.on_trigger_inside ||
-                     callbacks.on_trigger_exit;
+    const bool any = callbacks.on_contact_begin || callbacks.on_impact || callbacks.on_contact_end ||
+                     callbacks.on_trigger_enter || callbacks.on_trigger_inside || callbacks.on_trigger_exit;
     m_data->callback_count += static_cast<int>(any) - static_cast<int>(slot.has_value());
     if (any)
         slot = std::move(callbacks);
@@ -239,9 +254,11 @@ std::vector<ShapeId> Scene::inside(ShapeId id) const
     std::vector<ShapeId> visitors;
     const SceneState& state = m_data->state;
     if (!check_live(*m_data, "Scene::inside", "trigger", id) ||
-        !Checker{"Scene::inside"}.holds(state.shapes[slot_of(id)].trigger, "trigger", internal::to_text(id), "must be a trigger shape"))
+        !Checker{"Scene::inside"}.holds(state.shapes[slot_of(id)].trigger, "trigger", internal::to_text(id),
+                                        "must be a trigger shape"))
         return visitors;
-    for (const std::int32_t index : state.trigger_contacts) {
+    for (const std::int32_t index : state.trigger_contacts)
+    {
         const Contact& contact = state.contacts[index];
         if ((contact.flags & contact_flag::touching) != 0 && state.shapes[contact.shape_a].owner == slot_of(id))
             visitors.push_back(shape_id(state, contact.shape_b));
@@ -255,12 +272,15 @@ std::vector<ShapeId> Scene::inside(ShapeId id) const
 
 BodyId ConstShape::body() const
 {
-    return check_live(*m_data, "Shape::body", "shape", m_id) ? body_id(m_data->state, m_data->state.shapes[slot_of(m_id)].body) : BodyId{};
+    return check_live(*m_data, "Shape::body", "shape", m_id) ? body_id(m_data->state, m_data->state.shapes[slot_of(m_id)].body)
+                                                             : BodyId{};
 }
 
 Geometry ConstShape::geometry() const
 {
-    return check_live(*m_data, "Shape::geometry", "shape", m_id) ? m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].geometry : Geometry{};
+    return check_live(*m_data, "Shape::geometry", "shape", m_id)
+               ? m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].geometry
+               : Geometry{};
 }
 
 ShapeDef ConstShape::def() const
@@ -270,11 +290,16 @@ ShapeDef ConstShape::def() const
     return read_def(m_data->state.shapes[slot_of(m_id)], m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data);
 }
 
-bool ConstShape::is_trigger() const { return check_live(*m_data, "Shape::is_trigger", "shape", m_id) && m_data->state.shapes[slot_of(m_id)].trigger; }
+bool ConstShape::is_trigger() const
+{
+    return check_live(*m_data, "Shape::is_trigger", "shape", m_id) && m_data->state.shapes[slot_of(m_id)].trigger;
+}
 
 std::uint64_t ConstShape::user_data() const
 {
-    return check_live(*m_data, "Shape::user_data", "shape", m_id) ? m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data : 0;
+    return check_live(*m_data, "Shape::user_data", "shape", m_id)
+               ? m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data
+               : 0;
 }
 
 Box ConstShape::bounds() const
@@ -284,11 +309,13 @@ Box ConstShape::bounds() const
     const SceneState& state = m_data->state;
     const Pose pose = state.sims[static_cast<std::size_t>(state.shapes[slot_of(m_id)].body)].pose();
     Box total{{1e30, 1e30}, {-1e30, -1e30}};
-    for_each_own_leaf(state, slot_of(m_id), [&](int leaf) {
-        const Box b = leaf_bounds(leaf_view(state, leaf), pose);
-        total.lower = {std::min(total.lower.x, b.lower.x), std::min(total.lower.y, b.lower.y)};
-        total.upper = {std::max(total.upper.x, b.upper.x), std::max(total.upper.y, b.upper.y)};
-    });
+    for_each_own_leaf(state, slot_of(m_id),
+                      [&](int leaf)
+                      {
+                          const Box b = leaf_bounds(leaf_view(state, leaf), pose);
+                          total.lower = {std::min(total.lower.x, b.lower.x), std::min(total.lower.y, b.lower.y)};
+                          total.upper = {std::max(total.upper.x, b.upper.x), std::max(total.upper.y, b.upper.y)};
+                      });
     return total;
 }
 
@@ -299,10 +326,12 @@ bool ConstShape::contains(Position point) const
     const SceneState& state = m_data->state;
     const Vec2 local = inverse_transform(state.sims[static_cast<std::size_t>(state.shapes[slot_of(m_id)].body)].pose(), point);
     bool inside = false;
-    for_each_own_leaf(state, slot_of(m_id), [&](int leaf) {
-        const auto surface = surface_at<float>(leaf_view(state, leaf), local.x, local.y);
-        inside |= surface && surface->distance <= 0;
-    });
+    for_each_own_leaf(state, slot_of(m_id),
+                      [&](int leaf)
+                      {
+                          const auto surface = surface_at<float>(leaf_view(state, leaf), local.x, local.y);
+                          inside |= surface && surface->distance <= 0;
+                      });
     return inside;
 }
 
@@ -316,13 +345,16 @@ void Shape::set_def(const ShapeDef& def)
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
     const bool meets_others = old.filter != def.filter || old.trigger != def.trigger;
     write_def(state.shapes[slot], def);
-    for_each_own_leaf(state, slot, [&](int leaf) {
-        write_def(state.shapes[leaf], def);
-        if (meets_others) {
-            destroy_contacts_of_shape(*m_data, leaf);
-            state.fresh_shapes.push_back(leaf);
-        }
-    });
+    for_each_own_leaf(state, slot,
+                      [&](int leaf)
+                      {
+                          write_def(state.shapes[leaf], def);
+                          if (meets_others)
+                          {
+                              destroy_contacts_of_shape(*m_data, leaf);
+                              state.fresh_shapes.push_back(leaf);
+                          }
+                      });
     for_each_contact(state, old.body, [&](int contact) { mix_materials(*m_data, state.contacts[contact]); });
     m_data->shape_extras[static_cast<std::size_t>(slot)].user_data = def.user_data;
     if (old.density != def.density || old.trigger != def.trigger)

@@ -11,7 +11,8 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
     JointRow row = line_row(d, pose, l - joint.lower, RowKind::Hold, slot_axis);
     row.hertz = joint.hertz;
     row.damping_ratio = joint.damping_ratio;
-    if (joint.lower == joint.upper) {
+    if (joint.lower == joint.upper)
+    {
         out.add(row);
         return;
     }

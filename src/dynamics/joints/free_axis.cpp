@@ -6,7 +6,8 @@ namespace carom::internal {
 
 void add_free_axis(const JointRecord& joint, JointRow axis, float coordinate, float h, JointRows& out)
 {
-    if (joint.hertz > 0) {
+    if (joint.hertz > 0)
+    {
         axis.kind = RowKind::Spring;
         axis.slot = slot_spring;
         axis.error = coordinate - joint.spring_target;
@@ -15,14 +16,16 @@ void add_free_axis(const JointRecord& joint, JointRow axis, float coordinate, fl
         out.add(axis);
         axis.hertz = 0;
     }
-    if (joint.enable_motor) {
+    if (joint.enable_motor)
+    {
         axis.kind = RowKind::Motor;
         axis.slot = slot_motor;
         axis.target = joint.motor_speed;
         axis.max_impulse = h * joint.max_motor;
         out.add(axis);
     }
-    if (joint.enable_limit) {
+    if (joint.enable_limit)
+    {
         axis.kind = RowKind::Limit;
         axis.slot = slot_lower;
         axis.error = coordinate - joint.lower;

@@ -59,9 +59,11 @@ public:
         const auto root_level = static_cast<std::int32_t>(m_levels.size()) - 1;
         if (test(m_levels.back()[0]))
             stack[depth++] = {root_level, 0};
-        while (depth > 0) {
+        while (depth > 0)
+        {
             const Entry e = stack[--depth];
-            if (e.level == 0) {
+            if (e.level == 0)
+            {
                 if (!visit(m_items[static_cast<std::size_t>(e.node)]))
                     return false;
                 continue;
@@ -69,7 +71,8 @@ public:
             const std::vector<FloatBox>& below = m_levels[static_cast<std::size_t>(e.level) - 1];
             const std::int32_t first = e.node * arity;
             const std::int32_t last = std::min(first + arity, static_cast<std::int32_t>(below.size()));
-            for (std::int32_t i = last; i-- > first;) {
+            for (std::int32_t i = last; i-- > first;)
+            {
                 if (test(below[static_cast<std::size_t>(i)]))
                     stack[depth++] = {e.level - 1, i};
             }

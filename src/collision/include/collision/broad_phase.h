@@ -47,11 +47,13 @@ public:
     bool descend(Layer layer, Test&& test, Visit&& visit) const
     {
         const Forest& forest = m_forests[static_cast<std::size_t>(layer)];
-        for (const std::int32_t item : forest.recent) {
+        for (const std::int32_t item : forest.recent)
+        {
             if (test(box(item)) && !visit(item))
                 return false;
         }
-        for (const BoxTree& tree : forest.trees) {
+        for (const BoxTree& tree : forest.trees)
+        {
             if (!tree.descend(test, visit))
                 return false;
         }

@@ -16,7 +16,8 @@ class Hull
 public:
     explicit Hull(const LeafView& v)
     {
-        if (v.leaf->type == LeafType::Polygon) {
+        if (v.leaf->type == LeafType::Polygon)
+        {
             m_points = v.points;
             m_normals = v.normals;
             m_count = v.leaf->count;
@@ -24,7 +25,8 @@ public:
             return;
         }
         const CapsuleSides sides = capsule_sides(*v.leaf);
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < 2; ++i)
+        {
             m_buffer[i] = sides.points[i];
             m_buffer[2 + i] = sides.normals[i];
             m_radii[i] = sides.radii[i];
@@ -39,12 +41,15 @@ public:
     Hull(const LeafView& v, const Pose& pose) : Hull(v)
     {
         Vec2* store = m_buffer;
-        if (2 * m_count > buffer_size) {
+        if (2 * m_count > buffer_size)
+        {
             m_large.resize(static_cast<std::size_t>(2 * m_count));
             store = m_large.data();
         }
-        Vec2* normals = store + m_count; // a two-point hull already lies there in its own frame: each entry is read before it is written
-        for (int i = 0; i < m_count; ++i) {
+        Vec2* normals =
+            store + m_count; // a two-point hull already lies there in its own frame: each entry is read before it is written
+        for (int i = 0; i < m_count; ++i)
+        {
             store[i] = pose.to_a(m_points[i]);
             normals[i] = rotate(pose.rotation, m_normals[i]);
         }
@@ -60,7 +65,10 @@ public:
     [[nodiscard]] Vec2 normal(int i) const { return m_normals[i]; }
     [[nodiscard]] float radius(int i) const { return m_radii[i & (m_count == 2)]; }
     [[nodiscard]] float offset(int edge) const { return dot(m_normals[edge], m_points[edge]) + radius(edge); }
-    [[nodiscard]] Surface<float> surface_at(Vec2 p) const { return surface_of_hull<float>(m_points, m_normals, m_radii, m_count, p.x, p.y); }
+    [[nodiscard]] Surface<float> surface_at(Vec2 p) const
+    {
+        return surface_of_hull<float>(m_points, m_normals, m_radii, m_count, p.x, p.y);
+    }
     [[nodiscard]] Vec2 center() const
     {
         Vec2 sum{};

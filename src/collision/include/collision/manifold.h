@@ -39,11 +39,15 @@ struct LocalManifold
     LocalPoint points[2];
     int count = 0;
 
-    void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature) { points[count++] = {on_a, on_b, separation, feature}; }
+    void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature)
+    {
+        points[count++] = {on_a, on_b, separation, feature};
+    }
 };
 
 /// Fills the manifold with points whose separation is at most margin.
-using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin,
+                                 LocalManifold& out);
 
 /// The table over leaf types, row 2 of the design: every permutation that can meet is there; null where both types are massless
 /// or both are half-spaces. One implementation per unordered pair, mirrored for the other order.

@@ -23,11 +23,11 @@ struct CenterPath
 
 struct FramePath
 {
-    CenterPath center;     ///< of mass
-    Vec2 local_center{};   ///< where that is in the body's frame
-    double c = 1;          ///< rotation at t = 0
+    CenterPath center;   ///< of mass
+    Vec2 local_center{}; ///< where that is in the body's frame
+    double c = 1;        ///< rotation at t = 0
     double s = 0;
-    double w = 0;          ///< rad/s
+    double w = 0; ///< rad/s
 };
 
 struct BallHit
@@ -41,7 +41,7 @@ struct BallHit
 
 /// The first time in [0, duration] at which the ball touches the leaf and approaches it faster than least_approach. Balls that overlap and approach hit at 0; what
 /// touches and separates does not hit until it comes back.
-[[nodiscard]] std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame,
-                                                         double duration, double least_approach);
+[[nodiscard]] std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf,
+                                                         const FramePath& frame, double duration, double least_approach);
 
 } // namespace carom::internal

@@ -7,8 +7,10 @@
 
 #if !defined(NDEBUG) || defined(CAROM_VALIDATE)
 #define CAROM_ASSERT(condition, sentence)                                                                                        \
-    do {                                                                                                                         \
-        if (!(condition)) {                                                                                                      \
+    do                                                                                                                           \
+    {                                                                                                                            \
+        if (!(condition))                                                                                                        \
+        {                                                                                                                        \
             std::fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, sentence, #condition);                                  \
             std::abort();                                                                                                        \
         }                                                                                                                        \

@@ -51,9 +51,11 @@ public:
             return;
         std::size_t hole = find(key);
         const std::size_t mask = m_keys.size() - 1;
-        for (std::size_t i = (hole + 1) & mask; m_keys[i] != vacant; i = (i + 1) & mask) {
+        for (std::size_t i = (hole + 1) & mask; m_keys[i] != vacant; i = (i + 1) & mask)
+        {
             const std::size_t home = home_of(m_keys[i]);
-            if (((i - home) & mask) >= ((i - hole) & mask)) {
+            if (((i - home) & mask) >= ((i - hole) & mask))
+            {
                 m_keys[hole] = m_keys[i];
                 hole = i;
             }
@@ -79,7 +81,8 @@ private:
     {
         std::vector<std::uint64_t> old(m_keys.empty() ? 16 : m_keys.size() * 2, vacant);
         old.swap(m_keys);
-        for (std::uint64_t key : old) {
+        for (std::uint64_t key : old)
+        {
             if (key != vacant)
                 m_keys[find(key)] = key;
         }

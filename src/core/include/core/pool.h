@@ -20,11 +20,14 @@ public:
     int create(const T& value)
     {
         int slot;
-        if (m_free.empty()) {
+        if (m_free.empty())
+        {
             slot = static_cast<int>(m_items.size());
             m_items.push_back(value);
             m_generations.push_back(1);
-        } else {
+        }
+        else
+        {
             slot = m_free.back();
             m_free.pop_back();
             m_items[static_cast<std::size_t>(slot)] = value;

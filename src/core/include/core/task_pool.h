@@ -10,7 +10,8 @@ namespace carom::internal {
 template <class Task>
 void run_tasks(const TaskHooks& hooks, int count, const Task& task)
 {
-    if (hooks.run == nullptr || hooks.worker_count <= 1 || count <= 1) {
+    if (hooks.run == nullptr || hooks.worker_count <= 1 || count <= 1)
+    {
         for (int i = 0; i < count; ++i)
             task(i);
         return;

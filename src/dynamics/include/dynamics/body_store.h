@@ -10,8 +10,10 @@ namespace carom::internal {
 template <class Visit>
 void for_each_leaf(const SceneState& state, int body, Visit&& visit)
 {
-    for (int shape = state.bodies[body].first_shape; shape != none; shape = state.shapes[shape].next_shape) {
-        if (state.shapes[shape].has_leaf) {
+    for (int shape = state.bodies[body].first_shape; shape != none; shape = state.shapes[shape].next_shape)
+    {
+        if (state.shapes[shape].has_leaf)
+        {
             visit(shape);
             continue;
         }
@@ -20,7 +22,10 @@ void for_each_leaf(const SceneState& state, int body, Visit&& visit)
     }
 }
 
-[[nodiscard]] inline LeafView leaf_view(const SceneState& state, int shape) { return view(state.shapes[shape].leaf, state.vertices); }
+[[nodiscard]] inline LeafView leaf_view(const SceneState& state, int shape)
+{
+    return view(state.shapes[shape].leaf, state.vertices);
+}
 
 /// Mass, centre and inertia from the shapes (unless overridden), inverse masses from type and locks, and the extent.
 /// The velocity of the centre follows when the centre moves.

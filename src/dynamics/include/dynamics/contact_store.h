@@ -31,14 +31,18 @@ void remove_awake_contact(SceneState& state, int contact);
 template <class Visit>
 void for_each_contact(SceneState& state, int body, Visit&& visit)
 {
-    for (int edge = state.bodies[body].first_contact; edge != none;) {
+    for (int edge = state.bodies[body].first_contact; edge != none;)
+    {
         const int contact = edge_contact(edge);
         edge = state.contacts[contact].next[edge & 1];
         visit(contact);
     }
 }
 
-[[nodiscard]] inline int other_body(const Contact& contact, int body) { return contact.body_a == body ? contact.body_b : contact.body_a; }
+[[nodiscard]] inline int other_body(const Contact& contact, int body)
+{
+    return contact.body_a == body ? contact.body_b : contact.body_a;
+}
 
 /// Pieces of a chain are one shape to the user: does another contact of the same two public shapes touch (or, of a trigger, hold inside)?
 [[nodiscard]] bool touches_elsewhere(const SceneState& state, int contact);

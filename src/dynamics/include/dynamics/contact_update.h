@@ -18,7 +18,8 @@ struct BodyPose
 };
 
 /// Anchors from the centers of mass, world axes; impulses 0.
-[[nodiscard]] Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin);
+[[nodiscard]] Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b,
+                                      float margin);
 
 /// Points with the feature of an old one take over its impulses; a single point in a single point's place does too.
 void carry_impulses(const Manifold& old, Manifold& fresh);

@@ -12,7 +12,8 @@ namespace carom::internal {
     const ShapeRecord& record = state.shapes[half_space];
     const Pose pose = state.sims[static_cast<std::size_t>(record.body)].pose();
     const Vec2 n = rotate(pose.rotation, record.leaf.p0);
-    const double low = n.x * ((n.x > 0 ? box.lx : box.ux) - pose.position.x) + n.y * ((n.y > 0 ? box.ly : box.uy) - pose.position.y);
+    const double low =
+        n.x * ((n.x > 0 ? box.lx : box.ux) - pose.position.x) + n.y * ((n.y > 0 ? box.ly : box.uy) - pose.position.y);
     return low <= static_cast<double>(record.leaf.r0) + static_cast<double>(margin);
 }
 

@@ -21,7 +21,7 @@ struct JointRow
     Vec2 d{};
     float arm_a = 0;
     float arm_b = 0;
-    float error = 0;       ///< C
+    float error = 0; ///< C
     RowKind kind = RowKind::Hold;
     JointSlot slot = slot_x;
     float target = 0;      ///< motors: speed
@@ -34,7 +34,7 @@ struct JointRows
 {
     JointRow rows[6];
     int count = 0;
-    bool block = false;    ///< the first two rows hold a point and are solved as one
+    bool block = false; ///< the first two rows hold a point and are solved as one
 
     void add(const JointRow& row) { rows[count++] = row; }
 };
@@ -42,7 +42,7 @@ struct JointRows
 /// Where the joint's bodies are now, within the step.
 struct JointPose
 {
-    Vec2 ra{};   ///< lever arms
+    Vec2 ra{}; ///< lever arms
     Vec2 rb{};
     Vec2 gap{};  ///< anchor b - anchor a
     Vec2 axis{}; ///< slider

@@ -36,18 +36,19 @@ struct StateConstants
     float inverse_inertia = 0;
     float angular_acceleration = 0;
     Vec2 acceleration{};
-    float linear_decay = 1;  ///< of the velocity over a sub-step
+    float linear_decay = 1; ///< of the velocity over a sub-step
     float angular_decay = 1;
 };
 
 struct RowPoint
 {
-    Vec2 ra{};               ///< lever arms of the Jacobian
+    Vec2 ra{}; ///< lever arms of the Jacobian
     Vec2 rb{};
-    Vec2 ra0{};              ///< the same anchors in the orientation at the start of the step
+    Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
     Vec2 rb0{};
-    float base = 0;          ///< separation = base + n · (relative displacement of the anchors)
-    float predicted_bend = 0;///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
+    float base = 0; ///< separation = base + n · (relative displacement of the anchors)
+    float predicted_bend =
+        0; ///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
     float normal_impulse = 0;
     float tangent_impulse = 0;
     float normal_mass = 0;
@@ -59,20 +60,20 @@ struct RowPoint
 
 struct ContactRow
 {
-    std::int32_t a = 0;      ///< states
+    std::int32_t a = 0; ///< states
     std::int32_t b = 0;
     std::int32_t contact = none;
     std::int32_t count = 0;
     Vec2 n{};
     float friction = 0;
     float surface_speed = 0;
-    float coupling = 0;      ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
-    float rolling = 0;       ///< torque limit over normal impulse, m
+    float coupling = 0; ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
+    float rolling = 0;  ///< torque limit over normal impulse, m
     float rolling_impulse = 0;
     float rolling_mass = 0;
-    float core = 0;          ///< half the radius of a ball against what does not give way; 0 elsewhere
-    std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
-    std::uint8_t hit = 0;       ///< its impact was reported
+    float core = 0;               ///< half the radius of a ball against what does not give way; 0 elsewhere
+    std::uint8_t refreshed = 0;   ///< looked at anew in every sub-step
+    std::uint8_t hit = 0;         ///< its impact was reported
     std::uint8_t active_from = 0; ///< first sub-step in which it counts
     Softness softness{};
     RowPoint points[2];
@@ -88,13 +89,13 @@ struct JointWork
     float spring_speed = 0;        ///< a spring's impulse: mass (these · speed, -stretch, acceleration)
     float spring_stretch = 0;
     float spring_acceleration = 0;
-    Vec2 ra0{};              ///< anchors from the centers of mass at the start of the step, world axes
+    Vec2 ra0{}; ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
-    Vec2 axis0{};            ///< slider's axis at the start of the step
-    Vec2 gap0{};             ///< anchor b - anchor a at the start of the step
-    float angle0 = 0;        ///< joint angle at the start of the step
-    float approach[2] = {};  ///< towards the lower and upper limit, before a sub-step's forces
-    Vec2 force_sum{};        ///< impulses over the step
+    Vec2 axis0{};           ///< slider's axis at the start of the step
+    Vec2 gap0{};            ///< anchor b - anchor a at the start of the step
+    float angle0 = 0;       ///< joint angle at the start of the step
+    float approach[2] = {}; ///< towards the lower and upper limit, before a sub-step's forces
+    Vec2 force_sum{};       ///< impulses over the step
     float torque_sum = 0;
 };
 
@@ -107,25 +108,25 @@ struct Flier
     static constexpr int most_held = 4;
     std::int32_t held[most_held] = {none, none, none, none}; ///< shapes it came to rest against in this sub-step
     std::int32_t held_count = 0;
-    double hold_curvature = 0;    ///< of the surface that holds it, if that does not move
-    double x = 0;                 ///< center, relative to the body's center at the start of the step
+    double hold_curvature = 0; ///< of the surface that holds it, if that does not move
+    double x = 0;              ///< center, relative to the body's center at the start of the step
     double y = 0;
     double vx = 0;
     double vy = 0;
     double ax = 0;
     double ay = 0;
-    double time = 0;              ///< within the sub-step up to which it has flown
-    std::int32_t impacts = 0;     ///< in this sub-step
+    double time = 0;          ///< within the sub-step up to which it has flown
+    std::int32_t impacts = 0; ///< in this sub-step
     // The next event, as last computed.
-    double event_time = 0;        ///< beyond the sub-step: none
-    double nx = 0;                ///< from what is hit to the ball
+    double event_time = 0; ///< beyond the sub-step: none
+    double nx = 0;         ///< from what is hit to the ball
     double ny = 0;
     double curvature = 0;
     std::int32_t event_shape = none;
     std::int32_t event_contact = none; ///< none: found in flight, the pair has no contact yet
     std::int32_t event_state = none;   ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
     std::int32_t event_version = 0;    ///< of that state when the event was computed
-    bool landed = false;          ///< no longer flies: the solver has it from the next sub-step on
+    bool landed = false;               ///< no longer flies: the solver has it from the next sub-step on
 };
 
 } // namespace carom::internal

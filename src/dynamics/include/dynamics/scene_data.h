@@ -15,12 +15,12 @@ namespace carom::internal {
 /// Lengths and speeds below which things count as equal, from SceneDef::length_scale.
 struct Tolerances
 {
-    float slop = 0;            ///< overlap that is left alone; shapes this near touch
-    float speculation = 0;     ///< gap within which quiet pairs get rows
-    float box_margin = 0;      ///< how fat boxes are
-    float push_speed = 0;      ///< overlap is removed no faster
+    float slop = 0;        ///< overlap that is left alone; shapes this near touch
+    float speculation = 0; ///< gap within which quiet pairs get rows
+    float box_margin = 0;  ///< how fat boxes are
+    float push_speed = 0;  ///< overlap is removed no faster
     float sleep_speed = 0;
-    float rest_speed = 0;      ///< approach slower than this is not an impact
+    float rest_speed = 0; ///< approach slower than this is not an impact
 };
 
 /// What an impact leaves for the events stage; ids are made there.
@@ -33,7 +33,7 @@ struct RawImpact
 
 struct RawTouch
 {
-    std::int32_t contact = none;  ///< none: the pair has no contact, and the touch ends in the step it began
+    std::int32_t contact = none; ///< none: the pair has no contact, and the touch ends in the step it began
     std::int32_t shape_a = none;
     std::int32_t shape_b = none;
     Position point{};
@@ -84,7 +84,7 @@ struct SceneData
     std::vector<ShapeExtra> shape_extras;
     std::vector<JointExtra> joint_extras;
     Events events{};
-    Events pending{};   ///< ends and exits that user verbs cause between steps; delivered with the next step
+    Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step
     StepReport report{};
     Scratch scratch{};
     int callback_count = 0; ///< shapes that have callbacks

@@ -24,34 +24,34 @@ struct BodyRecord
     bool enabled = true;
     bool can_sleep = true;
     bool mass_overridden = false;
-    bool has_target = false;          ///< kinematic: BodySim::target is to be reached in the next step
-    std::int32_t awake_index = none;  ///< place in SceneState::awake_bodies; none: static, asleep or disabled
+    bool has_target = false;         ///< kinematic: BodySim::target is to be reached in the next step
+    std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
     std::int32_t last_shape = none;
-    std::int32_t first_joint = none;  ///< edge: joint * 2 + side
-    std::int32_t first_contact = none;///< edge: contact * 2 + side
-    std::int32_t island = none;       ///< label: the least body of the island, valid while awake
+    std::int32_t first_joint = none;   ///< edge: joint * 2 + side
+    std::int32_t first_contact = none; ///< edge: contact * 2 + side
+    std::int32_t island = none;        ///< label: the least body of the island, valid while awake
 };
 
 struct BodySim
 {
-    Position center{};                ///< of mass, in the world
+    Position center{}; ///< of mass, in the world
     Rotation rotation{};
-    Vec2 local_center{};              ///< of mass, in the body's frame
+    Vec2 local_center{}; ///< of mass, in the body's frame
     Vec2 velocity{};
     float angular_velocity = 0;
     float mass = 0;
     float inertia = 0;
-    Vec2 inverse_mass{};              ///< per axis: 0 where locked
+    Vec2 inverse_mass{}; ///< per axis: 0 where locked
     float inverse_inertia = 0;
     Vec2 force{};
     float torque = 0;
     float gravity_scale = 1;
     float linear_damping = 0;
     float angular_damping = 0;
-    float sleep_time = 0;             ///< s below the sleep speed
-    float extent = 0;                 ///< farthest point of any shape from the center of mass
-    Position previous_center{};       ///< at the start of the last step
+    float sleep_time = 0;       ///< s below the sleep speed
+    float extent = 0;           ///< farthest point of any shape from the center of mass
+    Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
     Position target_center{};
     Rotation target_rotation{};
@@ -82,9 +82,9 @@ static_assert(sizeof(BodyState) == 32);
 struct ShapeRecord
 {
     std::int32_t body = none;
-    std::int32_t owner = none;        ///< the public shape: itself, or the chain
-    std::int32_t next_piece = none;   ///< of a chain: its first piece; of a piece: the next
-    std::int32_t next_shape = none;   ///< of the body, public ones only
+    std::int32_t owner = none;      ///< the public shape: itself, or the chain
+    std::int32_t next_piece = none; ///< of a chain: its first piece; of a piece: the next
+    std::int32_t next_shape = none; ///< of the body, public ones only
     bool has_leaf = false;
     bool trigger = false;
     bool yields_material = false;
@@ -96,7 +96,7 @@ struct ShapeRecord
     float surface_speed = 0;
     Vec2 one_way{};
     Kick kick{};
-    double kick_ready = 0;            ///< scene time from which the kick may fire again
+    double kick_ready = 0; ///< scene time from which the kick may fire again
     Filter filter{};
     Field field{};
     Leaf leaf{};
@@ -104,31 +104,31 @@ struct ShapeRecord
 
 struct ManifoldPoint
 {
-    Vec2 anchor_a{};                  ///< from a's center of mass to a's surface, world axes
+    Vec2 anchor_a{}; ///< from a's center of mass to a's surface, world axes
     Vec2 anchor_b{};
     float separation = 0;
-    float normal_impulse = 0;         ///< of the last sub-step, for warm starting
+    float normal_impulse = 0; ///< of the last sub-step, for warm starting
     float tangent_impulse = 0;
-    float total_impulse = 0;          ///< over the last step
+    float total_impulse = 0; ///< over the last step
     float total_tangent = 0;
     std::uint32_t feature = 0;
 };
 
 struct Manifold
 {
-    Vec2 normal{};                    ///< from a to b, world axes
+    Vec2 normal{}; ///< from a to b, world axes
     float rolling_impulse = 0;
     std::int32_t count = 0;
     ManifoldPoint points[2];
 };
 
 namespace contact_flag {
-inline constexpr std::uint32_t trigger = 1;   ///< b visits trigger a
-inline constexpr std::uint32_t touching = 2;  ///< begun and not ended; for triggers: inside
-inline constexpr std::uint32_t passing = 4;   ///< one-way: went through from behind, until it is free
-inline constexpr std::uint32_t fresh = 8;     ///< never updated
-inline constexpr std::uint32_t round = 16;    ///< a circle takes part
-inline constexpr std::uint32_t loaded = 32;   ///< had an impulse at the end of the last step
+inline constexpr std::uint32_t trigger = 1;  ///< b visits trigger a
+inline constexpr std::uint32_t touching = 2; ///< begun and not ended; for triggers: inside
+inline constexpr std::uint32_t passing = 4;  ///< one-way: went through from behind, until it is free
+inline constexpr std::uint32_t fresh = 8;    ///< never updated
+inline constexpr std::uint32_t round = 16;   ///< a circle takes part
+inline constexpr std::uint32_t loaded = 32;  ///< had an impulse at the end of the last step
 } // namespace contact_flag
 
 struct Contact
@@ -137,13 +137,13 @@ struct Contact
     std::int32_t shape_b = none;
     std::int32_t body_a = none;
     std::int32_t body_b = none;
-    std::int32_t next[2] = {none, none};     ///< edges in the bodies' lists
+    std::int32_t next[2] = {none, none}; ///< edges in the bodies' lists
     std::int32_t previous[2] = {none, none};
-    std::int32_t awake_index = none;         ///< place in awake_contacts or trigger_contacts
+    std::int32_t awake_index = none; ///< place in awake_contacts or trigger_contacts
     std::uint32_t flags = 0;
     float friction = 0;
     float rolling_resistance = 0;
-    float surface_speed = 0;                 ///< of b against a along perp(normal)
+    float surface_speed = 0; ///< of b against a along perp(normal)
     std::int32_t color = none;
     Manifold manifold{};
 };
@@ -159,7 +159,7 @@ enum class JointType : std::uint8_t
 /// Where a joint's rows keep their impulses.
 enum JointSlot
 {
-    slot_x,     ///< a point held along x, or a slider held across its axis
+    slot_x, ///< a point held along x, or a slider held across its axis
     slot_y,
     slot_lock,  ///< an angle held
     slot_axis,  ///< a length held
@@ -176,7 +176,7 @@ struct JointRecord
     bool collide_connected = true;
     bool enable_limit = false;
     bool enable_motor = false;
-    std::int32_t body_a = none;              ///< none: the world
+    std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
     std::int32_t next[2] = {none, none};
     std::int32_t previous[2] = {none, none};
@@ -184,17 +184,17 @@ struct JointRecord
     Vec2 anchor_b{};
     Vec2 axis_a{1, 0};
     float reference_angle = 0;
-    float stiffness = 0;                     ///< spring
+    float stiffness = 0; ///< spring
     float damping = 0;
-    float lower = 0;                         ///< limits: angle, translation, or length
-    float upper = 0;                         ///< spring: its length
+    float lower = 0; ///< limits: angle, translation, or length
+    float upper = 0; ///< spring: its length
     float limit_restitution = 0;
     float motor_speed = 0;
     float max_motor = 0;
-    float hertz = 0;                         ///< of the soft limits, or of the spring along the free axis
+    float hertz = 0; ///< of the soft limits, or of the spring along the free axis
     float damping_ratio = 0;
     float spring_target = 0;
-    float impulses[joint_slots] = {};        ///< of the last sub-step, by JointSlot, for warm starting
+    float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
     // Read-back over the last step.
     Vec2 force{};
     float torque = 0;
@@ -203,19 +203,19 @@ struct JointRecord
 struct SceneState
 {
     Pool<BodyRecord> bodies;
-    std::vector<BodySim> sims;               ///< by body slot
+    std::vector<BodySim> sims; ///< by body slot
     Pool<ShapeRecord> shapes;
     VertexStore vertices;
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
-    PairSet pairs;                           ///< shape pairs that have a contact
-    PairSet ignored;                         ///< body pairs that never touch
+    PairSet pairs;   ///< shape pairs that have a contact
+    PairSet ignored; ///< body pairs that never touch
     BroadPhase broad_phase;
     std::vector<std::int32_t> awake_bodies;
     std::vector<std::int32_t> awake_contacts;
     std::vector<std::int32_t> trigger_contacts;
-    std::vector<std::int32_t> fresh_shapes;  ///< new or moved by the user: they look for pairs whatever their type
-    bool graph_dirty = true;                 ///< touching contacts, joints or sleep changed since the islands were labelled
+    std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
+    bool graph_dirty = true;                ///< touching contacts, joints or sleep changed since the islands were labelled
     Vec2 gravity{};
     double time = 0;
     std::uint64_t step_count = 0;

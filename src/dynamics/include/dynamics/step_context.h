@@ -19,9 +19,9 @@ struct RawTouch;
 /// Bodies, rows and joints that are solved together through all sub-steps: an island, or islands whose paths may meet.
 struct Unit
 {
-    std::int32_t first_state = 0;   ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
+    std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
     std::int32_t state_count = 0;
-    std::int32_t first_row = 0;     ///< contact rows, sorted by color
+    std::int32_t first_row = 0; ///< contact rows, sorted by color
     std::int32_t row_count = 0;
     std::int32_t first_joint = 0;
     std::int32_t joint_count = 0;
@@ -30,7 +30,7 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
-    bool precise = false;           ///< few bodies: contacts of round shapes are looked at anew in every sub-step
+    bool precise = false; ///< few bodies: contacts of round shapes are looked at anew in every sub-step
 };
 
 /// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
@@ -61,12 +61,12 @@ struct RecordedPose
 struct UnitOutput
 {
     std::vector<RawImpact> impacts;
-    std::vector<RawTouch> begins;   ///< contacts that first bore a load in this step
+    std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
     std::vector<std::int32_t> kicked_shapes;
-    std::vector<PathPoint> path;    ///< corners of the paths of fliers
-    std::vector<RecordedPose> poses;///< after each sub-step, when asked for
+    std::vector<PathPoint> path;     ///< corners of the paths of fliers
+    std::vector<RecordedPose> poses; ///< after each sub-step, when asked for
     int flight_impacts = 0;
     int bulk_impacts = 0;
     bool capped = false;
@@ -82,9 +82,9 @@ struct UnitOutput
 
 struct Scratch
 {
-    std::vector<float> motion;                 ///< how far any point of an awake body may move in this step, by place in awake_bodies
-    std::vector<std::int32_t> unsound;         ///< bodies whose state is no longer finite
-    std::vector<std::int32_t> moved_items;     ///< shapes whose fat box changed
+    std::vector<float> motion;             ///< how far any point of an awake body may move in this step, by place in awake_bodies
+    std::vector<std::int32_t> unsound;     ///< bodies whose state is no longer finite
+    std::vector<std::int32_t> moved_items; ///< shapes whose fat box changed
     std::vector<FloatBox> moved_boxes;
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::int32_t> parent;          ///< union-find, by place in awake_bodies
@@ -93,15 +93,15 @@ struct Scratch
     std::vector<std::int32_t> solved_contacts; ///< contacts that get rows, by unit
     std::vector<std::int32_t> solved_joints;
     std::vector<Unit> units;
-    std::vector<BodyState> states;             ///< [0] stands for every static body
+    std::vector<BodyState> states; ///< [0] stands for every static body
     std::vector<StateConstants> constants;
-    std::vector<std::int32_t> state_bodies;    ///< body slot of each state
+    std::vector<std::int32_t> state_bodies; ///< body slot of each state
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<std::int32_t> flier_of_state;
-    std::vector<std::int32_t> versions;        ///< of states: counts changes of their paths within a sub-step
+    std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
     std::vector<UnitOutput> outputs;
     std::vector<std::uint64_t> color_masks;
     std::vector<std::int32_t> order;
@@ -113,13 +113,20 @@ struct StepContext
     SceneState& state;
     Scratch& scratch;
     StepReport& report;
-    float dt;          ///< of the step
-    float h;           ///< of a sub-step
+    float dt; ///< of the step
+    float h;  ///< of a sub-step
     int substeps;
     Softness contact_softness;
-    Softness static_softness;  ///< against bodies of infinite mass: twice as stiff
+    Softness static_softness; ///< against bodies of infinite mass: twice as stiff
     float joint_hertz;
-    float rest_speed;          ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
+    float rest_speed; ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
 };
+
+/// How far any point of a body may move in this step, if nothing strikes it; 0 for what rests.
+[[nodiscard]] inline float motion_of(const StepContext& ctx, int body)
+{
+    const int place = ctx.state.bodies[body].awake_index;
+    return place == none ? 0 : ctx.scratch.motion[static_cast<std::size_t>(place)];
+}
 
 } // namespace carom::internal

@@ -40,11 +40,11 @@ struct Leaf
     float start_angle = 0;
     float sweep = 0;
     float cos_half_sweep = 0;
-    Vec2 arc_start{};         ///< ends of an arc
+    Vec2 arc_start{}; ///< ends of an arc
     Vec2 arc_end{};
-    Vec2 previous_tangent{};  ///< direction in which the piece before arrives at the start
-    Vec2 next_tangent{};      ///< direction in which the piece after leaves the end
-    std::int32_t first = 0;   ///< polygon: vertices [first, first + count) of the store
+    Vec2 previous_tangent{}; ///< direction in which the piece before arrives at the start
+    Vec2 next_tangent{};     ///< direction in which the piece after leaves the end
+    std::int32_t first = 0;  ///< polygon: vertices [first, first + count) of the store
     std::int32_t count = 0;
 };
 

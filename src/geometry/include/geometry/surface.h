@@ -50,7 +50,8 @@ template <class R>
 [[nodiscard]] bool start_answers(const Leaf& leaf, Vec2 tangent, R dx, R dy)
 {
     const R left_of_start = static_cast<R>(tangent.x) * dy - static_cast<R>(tangent.y) * dx;
-    if (!leaf.has_previous) {
+    if (!leaf.has_previous)
+    {
         if (leaf.sides == Sides::Both)
             return true;
         return (leaf.sides == Sides::Left) == (left_of_start > 0);
@@ -121,7 +122,8 @@ template <class R>
     const R dy = py - leaf.p0.y;
     const R d = std::sqrt(dx * dx + dy * dy);
     const R ahead = dx * leaf.p1.x + dy * leaf.p1.y;
-    if (d > 0 && ahead >= d * leaf.cos_half_sweep) {
+    if (d > 0 && ahead >= d * leaf.cos_half_sweep)
+    {
         const bool inside = d < leaf.arc_radius;
         const Sides side = inside == (leaf.sweep > 0) ? Sides::Left : Sides::Right;
         if (leaf.sides != Sides::Both && leaf.sides != side)
@@ -146,9 +148,12 @@ template <class R>
 {
     int edge = 0;
     R best = 0;
-    for (int i = 0; i < count; ++i) {
-        const R s = static_cast<R>(normals[i].x) * (px - points[i].x) + static_cast<R>(normals[i].y) * (py - points[i].y) - radii[i & (count == 2)];
-        if (i == 0 || s > best) {
+    for (int i = 0; i < count; ++i)
+    {
+        const R s = static_cast<R>(normals[i].x) * (px - points[i].x) + static_cast<R>(normals[i].y) * (py - points[i].y) -
+                    radii[i & (count == 2)];
+        if (i == 0 || s > best)
+        {
             best = s;
             edge = i;
         }
@@ -194,23 +199,23 @@ template <class R>
 [[nodiscard]] std::optional<Surface<R>> surface_at(const LeafView& v, R px, R py)
 {
     const Leaf& leaf = *v.leaf;
-    switch (leaf.type) {
+    switch (leaf.type)
+    {
     case LeafType::HalfSpace:
         return Surface<R>{static_cast<R>(leaf.p0.x) * px + static_cast<R>(leaf.p0.y) * py - leaf.r0, leaf.p0.x, leaf.p0.y, 0, 0};
-    case LeafType::Circle:
-        return surface_of_circle<R>(px, py, leaf.p0.x, leaf.p0.y, leaf.r0, 0);
-    case LeafType::Polygon: {
+    case LeafType::Circle: return surface_of_circle<R>(px, py, leaf.p0.x, leaf.p0.y, leaf.r0, 0);
+    case LeafType::Polygon:
+    {
         const float radii[2] = {leaf.r0, leaf.r0};
         return surface_of_hull<R>(v.points, v.normals, radii, leaf.count, px, py);
     }
-    case LeafType::Capsule: {
+    case LeafType::Capsule:
+    {
         const CapsuleSides sides = capsule_sides(leaf);
         return surface_of_hull<R>(sides.points, sides.normals, sides.radii, 2, px, py);
     }
-    case LeafType::Segment:
-        return surface_of_segment<R>(leaf, px, py);
-    case LeafType::Arc:
-        return surface_of_arc<R>(leaf, px, py);
+    case LeafType::Segment: return surface_of_segment<R>(leaf, px, py);
+    case LeafType::Arc: return surface_of_arc<R>(leaf, px, py);
     }
     return std::nullopt;
 }
