@@ -20,8 +20,7 @@ class Viewer
 {
 public:
     explicit Viewer(const ViewerOptions& options)
-        : m_options(options),
-          m_window({.title = "Carom lab", .width = options.width, .height = options.height})
+        : m_options(options), m_window({.title = "Carom lab", .width = options.width, .height = options.height})
     {
         m_state.xray = options.xray;
         load(*options.entry);

@@ -16,10 +16,7 @@ OutlineMesh::OutlineMesh(std::span<const Vec2> outline) : m_outline(outline.begi
 }
 
 Canvas::Canvas(ImDrawList& list, const Camera& camera, Fonts& fonts, float pixel_scale)
-    : m_list(&list),
-      m_camera(camera),
-      m_fonts(&fonts),
-      m_pixel_scale(pixel_scale)
+    : m_list(&list), m_camera(camera), m_fonts(&fonts), m_pixel_scale(pixel_scale)
 {}
 
 Path Canvas::world_arc(Position center, float radius, float start_angle, float sweep) const

@@ -135,9 +135,7 @@ class RestSearch
 {
 public:
     RestSearch(CheckContext& context, bool targets_up, std::vector<Point>& found)
-        : m_context(context),
-          m_targets_up(targets_up),
-          m_found(found)
+        : m_context(context), m_targets_up(targets_up), m_found(found)
     {
         for (const Obstacle& obstacle : context.obstacles)
             if (targets_up || part_of<DropTarget>(context.table, obstacle.element) == nullptr)

@@ -7,11 +7,9 @@
 namespace carom::pinball {
 
 CheckContext::CheckContext(const Table& checked)
-    : table(checked),
-      obstacles(obstacles_of(checked)),
+    : table(checked), obstacles(obstacles_of(checked)),
       outline(flatten(std::get<Wall>(checked.elements[checked.outline].part).path)),
-      reach(checked, obstacles, outline, checked.ball.spawn),
-      ball_radius(checked.ball.radius)
+      reach(checked, obstacles, outline, checked.ball.spawn), ball_radius(checked.ball.radius)
 {}
 
 void CheckContext::report(FindingKind kind, std::vector<Index> elements, Point where, std::string sentence)

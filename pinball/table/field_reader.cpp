@@ -54,10 +54,7 @@ std::string joined(const std::vector<std::string>& words)
 } // namespace
 
 FieldReader::FieldReader(const JsonNode& object, std::string path, std::string element, LoadErrors& errors)
-    : m_object(object),
-      m_path(std::move(path)),
-      m_element(std::move(element)),
-      m_errors(errors)
+    : m_object(object), m_path(std::move(path)), m_element(std::move(element)), m_errors(errors)
 {}
 
 FieldReader FieldReader::child(const JsonNode& object, const std::string& subpath) const

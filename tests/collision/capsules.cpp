@@ -14,7 +14,8 @@ TEST(CollisionManifold, SegmentSegment) { check_pair(LeafType::Segment, LeafType
 TEST(CollisionManifold, CapsulesInLine)
 {
     for (const Geometry& other : {Geometry{Capsule{}}, Geometry{Segment{{-0.5f, 0}, {0.5f, 0}, 0.25f}}})
-        for (const float gap : {0.05f, -0.01f}) {
+        for (const float gap : {0.05f, -0.01f})
+        {
             VertexStore store;
             const Leaf a = make_leaves(Capsule{}, store)[0];
             const Leaf b = make_leaves(other, store)[0];

@@ -14,31 +14,42 @@ using namespace carom::internal;
 
 inline Geometry random_geometry(Random& random, LeafType type)
 {
-    const auto polygon = [&] {
+    const auto polygon = [&]
+    {
         const int n = 3 + random.below(7);
         Polygon p;
-        for (int i = 0; i < n; ++i) {
+        for (int i = 0; i < n; ++i)
+        {
             const double angle = 2 * 3.14159265358979 * (i + random.range(-0.3, 0.3)) / n;
-            p.vertices.push_back({static_cast<float>(random.range(0.99, 1.0) * std::cos(angle)), static_cast<float>(0.6 * std::sin(angle))});
+            p.vertices.push_back(
+                {static_cast<float>(random.range(0.99, 1.0) * std::cos(angle)), static_cast<float>(0.6 * std::sin(angle))});
         }
         p.radius = random.chance(0.5) ? 0 : random.rangef(0.01, 0.3);
         return p;
     };
-    switch (type) {
-    case LeafType::HalfSpace:
-        return HalfSpace{.normal = {random.rangef(-1, 1), 1.1f}, .offset = random.rangef(-0.5, 0.5)};
-    case LeafType::Circle:
-        return Circle{.center = random.vec(0.3), .radius = random.rangef(0.05, 0.8)};
-    case LeafType::Polygon:
-        return polygon();
-    case LeafType::Capsule: {
+    switch (type)
+    {
+    case LeafType::HalfSpace: return HalfSpace{.normal = {random.rangef(-1, 1), 1.1f}, .offset = random.rangef(-0.5, 0.5)};
+    case LeafType::Circle: return Circle{.center = random.vec(0.3), .radius = random.rangef(0.05, 0.8)};
+    case LeafType::Polygon: return polygon();
+    case LeafType::Capsule:
+    {
         const float r = random.rangef(0.1, 0.4);
-        return Capsule{{random.rangef(-1, -0.4), random.rangef(-0.2, 0.2)}, {random.rangef(0.4, 1), 0}, r, random.chance(0.5) ? r : random.rangef(0.05, 0.4)};
+        return Capsule{{random.rangef(-1, -0.4), random.rangef(-0.2, 0.2)},
+                       {random.rangef(0.4, 1), 0},
+                       r,
+                       random.chance(0.5) ? r : random.rangef(0.05, 0.4)};
     }
     case LeafType::Segment:
-        return Segment{{random.rangef(-1, -0.3), random.rangef(-0.3, 0.3)}, {random.rangef(0.3, 1), 0}, random.chance(0.5) ? 0 : random.rangef(0.01, 0.3)};
+        return Segment{{random.rangef(-1, -0.3), random.rangef(-0.3, 0.3)},
+                       {random.rangef(0.3, 1), 0},
+                       random.chance(0.5) ? 0 : random.rangef(0.01, 0.3)};
     case LeafType::Arc:
-        return Arc{.center = random.vec(0.2), .radius = random.rangef(0.6, 2), .start_angle = random.rangef(-3, 3), .sweep = (random.chance(0.5) ? 1.0f : -1.0f) * random.rangef(0.3, 2.9), .half_thickness = random.chance(0.5) ? 0 : random.rangef(0.01, 0.2)};
+        return Arc{.center = random.vec(0.2),
+                   .radius = random.rangef(0.6, 2),
+                   .start_angle = random.rangef(-3, 3),
+                   .sweep = (random.chance(0.5) ? 1.0f : -1.0f) * random.rangef(0.3, 2.9),
+                   .half_thickness = random.chance(0.5) ? 0 : random.rangef(0.01, 0.2)};
     }
     return Circle{};
 }
@@ -96,8 +107,10 @@ inline void check(const Sample& s, bool arc, bool plane, int& hits, int& overlap
         truth = a.plane ? plane_separation(a, b) : plane_separation(b, a);
     else if (!arc)
         truth = convex_separation(a, b);
-    if (!arc) {
-        if (truth > static_cast<double>(margin) + 1e-4) {
+    if (!arc)
+    {
+        if (truth > static_cast<double>(margin) + 1e-4)
+        {
             ASSERT_EQ(m.count, 0) << "apart by " << truth;
             return;
         }
@@ -108,19 +121,23 @@ inline void check(const Sample& s, bool arc, bool plane, int& hits, int& overlap
         overlaps += truth < 0;
         // Deep overlap is measured along the best edge, which need not be the shortest way out.
         ASSERT_NEAR(least(m), truth, truth < -0.05 ? 0.3 * -truth : 1e-3);
-    } else {
+    }
+    else
+    {
         hits += m.count > 0;
         overlaps += m.count > 0 && least(m) < 0;
     }
     if (m.count == 0)
         return;
     ASSERT_NEAR(dot(m.normal, m.normal), 1, 1e-4);
-    for (int i = 0; i < m.count; ++i) {
+    for (int i = 0; i < m.count; ++i)
+    {
         const LocalPoint& p = m.points[i];
         ASSERT_LE(p.separation, margin + 1e-4f);
         ASSERT_NEAR(dot(p.on_b - p.on_a, m.normal), p.separation, 2e-3) << "the anchors are as far apart as it says";
     }
-    if (m.count == 2) {
+    if (m.count == 2)
+    {
         ASSERT_NE(m.points[0].feature, m.points[1].feature);
     }
     // The other order gives the flipped result: of two types exactly, as one is the mirror of the other; of one type another of two
@@ -129,7 +146,8 @@ inline void check(const Sample& s, bool arc, bool plane, int& hits, int& overlap
     if (!mirror && least(m) < -0.05)
         return;
     const LocalManifold f = collide(view(s.b, s.store), view(s.a, s.store), relative_pose(s.pose_b, s.pose_a), margin);
-    if (mirror) {
+    if (mirror)
+    {
         ASSERT_EQ(f.count, m.count);
     }
     const Rotation turn = inverse(s.pose_b.rotation) * s.pose_a.rotation;
@@ -148,7 +166,8 @@ inline void check_pair(LeafType a, LeafType b)
     int hits = 0;
     int overlaps = 0;
     const int count = 10000;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
+    {
         SCOPED_TRACE(i);
         check(random_sample(random, a, b), arc, plane, hits, overlaps);
         if (::testing::Test::HasFatalFailure())

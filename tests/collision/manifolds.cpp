@@ -22,7 +22,8 @@ TEST(CollisionManifold, CircleArc)
 {
     Random random(77);
     int hits = 0;
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < 10000; ++i)
+    {
         SCOPED_TRACE(i);
         const Sample s = random_sample(random, LeafType::Arc, LeafType::Circle);
         const Solid arc = solid_of(s.geometry_a, s.pose_a);
@@ -32,9 +33,12 @@ TEST(CollisionManifold, CircleArc)
             d = std::min(d, segment_distance(circle.core[0], arc.core[k - 1], arc.core[k]));
         d -= arc.radius[0] + circle.radius[0];
         const LocalManifold m = collide(view(s.a, s.store), view(s.b, s.store), relative_pose(s.pose_a, s.pose_b), margin);
-        if (d > static_cast<double>(margin) + 1e-3) {
+        if (d > static_cast<double>(margin) + 1e-3)
+        {
             ASSERT_EQ(m.count, 0) << d;
-        } else if (d < static_cast<double>(margin) - 1e-3) {
+        }
+        else if (d < static_cast<double>(margin) - 1e-3)
+        {
             ASSERT_EQ(m.count, 1) << d;
             ASSERT_NEAR(m.points[0].separation, d, 1e-3);
             ++hits;

@@ -1,7 +1,7 @@
 // The time at which a flying ball meets a leaf that moves, against stepping both paths finely.
 
-#include "collision/brute_force.h"
 #include "collision/time_of_impact.h"
+#include "collision/brute_force.h"
 
 using namespace carom;
 using namespace carom::test;
@@ -52,10 +52,12 @@ TEST(CollisionTimeOfImpact, AgreesWithFineStepping)
     Random random(5);
     int hits = 0;
     int misses = 0;
-    for (int i = 0; i < 900; ++i) {
+    for (int i = 0; i < 900; ++i)
+    {
         SCOPED_TRACE(i);
         Case c;
-        switch (i % 6) {
+        switch (i % 6)
+        {
         case 0: c.geometry = Circle{.radius = random.rangef(0.1, 1)}; break;
         case 1: c.geometry = box(random.rangef(0.2, 1), random.rangef(0.01, 0.5)); break;
         case 2: c.geometry = Capsule{{-0.8f, 0}, {0.8f, 0}, 0.2f, 0.2f}; break;
@@ -78,14 +80,16 @@ TEST(CollisionTimeOfImpact, AgreesWithFineStepping)
         double first = -1;
         double nearest = 1e9;
         const int n = 1000;
-        for (int k = 0; k <= n && first < 0; ++k) {
+        for (int k = 0; k <= n && first < 0; ++k)
+        {
             const double t = duration * k / n;
             const double d = distance_at(c, t);
             nearest = std::min(nearest, d);
             if (d <= 0)
                 first = t;
         }
-        if (first >= 0) {
+        if (first >= 0)
+        {
             // The arc of the reference is a string of 400 chords, 3e-5 m inside at the most.
             ++hits;
             ASSERT_TRUE(hit.has_value()) << "at " << first;
@@ -93,7 +97,9 @@ TEST(CollisionTimeOfImpact, AgreesWithFineStepping)
             ASSERT_LE(hit->time, first + 1e-4);
             ASSERT_GE(hit->time, first - 3 * duration / n - 1e-4);
             ASSERT_NEAR(std::hypot(hit->nx, hit->ny), 1, 1e-6);
-        } else if (nearest > 2e-3) {
+        }
+        else if (nearest > 2e-3)
+        {
             ++misses;
             ASSERT_FALSE(hit.has_value()) << "at " << hit->time << ", nearest " << nearest;
         }

@@ -16,9 +16,11 @@ TEST(ContractQuarantine, ABodyMadeNonFiniteIsPutAsideAndTheWorldGoesOn)
     scene.body(mad.body).apply_impulse({3e38f, 3e38f});
     scene.body(mad.body).apply_angular_impulse(3e38f);
     bool reported = false;
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 10; ++i)
+    {
         const StepReport& report = scene.step(1.0f / 60);
-        if (report.has(StepFlag::BodyQuarantined)) {
+        if (report.has(StepFlag::BodyQuarantined))
+        {
             reported = true;
             ASSERT_EQ(report.quarantined.size(), 1u);
             EXPECT_EQ(report.quarantined[0], mad.body);

@@ -48,10 +48,13 @@ protected:
         const std::uint64_t before = scene.state_hash();
         const std::size_t bodies = scene.bodies().size();
         const std::size_t joints = scene.joints().size();
-        try {
+        try
+        {
             call();
             ADD_FAILURE() << "not refused: " << *words.begin() << ", " << *(words.end() - 1);
-        } catch (const Error& error) {
+        }
+        catch (const Error& error)
+        {
             const std::string sentence = error.what();
             for (const char* word : words)
                 EXPECT_NE(sentence.find(word), std::string::npos) << "no '" << word << "' in: " << sentence;
@@ -90,10 +93,13 @@ protected:
 
 void scene_refused(const SceneDef& def, const char* field)
 {
-    try {
+    try
+    {
         const Scene scene(def);
         ADD_FAILURE() << "not refused: " << field;
-    } catch (const Error& error) {
+    }
+    catch (const Error& error)
+    {
         EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
     }
 }
@@ -102,7 +108,8 @@ void scene_refused(const SceneDef& def, const char* field)
 
 TEST(ContractScene, EveryFieldOfItsDefinition)
 {
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         scene_refused({.gravity = {bad, 0}}, "gravity");
         scene_refused({.gravity = {0, bad}}, "gravity");
         scene_refused({.length_scale = bad}, "length_scale");
@@ -145,7 +152,8 @@ TEST_F(Contract, TheSentenceNamesFunctionFieldAndValue)
 
 TEST_F(Contract, BodyDefinitions)
 {
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         body_refused({.position = {static_cast<double>(bad), 0}}, "position");
         body_refused({.position = {0, static_cast<double>(bad)}}, "position");
         body_refused({.angle = bad}, "angle");
@@ -162,13 +170,15 @@ TEST_F(Contract, BodyDefinitions)
 
 TEST_F(Contract, Geometries)
 {
-    for (const float bad : {not_a_number, infinite, -infinite, 0.0f, -1.0f}) {
+    for (const float bad : {not_a_number, infinite, -infinite, 0.0f, -1.0f})
+    {
         geometry_refused(Circle{.radius = bad}, "radius");
         geometry_refused(Capsule{.radius_a = bad}, "radius_a");
         geometry_refused(Capsule{.radius_b = bad}, "radius_b");
         geometry_refused(Arc{.radius = bad}, "radius", fixed.body);
     }
-    for (const float bad : {not_a_number, infinite, -infinite, -1.0f}) {
+    for (const float bad : {not_a_number, infinite, -infinite, -1.0f})
+    {
         geometry_refused(Segment{.half_thickness = bad}, "half_thickness");
         geometry_refused(Arc{.half_thickness = bad}, "half_thickness", fixed.body);
         geometry_refused(Chain{.pieces = {{.end = {1, 0}}}, .half_thickness = bad}, "half_thickness", fixed.body);
@@ -176,7 +186,8 @@ TEST_F(Contract, Geometries)
         round.radius = bad;
         geometry_refused(round, "radius");
     }
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         geometry_refused(Circle{.center = {bad, 0}}, "center");
         geometry_refused(Circle{.center = {0, bad}}, "center");
         geometry_refused(Capsule{.a = {bad, 0}}, "Capsule.a");
@@ -199,7 +210,8 @@ TEST_F(Contract, Geometries)
     geometry_refused(Polygon{{{0, 0}, {1, 0}, {1, 0}, {0, 0}}}, "vertices");
     geometry_refused(Polygon{{{0, 0}, {2, 0}, {1, 0.5f}, {1, 2}}}, "vertices"); // concave
     geometry_refused(Polygon{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}}, "vertices");    // crosses itself
-    geometry_refused(Polygon{{{0, 1}, {0.5878f, -0.809f}, {-0.951f, 0.309f}, {0.951f, 0.309f}, {-0.5878f, -0.809f}}}, "vertices"); // a pentagram turns twice
+    geometry_refused(Polygon{{{0, 1}, {0.5878f, -0.809f}, {-0.951f, 0.309f}, {0.951f, 0.309f}, {-0.5878f, -0.809f}}},
+                     "vertices"); // a pentagram turns twice
     geometry_refused(Segment{{1, 1}, {1, 1}}, "Segment.b");
     geometry_refused(Capsule{.a = {1, 1}, .b = {1, 1}}, "Capsule.b");
     geometry_refused(Capsule{.a = {0, 0}, .b = {0.1f, 0}, .radius_a = 1, .radius_b = 0.2f}, "Capsule.b");
@@ -220,7 +232,8 @@ TEST_F(Contract, Geometries)
 
 TEST_F(Contract, BoxHelper)
 {
-    for (const float bad : {not_a_number, infinite, 0.0f, -1.0f}) {
+    for (const float bad : {not_a_number, infinite, 0.0f, -1.0f})
+    {
         refused([&] { static_cast<void>(box(bad, 1)); }, {"box", "half_width"});
         refused([&] { static_cast<void>(box(1, bad)); }, {"box", "half_height"});
     }
@@ -231,7 +244,8 @@ TEST_F(Contract, BoxHelper)
 
 TEST_F(Contract, ShapeDefinitions)
 {
-    for (const float bad : {not_a_number, infinite, -infinite, -1.0f}) {
+    for (const float bad : {not_a_number, infinite, -infinite, -1.0f})
+    {
         def_refused({.density = bad}, "density");
         def_refused({.friction = bad}, "friction");
         def_refused({.restitution = bad}, "restitution");
@@ -241,7 +255,8 @@ TEST_F(Contract, ShapeDefinitions)
         def_refused({.kick = {.cooldown = bad}}, "Kick::cooldown");
         def_refused({.trigger = true, .field = {.drag = bad}}, "Field::drag");
     }
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         def_refused({.surface_speed = bad}, "surface_speed");
         def_refused({.one_way = {bad, 0}}, "one_way");
         def_refused({.trigger = true, .field = {.force = {bad, 0}}}, "Field::force");
@@ -268,9 +283,11 @@ TEST_F(Contract, ShapeDefinitions)
 
 TEST_F(Contract, BodyVerbs)
 {
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         const Body body = scene.body(ball.body);
-        const auto verb = [&](const char* name, const char* field, auto&& call) { refused([&] { call(scene.body(ball.body)); }, {name, field}); };
+        const auto verb = [&](const char* name, const char* field, auto&& call)
+        { refused([&] { call(scene.body(ball.body)); }, {name, field}); };
         verb("Body::teleport", "position", [&](Body b) { b.teleport({static_cast<double>(bad), 0}, 0); });
         verb("Body::teleport", "angle", [&](Body b) { b.teleport({}, bad); });
         verb("Body::set_velocity", "velocity", [&](Body b) { b.set_velocity({bad, 0}); });
@@ -289,9 +306,11 @@ TEST_F(Contract, BodyVerbs)
         verb("Body::set_mass", "mass", [&](Body b) { b.set_mass({.mass = bad, .inertia = 1}); });
         verb("Body::set_mass", "center", [&](Body b) { b.set_mass({.mass = 1, .center = {bad, 0}, .inertia = 1}); });
         verb("Body::set_mass", "inertia", [&](Body b) { b.set_mass({.mass = 1, .inertia = bad}); });
-        verb("Body::velocity_at", "world_point", [&](Body b) { static_cast<void>(b.velocity_at({static_cast<double>(bad), 0})); });
+        verb("Body::velocity_at", "world_point",
+             [&](Body b) { static_cast<void>(b.velocity_at({static_cast<double>(bad), 0})); });
         verb("Body::interpolated_pose", "alpha", [&](Body b) { static_cast<void>(b.interpolated_pose(bad)); });
-        refused([&] { scene.body(bar.body).set_target_pose({static_cast<double>(bad), 0}, 0); }, {"Body::set_target_pose", "position"});
+        refused([&] { scene.body(bar.body).set_target_pose({static_cast<double>(bad), 0}, 0); },
+                {"Body::set_target_pose", "position"});
         refused([&] { scene.body(bar.body).set_target_pose({}, bad); }, {"Body::set_target_pose", "angle"});
         static_cast<void>(body);
     }
@@ -316,7 +335,8 @@ TEST_F(Contract, BodiesWithMasslessShapesCannotBecomeDynamic)
 
 TEST_F(Contract, Joints)
 {
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         joint_refused(SpringDef{.body_a = ball.body, .anchor_a = {bad, 0}}, "anchor_a");
         joint_refused(SpringDef{.body_a = ball.body, .anchor_b = {bad, 0}}, "anchor_b");
         joint_refused(SpringDef{.body_a = ball.body, .length = bad}, "length");
@@ -334,7 +354,8 @@ TEST_F(Contract, Joints)
         joint_refused(PrismaticDef{.body_a = ball.body, .motor_speed = bad}, "motor_speed");
         joint_refused(PrismaticDef{.body_a = ball.body, .spring_translation = bad}, "spring_translation");
     }
-    for (const float bad : {not_a_number, infinite, -infinite, -1.0f}) {
+    for (const float bad : {not_a_number, infinite, -infinite, -1.0f})
+    {
         joint_refused(SpringDef{.body_a = ball.body, .stiffness = bad}, "stiffness");
         joint_refused(SpringDef{.body_a = ball.body, .damping = bad}, "damping");
         joint_refused(DistanceDef{.body_a = ball.body, .hertz = bad}, "hertz");
@@ -350,22 +371,25 @@ TEST_F(Contract, Joints)
     }
     joint_refused(DistanceDef{.body_a = ball.body, .min_length = 3, .max_length = 2}, "max_length");
     joint_refused(RevoluteDef{.body_a = ball.body, .enable_limit = true, .lower_angle = 1, .upper_angle = 0}, "_angle");
-    joint_refused(PrismaticDef{.body_a = ball.body, .enable_limit = true, .lower_translation = 1, .upper_translation = 0}, "_translation");
+    joint_refused(PrismaticDef{.body_a = ball.body, .enable_limit = true, .lower_translation = 1, .upper_translation = 0},
+                  "_translation");
     joint_refused(PrismaticDef{.body_a = ball.body, .axis_a = {0, 0}}, "axis_a");
     joint_refused(RevoluteDef{.body_a = ball.body, .limit_restitution = 1.5f}, "limit_restitution");
-    joint_refused(SpringDef{}, "body");                                                // the world and the world
-    joint_refused(SpringDef{.body_a = ball.body, .body_b = ball.body}, "body");        // a body with itself
+    joint_refused(SpringDef{}, "body");                                         // the world and the world
+    joint_refused(SpringDef{.body_a = ball.body, .body_b = ball.body}, "body"); // a body with itself
     joint_refused(SpringDef{.body_a = gone.body}, "body_a");
     joint_refused(RevoluteDef{.body_a = ball.body, .body_b = gone.body}, "body_b");
     // Another kind, other bodies.
     refused([&] { scene.joint(joint).set_def(RevoluteDef{.body_a = ball.body, .body_b = crate.body}); }, {"Joint::set_def"});
     refused([&] { scene.joint(joint).set_def(SpringDef{.body_a = ball.body}); }, {"Joint::set_def"});
-    refused([&] { scene.joint(joint).set_def(SpringDef{.body_a = ball.body, .body_b = crate.body, .stiffness = -1}); }, {"Joint::set_def", "stiffness"});
+    refused([&] { scene.joint(joint).set_def(SpringDef{.body_a = ball.body, .body_b = crate.body, .stiffness = -1}); },
+            {"Joint::set_def", "stiffness"});
 }
 
 TEST_F(Contract, StaleAndNullBodies)
 {
-    for (const BodyId bad : {gone.body, BodyId{}, BodyId{9999, 1}, BodyId{ball.body.slot, ball.body.generation + 2}}) {
+    for (const BodyId bad : {gone.body, BodyId{}, BodyId{9999, 1}, BodyId{ball.body.slot, ball.body.generation + 2}})
+    {
         EXPECT_FALSE(scene.is_valid(bad));
         refused([&] { scene.destroy(bad); }, {"Scene::destroy", "body"});
         refused([&] { static_cast<void>(scene.body(bad)); }, {"Scene::body"});
@@ -379,7 +403,8 @@ TEST_F(Contract, StaleAndNullBodies)
 
 TEST_F(Contract, StaleAndNullShapes)
 {
-    for (const ShapeId bad : {gone.shape, ShapeId{}, ShapeId{9999, 1}}) {
+    for (const ShapeId bad : {gone.shape, ShapeId{}, ShapeId{9999, 1}})
+    {
         EXPECT_FALSE(scene.is_valid(bad));
         refused([&] { scene.destroy(bad); }, {"Scene::destroy", "shape"});
         refused([&] { static_cast<void>(scene.shape(bad)); }, {"Scene::shape"});
@@ -391,7 +416,8 @@ TEST_F(Contract, StaleAndNullShapes)
 
 TEST_F(Contract, StaleAndNullJoints)
 {
-    for (const JointId bad : {gone_joint, JointId{}, JointId{9999, 1}}) {
+    for (const JointId bad : {gone_joint, JointId{}, JointId{9999, 1}})
+    {
         EXPECT_FALSE(scene.is_valid(bad));
         refused([&] { scene.destroy(bad); }, {"Scene::destroy", "joint"});
         refused([&] { static_cast<void>(scene.joint(bad)); }, {"Scene::joint"});
@@ -458,7 +484,8 @@ TEST_F(Contract, ReferencesToWhatWasDestroyed)
 TEST_F(Contract, SlotsAreReusedIdsAreNot)
 {
     std::vector<BodyId> old;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200; ++i)
+    {
         const Thing t = add_dynamic(scene, {9, 9}, Circle{});
         for (const BodyId id : old)
             ASSERT_NE(id, t.body);
@@ -471,7 +498,8 @@ TEST_F(Contract, SlotsAreReusedIdsAreNot)
 
 TEST_F(Contract, Queries)
 {
-    for (const float bad : {not_a_number, infinite, -infinite}) {
+    for (const float bad : {not_a_number, infinite, -infinite})
+    {
         const Position p{static_cast<double>(bad), 0};
         refused([&] { static_cast<void>(scene.raycast_closest(p, {1, 0})); }, {"Scene::raycast_closest", "origin"});
         refused([&] { static_cast<void>(scene.raycast_closest({}, {bad, 0})); }, {"Scene::raycast_closest", "translation"});
@@ -492,28 +520,33 @@ TEST_F(Contract, SplitConcave)
 {
     refused([&] { static_cast<void>(split_concave(std::vector<Vec2>{})); }, {"split_concave", "outline"});
     refused([&] { static_cast<void>(split_concave(std::vector<Vec2>{{0, 0}, {1, 0}})); }, {"split_concave", "outline"});
-    refused([&] { static_cast<void>(split_concave(std::vector<Vec2>{{0, 0}, {1, 1}, {1, 0}, {0, 1}})); }, {"split_concave", "outline"});
-    refused([&] { static_cast<void>(split_concave(std::vector<Vec2>{{0, 0}, {1, not_a_number}, {1, 0}})); }, {"split_concave", "outline"});
+    refused([&] { static_cast<void>(split_concave(std::vector<Vec2>{{0, 0}, {1, 1}, {1, 0}, {0, 1}})); },
+            {"split_concave", "outline"});
+    refused([&] { static_cast<void>(split_concave(std::vector<Vec2>{{0, 0}, {1, not_a_number}, {1, 0}})); },
+            {"split_concave", "outline"});
 }
 
 // --- quarantine --------------------------------------------------------------------------------------------------------------------------
 
 TEST(ContractQuarantine, HugeForcesAndNeighboursInContact)
 {
-    for (const Geometry& geometry : {Geometry{box(0.5f, 0.5f)}, Geometry{Circle{}}}) {
+    for (const Geometry& geometry : {Geometry{box(0.5f, 0.5f)}, Geometry{Circle{}}})
+    {
         Scene scene(sleepless());
         add_static(scene, HalfSpace{});
         const Thing low = add_dynamic(scene, {0, 0.5}, geometry);
         const Thing high = add_dynamic(scene, {0, 1.5}, geometry);
         const Thing aside = add_dynamic(scene, {9, 0.5}, geometry);
         steps(scene, 30);
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < 4; ++i)
+        {
             scene.body(high.body).apply_force({0, -3e38f});
             scene.body(high.body).apply_torque(3e38f);
             scene.step(1.0f / 60);
         }
         steps(scene, 30);
-        for (const Thing& t : {low, high, aside}) {
+        for (const Thing& t : {low, high, aside})
+        {
             const Position p = scene.body(t.body).position();
             EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
             EXPECT_TRUE(std::isfinite(scene.body(t.body).velocity().y));

@@ -13,13 +13,15 @@ using namespace carom::internal;
 TEST(CoreTrigonometry, SineAndCosine)
 {
     Random random(1);
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < 200000; ++i)
+    {
         const double x = i % 2 == 0 ? random.range(-10, 10) : random.range(-1e6, 1e6);
         const SinCos sc = sin_cos(x);
         ASSERT_NEAR(sc.sin, std::sin(x), 1e-15) << x;
         ASSERT_NEAR(sc.cos, std::cos(x), 1e-15) << x;
     }
-    for (int k = -40; k <= 40; ++k) {
+    for (int k = -40; k <= 40; ++k)
+    {
         const double x = k * 0.78539816339744830962;
         EXPECT_NEAR(sin_cos(x).sin, std::sin(x), 1e-15);
         EXPECT_NEAR(sin_cos(x).cos, std::cos(x), 1e-15);
@@ -31,7 +33,8 @@ TEST(CoreTrigonometry, SineAndCosine)
 TEST(CoreTrigonometry, ArcTangent)
 {
     Random random(2);
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < 200000; ++i)
+    {
         const double scale = std::pow(10, random.range(-8, 8));
         const double y = random.range(-1, 1) * scale;
         const double x = random.range(-1, 1);
@@ -45,7 +48,8 @@ TEST(CoreTrigonometry, ArcTangent)
 TEST(CoreTrigonometry, Exponential)
 {
     Random random(3);
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < 200000; ++i)
+    {
         const double x = i % 2 == 0 ? random.range(-3, 1) : random.range(-700, 100);
         ASSERT_NEAR(exponential(x) / std::exp(x), 1, i % 2 == 0 ? 1e-15 : 4e-14) << x;
     }
@@ -58,7 +62,8 @@ TEST(CoreTrigonometry, MonotoneWhereTheFunctionsAre)
     double sine = -2;
     double tangent = -4;
     double e = 0;
-    for (int i = -100000; i <= 100000; ++i) {
+    for (int i = -100000; i <= 100000; ++i)
+    {
         const double x = i * 1.57e-5;
         EXPECT_GE(sin_cos(x).sin, sine - 1e-15);
         EXPECT_GE(arc_tangent(x, 1), tangent);
@@ -72,19 +77,22 @@ TEST(CoreTrigonometry, MonotoneWhereTheFunctionsAre)
 TEST(CoreRotation, FromAngleAndBack)
 {
     Random random(4);
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 20000; ++i)
+    {
         const float angle = random.rangef(-100, 100);
         const Rotation q = Rotation::from_angle(angle);
         ASSERT_NEAR(q.c, std::cos(static_cast<double>(angle)), 1e-7);
         ASSERT_NEAR(q.s, std::sin(static_cast<double>(angle)), 1e-7);
-        ASSERT_NEAR(std::remainder(static_cast<double>(q.angle()) - static_cast<double>(angle), 2 * 3.14159265358979323846), 0, 3e-7);
+        ASSERT_NEAR(std::remainder(static_cast<double>(q.angle()) - static_cast<double>(angle), 2 * 3.14159265358979323846), 0,
+                    3e-7);
     }
 }
 
 TEST(CoreVectors, LengthAndNormalize)
 {
     EXPECT_EQ(normalize({0, 0}), (Vec2{}));
-    for (const float scale : {1e-15f, 1.0f, 1e15f}) {
+    for (const float scale : {1e-15f, 1.0f, 1e15f})
+    {
         const Vec2 n = normalize({3 * scale, -4 * scale});
         EXPECT_NEAR(n.x, 0.6, 1e-6) << scale;
         EXPECT_NEAR(n.y, -0.8, 1e-6) << scale;
@@ -97,11 +105,15 @@ TEST(CorePairSet, AgreesWithASet)
     Random random(5);
     PairSet mine;
     std::set<std::uint64_t> want;
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < 100000; ++i)
+    {
         const std::uint64_t key = pair_key(random.below(60), random.below(60));
-        if (random.chance(0.5)) {
+        if (random.chance(0.5))
+        {
             EXPECT_EQ(mine.insert(key), want.insert(key).second);
-        } else {
+        }
+        else
+        {
             mine.erase(key);
             want.erase(key);
         }

@@ -7,7 +7,8 @@ using namespace carom::test;
 
 TEST(DeterminismHash, IgnoredPairsAreInIt)
 {
-    const auto hash = [](bool ignore, bool restore) {
+    const auto hash = [](bool ignore, bool restore)
+    {
         Scene scene;
         const Thing a = add_dynamic(scene, {0, 1}, Circle{});
         const Thing b = add_dynamic(scene, {3, 1}, box(1, 1));

@@ -16,7 +16,8 @@ namespace {
 std::vector<std::uint64_t> run(scenes::BuiltScene& built, float h, int count)
 {
     std::vector<std::uint64_t> hashes;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
+    {
         built.step(h);
         hashes.push_back(built.scene.state_hash());
     }
@@ -27,7 +28,8 @@ std::vector<std::uint64_t> run(scenes::BuiltScene& built, float h, int count)
 void run_on_threads(void*, int count, void (*task)(void*, int), void* context)
 {
     std::atomic<int> next{0};
-    const auto work = [&] {
+    const auto work = [&]
+    {
         for (int i = next++; i < count; i = next++)
             task(context, i);
     };
@@ -50,7 +52,8 @@ void run_backwards(void*, int count, void (*task)(void*, int), void* context)
 TEST(DeterminismRestore, EverySceneContinuesFromACopyOfItsState)
 {
     for (const scenes::SceneEntry& entry : scenes::all_scenes())
-        for (const int when : {1, 40, 150}) {
+        for (const int when : {1, 40, 150})
+        {
             SCOPED_TRACE(std::string(entry.name) + " at step " + std::to_string(when));
             scenes::BuiltScene built = entry.create({});
             if (built.before_step)
@@ -82,7 +85,8 @@ TEST(DeterminismRestore, AlsoAfterManyMoreSteps)
 
 TEST(DeterminismTwice, EverySceneGivesTheSameHashesTwice)
 {
-    for (const scenes::SceneEntry& entry : scenes::all_scenes()) {
+    for (const scenes::SceneEntry& entry : scenes::all_scenes())
+    {
         SCOPED_TRACE(entry.name);
         scenes::BuiltScene a = entry.create({});
         scenes::BuiltScene b = entry.create({});
@@ -93,7 +97,8 @@ TEST(DeterminismTwice, EverySceneGivesTheSameHashesTwice)
 
 TEST(DeterminismThreads, HooksChangeNothing)
 {
-    for (const scenes::SceneEntry& entry : scenes::all_scenes()) {
+    for (const scenes::SceneEntry& entry : scenes::all_scenes())
+    {
         SCOPED_TRACE(entry.name);
         SceneDef threaded;
         threaded.tasks = {.worker_count = 3, .run = run_on_threads};
@@ -111,7 +116,8 @@ TEST(DeterminismThreads, HooksChangeNothing)
 // Large enough for several tasks, with units that merge and part.
 TEST(DeterminismThreads, AThousandBodiesInManyUnits)
 {
-    const auto hashes = [](TaskHooks tasks) {
+    const auto hashes = [](TaskHooks tasks)
+    {
         SceneDef def;
         def.tasks = tasks;
         Scene scene(def);
@@ -120,9 +126,11 @@ TEST(DeterminismThreads, AThousandBodiesInManyUnits)
             add_static(scene, box(2, 0.5f), {.restitution = 0.3f}, {5.0 * i, -0.5});
         for (int i = 0; i < 1000; ++i)
             add_dynamic(scene, {5.0 * (i % 40) + random.range(-1.5, 1.5), 0.5 + 0.5 * (i / 40)},
-                        i % 3 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.3f}, random.vec(3));
+                        i % 3 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.3f},
+                        random.vec(3));
         std::vector<std::uint64_t> result;
-        for (int i = 0; i < 150; ++i) {
+        for (int i = 0; i < 150; ++i)
+        {
             scene.step(1.0f / 60);
             result.push_back(scene.state_hash());
         }
@@ -139,13 +147,15 @@ TEST(DeterminismThreads, TheHookIsUsed)
     calls = 0;
     SceneDef def;
     def.tasks = {.worker_count = 2,
-                 .run = [](void*, int count, void (*task)(void*, int), void* context) {
+                 .run = [](void*, int count, void (*task)(void*, int), void* context)
+                 {
                      ++calls;
                      for (int i = 0; i < count; ++i)
                          task(context, i);
                  }};
     Scene scene(def);
-    for (int i = 0; i < 1000; ++i) { // tasks are given out by the hundreds of bodies
+    for (int i = 0; i < 1000; ++i)
+    { // tasks are given out by the hundreds of bodies
         add_static(scene, box(1, 0.5f), {}, {4.0 * i, -0.5});
         add_dynamic(scene, {4.0 * i, 0.5}, box(0.5f, 0.5f));
     }
@@ -161,10 +171,12 @@ TEST(DeterminismThreads, ScenesOnTheirOwnThreadsNeedNoLock)
     std::vector<std::uint64_t> got[3];
     std::vector<std::thread> threads;
     for (auto& hashes : got)
-        threads.emplace_back([&] {
-            scenes::BuiltScene built = entry.create({});
-            hashes = run(built, entry.h, 60);
-        });
+        threads.emplace_back(
+            [&]
+            {
+                scenes::BuiltScene built = entry.create({});
+                hashes = run(built, entry.h, 60);
+            });
     for (std::thread& t : threads)
         t.join();
     for (const auto& hashes : got)
@@ -173,7 +185,8 @@ TEST(DeterminismThreads, ScenesOnTheirOwnThreadsNeedNoLock)
 
 TEST(DeterminismHash, SeesEveryDifference)
 {
-    const auto build = [](auto&& change) {
+    const auto build = [](auto&& change)
+    {
         Scene scene;
         const Thing a = add_dynamic(scene, {0, 1}, Circle{});
         const Thing b = add_dynamic(scene, {3, 1}, box(1, 1));
@@ -190,18 +203,29 @@ TEST(DeterminismHash, SeesEveryDifference)
     EXPECT_NE(build([](Scene& s, const Thing& a, const Thing&, JointId) { s.body(a.body).set_can_sleep(false); }), plain);
     EXPECT_NE(build([](Scene& s, const Thing& a, const Thing&, JointId) { s.body(a.body).set_locks({.angular = true}); }), plain);
     EXPECT_NE(build([](Scene& s, const Thing& a, const Thing&, JointId) { s.body(a.body).set_enabled(false); }), plain);
-    EXPECT_NE(build([](Scene& s, const Thing& a, const Thing&, JointId) { s.shape(a.shape).set_def({.friction = 0.1f}); }), plain);
-    EXPECT_NE(build([](Scene& s, const Thing& a, const Thing&, JointId) { s.shape(a.shape).set_geometry(Circle{.radius = 0.51f}); }), plain);
-    EXPECT_NE(build([](Scene& s, const Thing&, const Thing& b, JointId) { s.shape(b.shape).set_geometry(box(1, 0.99f)); }), plain);
+    EXPECT_NE(build([](Scene& s, const Thing& a, const Thing&, JointId) { s.shape(a.shape).set_def({.friction = 0.1f}); }),
+              plain);
+    EXPECT_NE(
+        build([](Scene& s, const Thing& a, const Thing&, JointId) { s.shape(a.shape).set_geometry(Circle{.radius = 0.51f}); }),
+        plain);
+    EXPECT_NE(build([](Scene& s, const Thing&, const Thing& b, JointId) { s.shape(b.shape).set_geometry(box(1, 0.99f)); }),
+              plain);
     EXPECT_NE(build([](Scene& s, const Thing&, const Thing&, JointId j) { s.destroy(j); }), plain);
     EXPECT_NE(build([](Scene& s, const Thing&, const Thing&, JointId) { s.set_gravity({0, -9}); }), plain);
     // Not state: user data and callbacks.
-    EXPECT_EQ(build([](Scene& s, const Thing& a, const Thing&, JointId j) {
-                  s.body(a.body).set_user_data(7);
-                  s.shape(a.shape).set_user_data(8);
-                  s.joint(j).set_user_data(9);
-                  s.set_callbacks(a.shape, {.on_contact_begin = {}, .on_impact = [](Scene&, const ImpactEvent&) {}, .on_contact_end = {}, .on_trigger_enter = {}, .on_trigger_inside = {}, .on_trigger_exit = {}});
-              }),
+    EXPECT_EQ(build(
+                  [](Scene& s, const Thing& a, const Thing&, JointId j)
+                  {
+                      s.body(a.body).set_user_data(7);
+                      s.shape(a.shape).set_user_data(8);
+                      s.joint(j).set_user_data(9);
+                      s.set_callbacks(a.shape, {.on_contact_begin = {},
+                                                .on_impact = [](Scene&, const ImpactEvent&) {},
+                                                .on_contact_end = {},
+                                                .on_trigger_enter = {},
+                                                .on_trigger_inside = {},
+                                                .on_trigger_exit = {}});
+                  }),
               plain);
 }
 

@@ -29,10 +29,12 @@ int awake(Scene& scene, const std::vector<BodyId>& bodies)
 void expect_proper_coloring(Scene& scene)
 {
     std::map<int, std::set<BodyId>> seen;
-    for (const ContactInfo& c : scene.contacts()) {
+    for (const ContactInfo& c : scene.contacts())
+    {
         if (c.color < 0)
             continue;
-        for (const ShapeId shape : {c.shape_a, c.shape_b}) {
+        for (const ShapeId shape : {c.shape_a, c.shape_b})
+        {
             const BodyId body = scene.shape(shape).body();
             if (scene.body(body).type() != BodyType::Dynamic)
                 continue;
@@ -49,8 +51,10 @@ TEST(DynamicsColors, NoTwoContactsOfAColorShareAMovingBody)
     Random random(3);
     add_static(scene, Chain{.start = {-4, 0}, .pieces = {{.end = {4, 0}}, {.end = {4, 9}}, {.end = {-4, 9}}}, .closed = true});
     for (int i = 0; i < 150; ++i)
-        add_dynamic(scene, {random.range(-3.5, 3.5), random.range(0.5, 8)}, i % 3 == 0 ? Geometry{Circle{.radius = 0.25f}} : Geometry{box(0.25f, 0.2f)});
-    for (int i = 0; i < 180; ++i) {
+        add_dynamic(scene, {random.range(-3.5, 3.5), random.range(0.5, 8)},
+                    i % 3 == 0 ? Geometry{Circle{.radius = 0.25f}} : Geometry{box(0.25f, 0.2f)});
+    for (int i = 0; i < 180; ++i)
+    {
         scene.step(1.0f / 60);
         expect_proper_coloring(scene);
         if (HasFatalFailure())
@@ -102,7 +106,8 @@ TEST(DynamicsSleep, AStackFallsAsleepAndWakesOnTouch)
     EXPECT_EQ(scene.report().awake_bodies, 0);
     add_dynamic(scene, {0, 7}, Circle{.radius = 0.3f}, {}, {0, -3});
     int most = 0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60; ++i)
+    {
         scene.step(1.0f / 60);
         most = std::max(most, awake(scene, stack));
     }
@@ -126,9 +131,15 @@ TEST(DynamicsSleep, WakesWhenItsSupportGoes)
         {"trigger", [](Scene& s, const Thing& t) { s.shape(t.shape).set_def({.trigger = true}); }},
         {"geometry", [](Scene& s, const Thing& t) { s.shape(t.shape).set_geometry(box(0.1f, 0.1f, {30, 0})); }},
         {"set_type", [](Scene& s, const Thing& t) { s.body(t.body).set_type(BodyType::Dynamic); }},
-        {"target pose", [](Scene& s, const Thing& t) { s.body(t.body).set_type(BodyType::Kinematic); s.body(t.body).set_velocity({0, -5}); }},
+        {"target pose",
+         [](Scene& s, const Thing& t)
+         {
+             s.body(t.body).set_type(BodyType::Kinematic);
+             s.body(t.body).set_velocity({0, -5});
+         }},
     };
-    for (const How& how : ways) {
+    for (const How& how : ways)
+    {
         SCOPED_TRACE(how.name);
         Scene scene;
         const Thing support = add_static(scene, box(3, 0.5f, {0, -0.5f}));
@@ -161,7 +172,8 @@ TEST(DynamicsSleep, WakesOnEveryVerbThatGivesMotion)
         {"set_gravity", [](Scene& s, BodyId) { s.set_gravity({0, 5}); }},
         {"set_can_sleep", [](Scene& s, BodyId b) { s.body(b).set_can_sleep(false); }},
     };
-    for (const How& how : ways) {
+    for (const How& how : ways)
+    {
         SCOPED_TRACE(how.name);
         Scene scene;
         add_static(scene, HalfSpace{});

@@ -32,7 +32,8 @@ Sums integrate(double reach, int n, Inside&& inside)
     const double cell = 2 * reach / n;
     double xx = 0;
     for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
+        for (int j = 0; j < n; ++j)
+        {
             const double x = -reach + (i + 0.5) * cell;
             const double y = -reach + (j + 0.5) * cell;
             if (!inside(x, y))
@@ -64,7 +65,8 @@ void expect_mass(const Geometry& geometry, const Sums& want, double tolerance = 
 std::vector<Vec2> ring(int n, Random& random)
 {
     std::vector<Vec2> points;
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i)
+    {
         const double angle = 2 * 3.14159265358979 * (i + random.range(-0.2, 0.2)) / n;
         points.push_back({static_cast<float>(1.2 * std::cos(angle) + 0.3), static_cast<float>(0.7 * std::sin(angle) - 0.2)});
     }
@@ -75,7 +77,8 @@ bool in_convex(const std::vector<Vec2>& v, double x, double y, double radius)
 {
     bool in = true;
     double d = 1e9;
-    for (std::size_t i = 0; i < v.size(); ++i) {
+    for (std::size_t i = 0; i < v.size(); ++i)
+    {
         const Vec2 a = v[i];
         const Vec2 b = v[(i + 1) % v.size()];
         in = in && (static_cast<double>(b.x) - a.x) * (y - a.y) - (static_cast<double>(b.y) - a.y) * (x - a.x) >= 0;
@@ -100,10 +103,12 @@ TEST(GeometryMass, RoundedPolygonsOf3To40Vertices)
 {
     Random random(31);
     for (const int n : {3, 4, 5, 7, 12, 25, 40})
-        for (const float radius : {0.0f, 0.15f}) {
+        for (const float radius : {0.0f, 0.15f})
+        {
             SCOPED_TRACE(std::to_string(n) + " vertices, radius " + std::to_string(radius));
             const std::vector<Vec2> points = ring(n, random);
-            expect_mass(Polygon{points, radius}, integrate(2, 900, [&](double x, double y) { return in_convex(points, x, y, static_cast<double>(radius)); }));
+            expect_mass(Polygon{points, radius}, integrate(2, 900, [&](double x, double y)
+                                                           { return in_convex(points, x, y, static_cast<double>(radius)); }));
         }
 }
 
@@ -118,20 +123,24 @@ TEST(GeometryMass, ClockwiseIsTheSame)
 
 TEST(GeometryMass, TaperedCapsules)
 {
-    for (const float rb : {0.3f, 0.1f, 0.02f}) {
+    for (const float rb : {0.3f, 0.1f, 0.02f})
+    {
         const Capsule capsule{{-0.6f, 0.2f}, {0.7f, -0.1f}, 0.3f, rb};
         // The hull of two circles is the union of the circles between, radius running from one to the other.
         const double ex = 1.3;
         const double ey = static_cast<double>(-0.1f) - static_cast<double>(0.2f);
         const double l = std::hypot(ex, ey);
         const double slope = (0.3 - static_cast<double>(rb)) / l; // sin of the taper
-        const Sums want = integrate(1.2, 1200, [&](double x, double y) {
-            const double along = ((x + 0.6) * ex + (y - 0.2) * ey) / l;
-            const double across = std::fabs((x + 0.6) * ey - (y - 0.2) * ex) / l;
-            // The circle whose side passes nearest stands at along shifted towards the thick end... distance to the hull's axis, tilted.
-            const double t = std::clamp(along - across * slope / std::sqrt(1 - slope * slope), 0.0, l);
-            return std::hypot(along - t, across) <= 0.3 - slope * t;
-        });
+        const Sums want = integrate(1.2, 1200,
+                                    [&](double x, double y)
+                                    {
+                                        const double along = ((x + 0.6) * ex + (y - 0.2) * ey) / l;
+                                        const double across = std::fabs((x + 0.6) * ey - (y - 0.2) * ex) / l;
+                                        // The circle whose side passes nearest stands at along shifted towards the thick end... distance to the hull's axis, tilted.
+                                        const double t =
+                                            std::clamp(along - across * slope / std::sqrt(1 - slope * slope), 0.0, l);
+                                        return std::hypot(along - t, across) <= 0.3 - slope * t;
+                                    });
         SCOPED_TRACE(rb);
         expect_mass(capsule, want);
     }

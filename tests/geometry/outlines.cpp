@@ -10,7 +10,8 @@ namespace {
 double area_of(const std::vector<Vec2>& v)
 {
     double twice = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
+    for (std::size_t i = 0; i < v.size(); ++i)
+    {
         const Vec2 a = v[i];
         const Vec2 b = v[(i + 1) % v.size()];
         twice += static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x;
@@ -22,10 +23,12 @@ double area_of(const std::vector<Vec2>& v)
 bool inside(const std::vector<Vec2>& v, double x, double y)
 {
     bool in = false;
-    for (std::size_t i = 0; i < v.size(); ++i) {
+    for (std::size_t i = 0; i < v.size(); ++i)
+    {
         const Vec2 a = v[i];
         const Vec2 b = v[(i + 1) % v.size()];
-        if ((a.y > y) != (b.y > y) && x < static_cast<double>(a.x) + (y - a.y) * (static_cast<double>(b.x) - a.x) / (static_cast<double>(b.y) - a.y))
+        if ((a.y > y) != (b.y > y) &&
+            x < static_cast<double>(a.x) + (y - a.y) * (static_cast<double>(b.x) - a.x) / (static_cast<double>(b.y) - a.y))
             in = !in;
     }
     return in;
@@ -34,7 +37,8 @@ bool inside(const std::vector<Vec2>& v, double x, double y)
 double nearest_edge(const std::vector<Vec2>& v, double x, double y)
 {
     double d = 1e9;
-    for (std::size_t i = 0; i < v.size(); ++i) {
+    for (std::size_t i = 0; i < v.size(); ++i)
+    {
         const Vec2 a = v[i];
         const Vec2 b = v[(i + 1) % v.size()];
         const double ex = static_cast<double>(b.x) - a.x;
@@ -51,7 +55,8 @@ void expect_split(const std::vector<Vec2>& outline)
     ASSERT_FALSE(parts.empty());
     double sum = 0;
     Scene scene(weightless());
-    for (const Polygon& part : parts) {
+    for (const Polygon& part : parts)
+    {
         sum += area_of(part.vertices);
         EXPECT_GT(area_of(part.vertices), 0);
         EXPECT_NO_THROW(static_cast<void>(add_static(scene, part))) << "each part is a convex polygon";
@@ -59,14 +64,16 @@ void expect_split(const std::vector<Vec2>& outline)
     EXPECT_NEAR(sum, std::fabs(area_of(outline)), 1e-4 * sum);
     Random random(4);
     int tried = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 2000; ++i)
+    {
         const double x = random.range(-3, 3);
         const double y = random.range(-3, 3);
         if (nearest_edge(outline, x, y) < 1e-3)
             continue;
         int covered = 0;
         bool at_seam = false;
-        for (const Polygon& part : parts) {
+        for (const Polygon& part : parts)
+        {
             covered += inside(part.vertices, x, y);
             at_seam = at_seam || nearest_edge(part.vertices, x, y) < 1e-4;
         }
@@ -92,11 +99,13 @@ TEST(GeometrySplit, KnownOutlines)
 TEST(GeometrySplit, RandomStars)
 {
     Random random(12);
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200; ++i)
+    {
         SCOPED_TRACE(i);
         std::vector<Vec2> star;
         const int n = 4 + random.below(40);
-        for (int k = 0; k < n; ++k) {
+        for (int k = 0; k < n; ++k)
+        {
             const double angle = 2 * 3.14159265358979 * (k + random.range(-0.3, 0.3)) / n;
             const double r = random.range(0.4, 2.5);
             star.push_back({static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))});
@@ -116,7 +125,8 @@ TEST(GeometryPolygon, PointsInLineAreDroppedAndAnyNumberIsTaken)
     EXPECT_EQ(std::get<Polygon>(scene.shape(t.shape).geometry()).vertices.size(), 4u);
     std::vector<Vec2> many;
     for (int i = 0; i < 400; ++i)
-        many.push_back({static_cast<float>(10 * std::cos(i * 2 * 3.14159265358979 / 400)), static_cast<float>(10 * std::sin(i * 2 * 3.14159265358979 / 400))});
+        many.push_back({static_cast<float>(10 * std::cos(i * 2 * 3.14159265358979 / 400)),
+                        static_cast<float>(10 * std::sin(i * 2 * 3.14159265358979 / 400))});
     const Thing wheel = add_dynamic(scene, {0, 50}, Polygon{many});
     EXPECT_EQ(std::get<Polygon>(scene.shape(wheel.shape).geometry()).vertices.size(), 400u);
     EXPECT_NEAR(scene.body(wheel.body).mass(), area_of(many), 0.01);

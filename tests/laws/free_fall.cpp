@@ -49,7 +49,8 @@ TEST(LawFreeFall, CapsuleTurnsAtItsSpin)
 
 TEST(LawFreeFall, GravityScaleMultiplies)
 {
-    for (const float scale : {0.0f, 0.5f, -1.0f, 3.0f}) {
+    for (const float scale : {0.0f, 0.5f, -1.0f, 3.0f})
+    {
         Scene scene(sleepless());
         const BodyId body = scene.create_body({.type = BodyType::Dynamic, .gravity_scale = scale});
         scene.create_shape(body, Circle{});
@@ -60,10 +61,18 @@ TEST(LawFreeFall, GravityScaleMultiplies)
 
 TEST(LawDamping, VelocityDecaysExponentially)
 {
-    for (const float h : {1.0f / 30, 1.0f / 240}) {
+    for (const float h : {1.0f / 30, 1.0f / 240})
+    {
         Scene scene(weightless());
-        for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}}) {
-            const Thing body = add(scene, {.type = BodyType::Dynamic, .velocity = {10, 0}, .angular_velocity = 4, .linear_damping = 0.7f, .angular_damping = 1.3f}, geometry);
+        for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}})
+        {
+            const Thing body = add(scene,
+                                   {.type = BodyType::Dynamic,
+                                    .velocity = {10, 0},
+                                    .angular_velocity = 4,
+                                    .linear_damping = 0.7f,
+                                    .angular_damping = 1.3f},
+                                   geometry);
             scene.body(body.body).set_user_data(1);
             const int n = static_cast<int>(2 / h + 0.5f);
             steps(scene, n, h);
@@ -77,16 +86,19 @@ TEST(LawDamping, VelocityDecaysExponentially)
 TEST(LawDamping, HeavyDampingStaysFinite)
 {
     Scene scene(weightless());
-    const Thing body = add(scene, {.type = BodyType::Dynamic, .velocity = {10, 0}, .linear_damping = 1e6f, .angular_damping = 1e6f}, box(1, 1));
+    const Thing body =
+        add(scene, {.type = BodyType::Dynamic, .velocity = {10, 0}, .linear_damping = 1e6f, .angular_damping = 1e6f}, box(1, 1));
     steps(scene, 10);
     EXPECT_NEAR(speed(scene, body.body), 0, 1e-6);
 }
 
 TEST(LawMotionLocks, LockedDirectionsDoNotMove)
 {
-    for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}}) {
+    for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}})
+    {
         Scene scene(sleepless());
-        const Thing body = add(scene, {.type = BodyType::Dynamic, .velocity = {2, 0}, .locks = {.linear_y = true, .angular = true}}, geometry);
+        const Thing body =
+            add(scene, {.type = BodyType::Dynamic, .velocity = {2, 0}, .locks = {.linear_y = true, .angular = true}}, geometry);
         scene.body(body.body).apply_impulse({0, 5}, {0.3, 0.1});
         steps(scene, 60);
         EXPECT_EQ(scene.body(body.body).position().y, 0);
@@ -98,7 +110,8 @@ TEST(LawMotionLocks, LockedDirectionsDoNotMove)
 TEST(LawMotionLocks, ALockedBodyIsAWallAlongTheLock)
 {
     Scene scene(weightless());
-    const Thing wall = add(scene, {.type = BodyType::Dynamic, .position = {1, 0}, .locks = {true, true, true}}, box(0.5f, 0.5f), {.restitution = 1});
+    const Thing wall = add(scene, {.type = BodyType::Dynamic, .position = {1, 0}, .locks = {true, true, true}}, box(0.5f, 0.5f),
+                           {.restitution = 1});
     const Thing ball = add_dynamic(scene, {-1, 0.2}, Circle{.radius = 0.25f}, {.friction = 0, .restitution = 1}, {5, 0});
     steps(scene, 60);
     EXPECT_NEAR(scene.body(ball.body).velocity().x, -5, 1e-5);
@@ -107,12 +120,14 @@ TEST(LawMotionLocks, ALockedBodyIsAWallAlongTheLock)
 
 TEST(LawForces, ForceTorqueAndImpulse)
 {
-    for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}}) {
+    for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}})
+    {
         Scene scene(weightless());
         const Thing thing = add_dynamic(scene, {0, 0}, geometry, {.density = 2});
         const double m = scene.body(thing.body).mass();
         const double inertia = scene.body(thing.body).inertia();
-        for (int i = 0; i < 60; ++i) {
+        for (int i = 0; i < 60; ++i)
+        {
             scene.body(thing.body).apply_force({3, 0});
             scene.body(thing.body).apply_torque(0.5f);
             scene.step(1.0f / 60);
@@ -140,14 +155,24 @@ void expect_kept(float friction, float h, double spin_tolerance)
     Scene scene(weightless());
     Random random(5);
     std::vector<BodyId> bodies;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60; ++i)
+    {
         const Position p{1.1 * (i % 8) - 3.9, 1.1 * (i / 8) - 3.6}; // apart at the start
-        const Geometry geometry = i % 3 == 0 ? Geometry{Circle{.radius = 0.3f}} : i % 3 == 1 ? Geometry{box(0.3f, 0.2f)} : Geometry{Capsule{{-0.2f, 0}, {0.2f, 0}, 0.1f, 0.2f}};
-        bodies.push_back(add_dynamic(scene, p, geometry, {.friction = friction, .restitution = 0.5f}, -1.5f * to_vec2(p), random.rangef(-3, 3)).body);
+        const Geometry geometry = i % 3 == 0   ? Geometry{Circle{.radius = 0.3f}}
+                                  : i % 3 == 1 ? Geometry{box(0.3f, 0.2f)}
+                                               : Geometry{Capsule{{-0.2f, 0}, {0.2f, 0}, 0.1f, 0.2f}};
+        bodies.push_back(
+            add_dynamic(scene, p, geometry, {.friction = friction, .restitution = 0.5f}, -1.5f * to_vec2(p), random.rangef(-3, 3))
+                .body);
     }
-    const auto sums = [&] {
-        struct Sums { double px = 0, py = 0, l = 0; } s;
-        for (const BodyId id : bodies) {
+    const auto sums = [&]
+    {
+        struct Sums
+        {
+            double px = 0, py = 0, l = 0;
+        } s;
+        for (const BodyId id : bodies)
+        {
             const Body b = scene.body(id);
             const double m = b.mass();
             const Position c = b.center_of_mass();
@@ -159,7 +184,8 @@ void expect_kept(float friction, float h, double spin_tolerance)
     };
     const auto before = sums();
     int impacts = 0;
-    for (float t = 0; t < 4; t += h) {
+    for (float t = 0; t < 4; t += h)
+    {
         scene.step(h);
         impacts += static_cast<int>(scene.impacts().size());
     }

@@ -17,7 +17,8 @@ struct Slope
     Vec2 down;
 
     Slope(double alpha, const ShapeDef& ground, bool segment)
-        : normal{static_cast<float>(std::sin(alpha)), static_cast<float>(std::cos(alpha))}, down{static_cast<float>(std::cos(alpha)), static_cast<float>(-std::sin(alpha))}
+        : normal{static_cast<float>(std::sin(alpha)), static_cast<float>(std::cos(alpha))},
+          down{static_cast<float>(std::cos(alpha)), static_cast<float>(-std::sin(alpha))}
     {
         if (segment)
             add_static(scene, Segment{-100.0f * down, 100.0f * down}, ground);
@@ -27,7 +28,8 @@ struct Slope
     Thing put(const Geometry& geometry, double lift, double alpha, const ShapeDef& def = {})
     {
         const Vec2 at = static_cast<float>(lift) * normal;
-        return add(scene, {.type = BodyType::Dynamic, .position = Position{at}, .angle = static_cast<float>(-alpha)}, geometry, def);
+        return add(scene, {.type = BodyType::Dynamic, .position = Position{at}, .angle = static_cast<float>(-alpha)}, geometry,
+                   def);
     }
     double along(BodyId id) { return static_cast<double>(dot(scene.body(id).velocity(), down)); }
 };
@@ -38,8 +40,10 @@ TEST(LawRolling, ADiscAcceleratesByTwoThirds)
 {
     for (const bool segment : {false, true})
         for (const float h : {1.0f / 60, 1.0f / 1000})
-            for (const double alpha : {0.1, 0.5}) {
-                SCOPED_TRACE("alpha " + std::to_string(alpha) + " h " + std::to_string(h) + " segment " + std::to_string(segment));
+            for (const double alpha : {0.1, 0.5})
+            {
+                SCOPED_TRACE("alpha " + std::to_string(alpha) + " h " + std::to_string(h) + " segment " +
+                             std::to_string(segment));
                 Slope slope(alpha, {.friction = 0.8f}, segment);
                 const Thing disc = slope.put(Circle{.radius = 0.25f}, 0.25, alpha, {.friction = 0.8f});
                 steps(slope.scene, static_cast<int>(1 / h + 0.5f), h);
@@ -61,7 +65,8 @@ TEST(LawRolling, ABallOfSphereInertiaAcceleratesByFiveSevenths)
 
 TEST(LawSliding, ABoxAcceleratesByGravityLessFriction)
 {
-    for (const double mu : {0.0, 0.2, 0.4}) {
+    for (const double mu : {0.0, 0.2, 0.4})
+    {
         const double alpha = 0.6;
         Slope slope(alpha, {.friction = static_cast<float>(mu)}, false);
         const Thing body = slope.put(box(0.5f, 0.25f), 0.25, alpha, {.friction = static_cast<float>(mu)});
@@ -96,7 +101,8 @@ TEST(LawSliding, SlidingTurnsIntoRollingAtTwoThirdsOfTheSpeed)
 TEST(LawFriction, ABoxHoldsBelowTheThresholdAndSlidesAbove)
 {
     const double mu = 0.5;
-    for (const double ratio : {0.9, 0.98, 1.02, 1.1}) {
+    for (const double ratio : {0.9, 0.98, 1.02, 1.1})
+    {
         const double alpha = std::atan(mu * ratio);
         Slope slope(alpha, {.friction = static_cast<float>(mu)}, false);
         const Thing body = slope.put(box(0.5f, 0.25f), 0.25, alpha, {.friction = static_cast<float>(mu)});
@@ -124,8 +130,10 @@ TEST(LawFriction, RollingResistanceSlowsARollingBall)
     // Torque c r N about the contact, I + m r² = 3/2 m r²: a = c g / 1.5 for a disc.
     Scene scene(sleepless());
     add_static(scene, HalfSpace{}, {});
-    const Thing disc = add(scene, {.type = BodyType::Dynamic, .position = {0, 0.5}, .velocity = {5, 0}, .angular_velocity = -10}, Circle{}, {.rolling_resistance = 0.05f});
-    const Thing free = add(scene, {.type = BodyType::Dynamic, .position = {0, 0.5}, .velocity = {-5, 0}, .angular_velocity = 10}, Circle{});
+    const Thing disc = add(scene, {.type = BodyType::Dynamic, .position = {0, 0.5}, .velocity = {5, 0}, .angular_velocity = -10},
+                           Circle{}, {.rolling_resistance = 0.05f});
+    const Thing free =
+        add(scene, {.type = BodyType::Dynamic, .position = {0, 0.5}, .velocity = {-5, 0}, .angular_velocity = 10}, Circle{});
     scene.ignore_pair(disc.body, free.body);
     steps(scene, 60);
     EXPECT_NEAR(scene.body(free.body).velocity().x, -5, 1e-3);
@@ -137,7 +145,8 @@ TEST(LawFriction, RollingResistanceSlowsARollingBall)
 TEST(LawFriction, AConveyorCarriesABoxAtItsSpeed)
 {
     // Positive: what lies on it goes to the left of the outward normal, which is -x on a floor.
-    for (const Geometry& geometry : {Geometry{box(0.25f, 0.25f)}, Geometry{Capsule{{-0.25f, 0}, {0.25f, 0}}}}) {
+    for (const Geometry& geometry : {Geometry{box(0.25f, 0.25f)}, Geometry{Capsule{{-0.25f, 0}, {0.25f, 0}}}})
+    {
         Scene scene(sleepless());
         add_static(scene, box(50, 0.5f, {0, -0.5f}), {.surface_speed = 2});
         const Thing body = add_dynamic(scene, {0, 0.25}, geometry);

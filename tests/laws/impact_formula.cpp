@@ -16,7 +16,10 @@ struct D2
 
 D2 operator+(D2 a, D2 b) { return {a.x + b.x, a.y + b.y}; }
 D2 operator*(double s, D2 a) { return {s * a.x, s * a.y}; }
-D2 turned(double angle, D2 a) { return {std::cos(angle) * a.x - std::sin(angle) * a.y, std::sin(angle) * a.x + std::cos(angle) * a.y}; }
+D2 turned(double angle, D2 a)
+{
+    return {std::cos(angle) * a.x - std::sin(angle) * a.y, std::sin(angle) * a.x + std::cos(angle) * a.y};
+}
 double dot(D2 a, D2 b) { return a.x * b.x + a.y * b.y; }
 double cross(D2 a, D2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -100,7 +103,8 @@ void give_mass(Scene& scene, BodyId id, Random& random, bool off_center)
     if (scene.body(id).type() != BodyType::Dynamic)
         return;
     const float m = random.rangef(0.2, 5);
-    scene.body(id).set_mass({.mass = m, .center = off_center ? random.vec(0.3) : Vec2{}, .inertia = m * random.rangef(0.05, 0.6)});
+    scene.body(id).set_mass(
+        {.mass = m, .center = off_center ? random.vec(0.3) : Vec2{}, .inertia = m * random.rangef(0.05, 0.6)});
 }
 
 // Both shapes touch at `point`, but for a gap of a few roundings; a's surface has the outward normal n there.
@@ -117,17 +121,22 @@ Pair make_pair(Scene& scene, Random& random, Kind kind, Side side_a, Side side_b
     pair.e = 0.5 * (static_cast<double>(static_cast<float>(ea)) + static_cast<double>(static_cast<float>(eb)));
 
     // a: its surface point lies `down` along -n from the frame's origin turned by theta; b: hangs above.
-    double offset_a = 0;   // along t, from a's origin to the point
-    double height_a = 0;   // along n
+    double offset_a = 0; // along t, from a's origin to the point
+    double height_a = 0; // along n
     Geometry ga;
-    if (kind == Kind::CircleCircle || kind == Kind::CircleCapsule) {
+    if (kind == Kind::CircleCircle || kind == Kind::CircleCapsule)
+    {
         ga = Circle{.radius = 0.5f};
         height_a = 0.5;
-    } else if (kind == Kind::CapsuleCapsule) {
+    }
+    else if (kind == Kind::CapsuleCapsule)
+    {
         ga = Capsule{{-0.75f, 0}, {0.75f, 0}, 0.25f, 0.25f};
         height_a = 0.25;
         offset_a = random.range(-0.6, 0.6);
-    } else {
+    }
+    else
+    {
         ga = box(1, 0.5f);
         height_a = 0.5;
         offset_a = random.range(-0.8, 0.8);
@@ -136,22 +145,26 @@ Pair make_pair(Scene& scene, Random& random, Kind kind, Side side_a, Side side_b
     Geometry gb;
     double angle_b = theta;
     D2 at_b;
-    if (kind == Kind::CircleCircle || kind == Kind::CircleFace) {
+    if (kind == Kind::CircleCircle || kind == Kind::CircleFace)
+    {
         gb = Circle{.radius = 0.25f};
         at_b = point + 0.25 * n;
-    } else if (kind == Kind::CornerFace) {
+    }
+    else if (kind == Kind::CornerFace)
+    {
         gb = box(0.5f, 0.5f);
         angle_b = theta + 0.7853981633974483 + random.range(-0.5, 0.5);
         at_b = point + -1.0 * turned(angle_b, {-0.5, -0.5});
-    } else { // a capsule, one round end down
+    }
+    else
+    { // a capsule, one round end down
         gb = Capsule{{0, 0}, {0, 1}, 0.25f, 0.125f};
         angle_b = theta + random.range(-0.9, 0.9);
         at_b = point + 0.25 * n;
     }
     at_b = at_b + gap * n;
-    const auto body = [&](Side side, D2 at, double angle) {
-        return scene.create_body({.type = side.type, .position = {at.x, at.y}, .angle = static_cast<float>(angle)});
-    };
+    const auto body = [&](Side side, D2 at, double angle)
+    { return scene.create_body({.type = side.type, .position = {at.x, at.y}, .angle = static_cast<float>(angle)}); };
     pair.a = body(side_a, at_a, theta);
     pair.b = body(side_b, at_b, angle_b);
     pair.shape_a = scene.create_shape(pair.a, ga, {.friction = 0, .restitution = static_cast<float>(ea)});
@@ -166,7 +179,8 @@ Pair make_pair(Scene& scene, Random& random, Kind kind, Side side_a, Side side_b
 // Random motion with the wanted approach speed at the point.
 void give_motion(Scene& scene, Random& random, const Pair& pair, double approach)
 {
-    for (const BodyId id : {pair.a, pair.b}) {
+    for (const BodyId id : {pair.a, pair.b})
+    {
         if (scene.body(id).type() == BodyType::Static)
             continue;
         scene.body(id).set_velocity(random.vec(3));
@@ -177,7 +191,8 @@ void give_motion(Scene& scene, Random& random, const Pair& pair, double approach
     const double sign = mover == pair.b ? -1 : 1;
     const double change = sign * (approach - now);
     const Vec2 v = scene.body(mover).velocity();
-    scene.body(mover).set_velocity(v + Vec2{static_cast<float>(change * pair.normal.x), static_cast<float>(change * pair.normal.y)});
+    scene.body(mover).set_velocity(v +
+                                   Vec2{static_cast<float>(change * pair.normal.x), static_cast<float>(change * pair.normal.y)});
 }
 
 constexpr float tiny_step = 1e-6f; // so short that spin does not turn the pair before or after the impact
@@ -217,19 +232,23 @@ void check_impact(std::uint64_t seed, Kind kind, Side side_a, Side side_b)
     // The event's own terms give its impulse, as its comment promises.
     const double ka = hit.effective_mass_a > 0 ? 1 / static_cast<double>(hit.effective_mass_a) : 0;
     const double kb = hit.effective_mass_b > 0 ? 1 / static_cast<double>(hit.effective_mass_b) : 0;
-    const double from_terms = (1 + static_cast<double>(hit.restitution)) * (static_cast<double>(hit.speed_a) - static_cast<double>(hit.speed_b)) / (ka + kb);
+    const double from_terms = (1 + static_cast<double>(hit.restitution)) *
+                              (static_cast<double>(hit.speed_a) - static_cast<double>(hit.speed_b)) / (ka + kb);
     EXPECT_NEAR(hit.impulse, from_terms, 5e-5 * want.impulse + 1e-5);
-    const auto kinetic_of = [](const Moving& m) {
+    const auto kinetic_of = [](const Moving& m)
+    {
         const double turning = m.inverse_inertia > 0 ? m.spin * m.spin / m.inverse_inertia : 0;
         return 0.5 * ((m.inverse_mass > 0 ? dot(m.velocity, m.velocity) / m.inverse_mass : 0) + turning);
     };
     // 1/2 (1 - e²) µ u² holds against moving walls too; without one it is the plain difference of the energies.
     const double lost = 0.5 * (1 - pair.e * pair.e) * want.approach * want.approach / (ka + kb);
-    if (side_a.type == BodyType::Dynamic && side_b.type == BodyType::Dynamic) {
+    if (side_a.type == BodyType::Dynamic && side_b.type == BodyType::Dynamic)
+    {
         const double before = kinetic_of(read(scene, pair.a)) + kinetic_of(read(scene, pair.b));
         EXPECT_NEAR(kinetic_of(want.a) + kinetic_of(want.b), before, 1e-3 * (1 + before));
     }
-    if (side_a.type != BodyType::Kinematic) {
+    if (side_a.type != BodyType::Kinematic)
+    {
         EXPECT_NEAR(hit.energy_lost, lost, 1e-3 * (1 + lost));
     }
 }
@@ -249,7 +268,8 @@ void check_separating(std::uint64_t seed, Kind kind, Side side_a, Side side_b)
     expect_velocity(scene, pair.b, b, 1e-6, "b");
 }
 
-constexpr Kind kinds[] = {Kind::CircleCircle, Kind::CircleFace, Kind::CornerFace, Kind::CapsuleFace, Kind::CapsuleCapsule, Kind::CircleCapsule};
+constexpr Kind kinds[] = {Kind::CircleCircle, Kind::CircleFace,     Kind::CornerFace,
+                          Kind::CapsuleFace,  Kind::CapsuleCapsule, Kind::CircleCapsule};
 
 Kind kind_of(int i) { return kinds[static_cast<std::size_t>(i) % std::size(kinds)]; }
 
@@ -257,7 +277,8 @@ Kind kind_of(int i) { return kinds[static_cast<std::size_t>(i) % std::size(kinds
 
 TEST(Row05_ResolveCollision, ThousandRandomPairsFollowTheFormula)
 {
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 1000; ++i)
+    {
         check_impact(static_cast<std::uint64_t>(i) + 1, kind_of(i), {}, {});
         if (::testing::Test::HasFailure())
             return; // the first one tells
@@ -266,7 +287,8 @@ TEST(Row05_ResolveCollision, ThousandRandomPairsFollowTheFormula)
 
 TEST(Row05_ResolveCollision, PairsWhoseMassIsOffTheirCenter)
 {
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600; ++i)
+    {
         check_impact(static_cast<std::uint64_t>(i) + 5001, kind_of(i), {.off_center = true}, {.off_center = true});
         if (::testing::Test::HasFailure())
             return;
@@ -275,7 +297,8 @@ TEST(Row05_ResolveCollision, PairsWhoseMassIsOffTheirCenter)
 
 TEST(Row05_ResolveCollision, SeparatingPairsGetNothing)
 {
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600; ++i)
+    {
         check_separating(static_cast<std::uint64_t>(i) + 9001, kind_of(i), {}, {});
         if (::testing::Test::HasFailure())
             return;
@@ -284,7 +307,8 @@ TEST(Row05_ResolveCollision, SeparatingPairsGetNothing)
 
 TEST(Row05_ResolveCollision, StaticIsInfinitelyHeavy)
 {
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 300; ++i)
+    {
         check_impact(static_cast<std::uint64_t>(i) + 12001, kind_of(i), {BodyType::Static}, {});
         if (::testing::Test::HasFailure())
             return;
@@ -293,7 +317,8 @@ TEST(Row05_ResolveCollision, StaticIsInfinitelyHeavy)
 
 TEST(Row05_ResolveCollision, KinematicIsInfinitelyHeavyAndItsSurfaceSpeedCounts)
 {
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 300; ++i)
+    {
         check_impact(static_cast<std::uint64_t>(i) + 15001, kind_of(i), {BodyType::Kinematic}, {});
         if (::testing::Test::HasFailure())
             return;
@@ -302,7 +327,8 @@ TEST(Row05_ResolveCollision, KinematicIsInfinitelyHeavyAndItsSurfaceSpeedCounts)
 
 TEST(Row05_ResolveCollision, PlaneIsInfinitelyHeavy)
 {
-    for (const float e : {0.0f, 0.4f, 1.0f}) {
+    for (const float e : {0.0f, 0.4f, 1.0f})
+    {
         Scene scene(weightless());
         add_static(scene, HalfSpace{}, {.friction = 0, .restitution = e});
         const Thing ball = add_dynamic(scene, {0, 0.5}, Circle{}, {.density = 3, .friction = 0, .restitution = e}, {2, -7});
@@ -318,10 +344,13 @@ TEST(Row05_ResolveCollision, PlaneIsInfinitelyHeavy)
 // The same law where the pair meets within a step of the usual size, far from the world's origin too.
 TEST(Row05_ResolveCollision, BallsThatMeetInFlight)
 {
-    for (const double far : {0.0, 1e5}) {
+    for (const double far : {0.0, 1e5})
+    {
         Scene scene(weightless());
-        const Thing a = add_dynamic(scene, {far - 0.6, 0}, Circle{.radius = 0.25f}, {.friction = 0, .restitution = 0.8f}, {30, 0});
-        const Thing b = add_dynamic(scene, {far + 0.6, 0}, Circle{.radius = 0.25f}, {.density = 3, .friction = 0, .restitution = 0.8f}, {-20, 0});
+        const Thing a =
+            add_dynamic(scene, {far - 0.6, 0}, Circle{.radius = 0.25f}, {.friction = 0, .restitution = 0.8f}, {30, 0});
+        const Thing b = add_dynamic(scene, {far + 0.6, 0}, Circle{.radius = 0.25f},
+                                    {.density = 3, .friction = 0, .restitution = 0.8f}, {-20, 0});
         scene.step(1.0f / 60);
         ASSERT_EQ(scene.impacts().size(), 1u);
         const double m1 = scene.body(a.body).mass();
@@ -340,7 +369,8 @@ TEST(Row05_ResolveCollision, BallsThatMeetInFlight)
 
 TEST(Row05_ResolveCollision, RestitutionIsTheAverageAndTheRuleCanBeChanged)
 {
-    const auto bounce = [](SceneDef def, ShapeDef a, ShapeDef b) {
+    const auto bounce = [](SceneDef def, ShapeDef a, ShapeDef b)
+    {
         def.gravity = {};
         Scene scene(def);
         add_static(scene, HalfSpace{}, a);
@@ -361,7 +391,8 @@ TEST(Row05_ResolveCollision, RestitutionIsTheAverageAndTheRuleCanBeChanged)
     EXPECT_NEAR(bounce({.restitution_rule = MixRule::OtherDecides}, a, b), 0.5, 1e-6);
     SceneDef function;
     function.restitution_rule = MixRule::Function;
-    function.mix_function = [](MixedValue what, float x, std::uint64_t, float y, std::uint64_t) { return what == MixedValue::Restitution ? 0.3f * x + 0.3f * y : 0; };
+    function.mix_function = [](MixedValue what, float x, std::uint64_t, float y, std::uint64_t)
+    { return what == MixedValue::Restitution ? 0.3f * x + 0.3f * y : 0; };
     EXPECT_NEAR(bounce(function, a, b), 0.3, 1e-6);
 }
 
@@ -372,12 +403,17 @@ TEST(Row05_ResolveCollision, RestitutionCurveFollowsTheApproachSpeed)
     rubber.restitution_curve.points[0] = {1, 0.9f};
     rubber.restitution_curve.points[1] = {5, 0.5f};
     rubber.restitution_curve.points[2] = {10, 0.1f};
-    const auto curve = [](double u) { return u <= 1 ? 0.9 : u <= 5 ? 0.9 - 0.1 * (u - 1) : u <= 10 ? 0.5 - 0.08 * (u - 5) : 0.1; };
-    for (const float u : {0.5f, 1.0f, 3.0f, 5.0f, 8.0f, 10.0f, 30.0f}) {
+    const auto curve = [](double u)
+    {
+        return u <= 1 ? 0.9 : u <= 5 ? 0.9 - 0.1 * (u - 1) : u <= 10 ? 0.5 - 0.08 * (u - 5) : 0.1;
+    };
+    for (const float u : {0.5f, 1.0f, 3.0f, 5.0f, 8.0f, 10.0f, 30.0f})
+    {
         Scene scene(weightless());
         add_static(scene, HalfSpace{}, rubber);
         const Thing ball = add_dynamic(scene, {0, 0.5}, Circle{}, rubber, {0, -u});
         steps(scene, 1);
-        EXPECT_NEAR(scene.body(ball.body).velocity().y, curve(u) * static_cast<double>(u), 1e-5 * static_cast<double>(u)) << "approach " << u;
+        EXPECT_NEAR(scene.body(ball.body).velocity().y, curve(u) * static_cast<double>(u), 1e-5 * static_cast<double>(u))
+            << "approach " << u;
     }
 }

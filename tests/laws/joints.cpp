@@ -22,7 +22,8 @@ TEST(LawDistance, ARopeIsSlackThenTaut)
     EXPECT_NEAR(scene.body(ball).position().y, -1 - 0.5 * g * 0.25, 0.012) << "a jointed body is integrated sub-step by sub-step";
     EXPECT_NEAR(scene.joint(rope).force().y, 0, 1e-5) << "slack";
     double lowest = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 300; ++i)
+    {
         scene.step(1.0f / 60);
         lowest = std::min(lowest, scene.body(ball).position().y);
     }
@@ -44,11 +45,13 @@ TEST(LawDistance, ARodHoldsBothWays)
 
 TEST(LawDistance, LimitsBothEnds)
 {
-    for (const float v : {3.0f, -3.0f}) {
+    for (const float v : {3.0f, -3.0f})
+    {
         Scene scene(weightless());
         const BodyId ball = add_dynamic(scene, {2, 0}, Circle{.radius = 0.2f}, {}, {v, 0}).body;
         scene.create_joint(DistanceDef{.body_b = ball, .min_length = 1, .max_length = 3});
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < 200; ++i)
+        {
             scene.step(1.0f / 60);
             const double x = scene.body(ball).position().x;
             ASSERT_GT(x, 0.97);
@@ -65,7 +68,8 @@ TEST(LawDistance, SoftLimitsSwingAtTheirFrequency)
     scene.create_joint(DistanceDef{.body_b = ball, .min_length = 2, .max_length = 2, .hertz = 2, .damping_ratio = 0.05f});
     int crossings = 0;
     double before = 0.2;
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600; ++i)
+    {
         scene.step(1.0f / 240);
         const double x = scene.body(ball).position().x - 2;
         crossings += (x < 0) != (before < 0);
@@ -78,7 +82,8 @@ TEST(LawRevolute, HoldsItsAnchorAndCarriesTheWeight)
 {
     Scene scene(sleepless());
     const BodyId bar = add_dynamic(scene, {1, 0}, box(1, 0.1f), {.density = 4}).body;
-    const JointId hinge = scene.create_joint(RevoluteDef{.body_b = bar, .anchor_b = {-1, 0}, .enable_limit = true, .lower_angle = 0, .upper_angle = 0});
+    const JointId hinge = scene.create_joint(
+        RevoluteDef{.body_b = bar, .anchor_b = {-1, 0}, .enable_limit = true, .lower_angle = 0, .upper_angle = 0});
     const double m = scene.body(bar).mass();
     steps(scene, 240);
     EXPECT_NEAR(scene.joint(hinge).force().y, m * g, 0.01 * m * g);
@@ -90,12 +95,15 @@ TEST(LawRevolute, HoldsItsAnchorAndCarriesTheWeight)
 
 TEST(LawRevolute, LimitsBounceByTheirRestitution)
 {
-    for (const float e : {0.0f, 0.5f, 1.0f}) {
+    for (const float e : {0.0f, 0.5f, 1.0f})
+    {
         Scene scene(weightless());
         const BodyId bar = add(scene, {.type = BodyType::Dynamic, .angular_velocity = 2}, box(1, 0.1f)).body;
-        const JointId hinge = scene.create_joint(RevoluteDef{.body_b = bar, .enable_limit = true, .lower_angle = -1, .upper_angle = 0.5f, .limit_restitution = e});
+        const JointId hinge = scene.create_joint(
+            RevoluteDef{.body_b = bar, .enable_limit = true, .lower_angle = -1, .upper_angle = 0.5f, .limit_restitution = e});
         double most = 0;
-        for (int i = 0; i < 30; ++i) {
+        for (int i = 0; i < 30; ++i)
+        {
             scene.step(1.0f / 60);
             most = std::max(most, static_cast<double>(scene.joint(hinge).coordinate()));
         }
@@ -109,7 +117,8 @@ TEST(LawRevolute, MotorReachesItsSpeedWithItsTorque)
     Scene scene(weightless());
     const BodyId wheel = add_dynamic(scene, {0, 0}, Circle{}, {.density = 3}).body;
     const double inertia = scene.body(wheel).inertia();
-    const JointId hinge = scene.create_joint(RevoluteDef{.body_b = wheel, .enable_motor = true, .motor_speed = 10, .max_motor_torque = 0.5f});
+    const JointId hinge =
+        scene.create_joint(RevoluteDef{.body_b = wheel, .enable_motor = true, .motor_speed = 10, .max_motor_torque = 0.5f});
     steps(scene, 30);
     EXPECT_NEAR(scene.body(wheel).angular_velocity(), 0.5 / inertia * 0.5, 0.01);
     EXPECT_NEAR(scene.joint(hinge).torque(), 0.5, 0.01);
@@ -121,13 +130,15 @@ TEST(LawRevolute, MotorReachesItsSpeedWithItsTorque)
 
 TEST(LawRevolute, SpringSwingsAtItsFrequency)
 {
-    for (const float h : {1.0f / 60, 1.0f / 240}) {
+    for (const float h : {1.0f / 60, 1.0f / 240})
+    {
         Scene scene(weightless());
         const BodyId wheel = add_dynamic(scene, {0, 0}, Circle{}).body;
         scene.create_joint(RevoluteDef{.body_b = wheel, .spring_hertz = 2, .spring_damping_ratio = 0.05f, .spring_angle = 0.5f});
         int crossings = 0;
         double before = -0.5;
-        for (int i = 0; i < static_cast<int>(5 / h); ++i) {
+        for (int i = 0; i < static_cast<int>(5 / h); ++i)
+        {
             scene.step(h);
             const double x = static_cast<double>(scene.body(wheel).angle()) - 0.5;
             crossings += (x < 0) != (before < 0);
@@ -143,7 +154,8 @@ TEST(LawPrismatic, SlidesAlongItsAxisOnly)
     const BodyId body = add_dynamic(scene, {0, 0}, box(0.3f, 0.3f), {.density = 2}).body;
     const double m = scene.body(body).mass();
     const double alpha = 0.6;
-    const JointId slider = scene.create_joint(PrismaticDef{.body_b = body, .axis_a = {static_cast<float>(2 * std::cos(alpha)), static_cast<float>(-2 * std::sin(alpha))}});
+    const JointId slider = scene.create_joint(PrismaticDef{
+        .body_b = body, .axis_a = {static_cast<float>(2 * std::cos(alpha)), static_cast<float>(-2 * std::sin(alpha))}});
     steps(scene, 60);
     const double v = scene.joint(slider).speed();
     EXPECT_NEAR(v, g * std::sin(alpha), 0.02);
@@ -161,12 +173,19 @@ TEST(LawPrismatic, LimitsMotorAndSpring)
     Scene scene(weightless());
     const BodyId body = add_dynamic(scene, {0, 0}, box(0.3f, 0.3f)).body;
     const double m = scene.body(body).mass();
-    PrismaticDef def{.body_b = body, .enable_limit = true, .lower_translation = -1, .upper_translation = 2, .enable_motor = true, .motor_speed = 3, .max_motor_force = 1};
+    PrismaticDef def{.body_b = body,
+                     .enable_limit = true,
+                     .lower_translation = -1,
+                     .upper_translation = 2,
+                     .enable_motor = true,
+                     .motor_speed = 3,
+                     .max_motor_force = 1};
     const JointId slider = scene.create_joint(def);
     steps(scene, 15);
     EXPECT_NEAR(scene.body(body).velocity().x, 1 / m * 0.25, 0.02);
     double most = 0;
-    for (int i = 0; i < 240; ++i) {
+    for (int i = 0; i < 240; ++i)
+    {
         scene.step(1.0f / 60);
         most = std::max(most, scene.body(body).position().x);
     }
@@ -187,10 +206,12 @@ TEST(LawPrismatic, LimitsMotorAndSpring)
 
 TEST(LawPrismatic, LimitRestitution)
 {
-    for (const float e : {0.0f, 0.5f, 1.0f}) {
+    for (const float e : {0.0f, 0.5f, 1.0f})
+    {
         Scene scene(weightless());
         const BodyId body = add_dynamic(scene, {0, 0}, box(0.3f, 0.3f), {}, {4, 0}).body;
-        scene.create_joint(PrismaticDef{.body_b = body, .enable_limit = true, .lower_translation = -5, .upper_translation = 1, .limit_restitution = e});
+        scene.create_joint(PrismaticDef{
+            .body_b = body, .enable_limit = true, .lower_translation = -5, .upper_translation = 1, .limit_restitution = e});
         steps(scene, 30);
         EXPECT_NEAR(scene.body(body).velocity().x, -4 * e, 0.08) << e;
     }
@@ -198,7 +219,8 @@ TEST(LawPrismatic, LimitRestitution)
 
 TEST(LawJoints, ConnectedBodiesCollideAsAsked)
 {
-    for (const bool collide : {false, true}) {
+    for (const bool collide : {false, true})
+    {
         Scene scene(weightless());
         const BodyId a = add_dynamic(scene, {0, 0}, Circle{}).body;
         const BodyId b = add_dynamic(scene, {0.5, 0}, Circle{}).body;
@@ -217,15 +239,21 @@ TEST(LawJoints, AChainOfTwentyHangsTogether)
     Scene scene(sleepless());
     BodyId previous{};
     std::vector<JointId> joints;
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 20; ++i)
+    {
         const BodyId link = add_dynamic(scene, {0.5 + i, 0}, box(0.5f, 0.1f)).body;
-        joints.push_back(scene.create_joint(RevoluteDef{.body_a = previous, .body_b = link, .anchor_a = previous.is_null() ? Vec2{} : Vec2{0.5f, 0}, .anchor_b = {-0.5f, 0}}));
+        joints.push_back(scene.create_joint(RevoluteDef{.body_a = previous,
+                                                        .body_b = link,
+                                                        .anchor_a = previous.is_null() ? Vec2{} : Vec2{0.5f, 0},
+                                                        .anchor_b = {-0.5f, 0}}));
         previous = link;
     }
     double worst = 0;
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600; ++i)
+    {
         scene.step(1.0f / 60);
-        for (const JointId j : joints) {
+        for (const JointId j : joints)
+        {
             const Vec2 gap = scene.joint(j).anchor_b() - scene.joint(j).anchor_a();
             worst = std::max(worst, static_cast<double>(length(gap)));
         }

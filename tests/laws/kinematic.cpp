@@ -7,10 +7,12 @@ using namespace carom::test;
 
 TEST(Row10_Kinematic, APlatePushesABox)
 {
-    for (const Geometry& geometry : {Geometry{box(0.5f, 0.5f)}, Geometry{Circle{}}}) {
+    for (const Geometry& geometry : {Geometry{box(0.5f, 0.5f)}, Geometry{Circle{}}})
+    {
         Scene scene(sleepless());
         add_static(scene, HalfSpace{}, {.friction = 0});
-        const Thing plate = add(scene, {.type = BodyType::Kinematic, .position = {-1, 0.5}, .velocity = {1, 0}}, box(0.1f, 0.5f), {.friction = 0});
+        const Thing plate = add(scene, {.type = BodyType::Kinematic, .position = {-1, 0.5}, .velocity = {1, 0}}, box(0.1f, 0.5f),
+                                {.friction = 0});
         const Thing body = add_dynamic(scene, {0, 0.5}, geometry, {.friction = 0});
         steps(scene, 180);
         EXPECT_NEAR(scene.body(plate.body).position().x, 2, 1e-5);
@@ -54,15 +56,19 @@ TEST(Row10_Kinematic, ABallOnATargetedPlateGetsItsSpeed)
 TEST(Row10_Kinematic, ATurningBarHitsWithItsSurfaceSpeed)
 {
     // A bar about a pivot at its end; the ball waits at distance 1.5 above it. e = 1: the ball leaves with twice the surface speed.
-    for (const float h : {1.0f / 60, 1.0f / 1000}) {
+    for (const float h : {1.0f / 60, 1.0f / 1000})
+    {
         Scene scene(weightless());
-        const Thing bar = add(scene, {.type = BodyType::Kinematic, .angular_velocity = 4}, box(1, 0.1f, {1, 0}), {.friction = 0, .restitution = 1});
+        const Thing bar = add(scene, {.type = BodyType::Kinematic, .angular_velocity = 4}, box(1, 0.1f, {1, 0}),
+                              {.friction = 0, .restitution = 1});
         const Thing ball = add_dynamic(scene, {1.5, 0.3}, Circle{.radius = 0.15f}, {.friction = 0, .restitution = 1});
         Vec2 hit_at{};
         float approach = 0;
-        for (int i = 0; i < 300 && approach == 0; ++i) {
+        for (int i = 0; i < 300 && approach == 0; ++i)
+        {
             scene.step(h);
-            if (!scene.impacts().empty()) {
+            if (!scene.impacts().empty())
+            {
                 approach = scene.impacts()[0].approach_speed;
                 hit_at = to_vec2(scene.impacts()[0].point);
             }
@@ -83,7 +89,8 @@ TEST(Row10_Kinematic, AFlipperIsABodyThatTurnsAboutItsPivot)
     scene.create_shape(flipper, Capsule{{0, 0}, {0.08f, 0}, 0.012f, 0.007f}, {.friction = 0, .restitution = 0});
     scene.body(flipper).set_mass({.mass = 0.05f, .center = {}, .inertia = 1e-4f});
     EXPECT_EQ(scene.body(flipper).center_of_mass(), (Position{0, 0}));
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 20; ++i)
+    {
         scene.body(flipper).apply_torque(0.02f);
         scene.step(1e-3f);
     }
@@ -99,7 +106,8 @@ TEST(Row10_Kinematic, AFlipperStruckByABallTakesTheImpulseAboutItsPivot)
     const float inertia = 0.3f;
     scene.create_shape(flipper, Capsule{{0, 0}, {1, 0}, 0.1f, 0.1f}, {.friction = 0, .restitution = 0.5f});
     scene.body(flipper).set_mass({.mass = 2, .center = {}, .inertia = inertia});
-    const Thing ball = add_dynamic(scene, {0.8, 0.25}, Circle{.radius = 0.1f}, {.density = 20, .friction = 0, .restitution = 0.5f}, {0, -5});
+    const Thing ball =
+        add_dynamic(scene, {0.8, 0.25}, Circle{.radius = 0.1f}, {.density = 20, .friction = 0, .restitution = 0.5f}, {0, -5});
     const double m = scene.body(ball.body).mass();
     steps(scene, 2);
     // m1 = m, m2 = I / r²: mass at the pivot is out of play, it cannot move.

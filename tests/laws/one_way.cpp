@@ -7,33 +7,39 @@ using namespace carom::test;
 
 TEST(LawOneWay, BlocksFromAboveLetsPassFromBelow)
 {
-    for (const Geometry& geometry : {Geometry{Circle{.radius = 0.3f}}, Geometry{box(0.3f, 0.3f)}, Geometry{Capsule{{-0.2f, 0}, {0.2f, 0}, 0.3f, 0.3f}}})
-        for (const Geometry& platform : {Geometry{box(3, 0.1f)}, Geometry{Segment{{-3, 0}, {3, 0}}}}) {
+    for (const Geometry& geometry :
+         {Geometry{Circle{.radius = 0.3f}}, Geometry{box(0.3f, 0.3f)}, Geometry{Capsule{{-0.2f, 0}, {0.2f, 0}, 0.3f, 0.3f}}})
+        for (const Geometry& platform : {Geometry{box(3, 0.1f)}, Geometry{Segment{{-3, 0}, {3, 0}}}})
+        {
             SCOPED_TRACE("body " + std::to_string(geometry.index()) + " platform " + std::to_string(platform.index()));
             Scene scene(sleepless());
             add_static(scene, platform, {.one_way = {0, 1}});
             const BodyId falls = add_dynamic(scene, {-1.5, 2}, geometry).body;
             const BodyId jumps = add_dynamic(scene, {1.5, -2}, geometry, {}, {0, 9}).body;
             double highest = -9;
-            for (int i = 0; i < 240; ++i) {
+            for (int i = 0; i < 240; ++i)
+            {
                 scene.step(1.0f / 60);
                 highest = std::max(highest, scene.body(jumps).position().y);
             }
             EXPECT_NEAR(scene.body(falls).position().y, std::holds_alternative<Segment>(platform) ? 0.3 : 0.4, 0.02);
             EXPECT_NEAR(highest, -2 + 81 / (2 * 9.81), 0.05) << "it is not slowed on its way up";
-            EXPECT_NEAR(scene.body(jumps).position().y, std::holds_alternative<Segment>(platform) ? 0.3 : 0.4, 0.02) << "and lands on it";
+            EXPECT_NEAR(scene.body(jumps).position().y, std::holds_alternative<Segment>(platform) ? 0.3 : 0.4, 0.02)
+                << "and lands on it";
         }
 }
 
 TEST(LawOneWay, FastBallsToo)
 {
-    for (const float v : {10.0f, 100.0f, 1000.0f}) {
+    for (const float v : {10.0f, 100.0f, 1000.0f})
+    {
         Scene scene(weightless());
         add_static(scene, Segment{{-3, 0}, {3, 0}}, {.one_way = {0, 1}});
         const BodyId down = add_dynamic(scene, {-1, 1}, Circle{.radius = 0.1f}, {.restitution = 0.5f}, {0, -v}).body;
         const BodyId up = add_dynamic(scene, {1, -1}, Circle{.radius = 0.1f}, {.restitution = 0.5f}, {0, v}).body;
         int impacts = 0;
-        for (int i = 0; i < 30; ++i) {
+        for (int i = 0; i < 30; ++i)
+        {
             scene.step(1.0f / 60);
             impacts += static_cast<int>(scene.impacts().size());
         }
@@ -45,7 +51,8 @@ TEST(LawOneWay, FastBallsToo)
 
 TEST(LawOneWay, OneSidedSegmentsAndArcs)
 {
-    for (const float v : {5.0f, 500.0f}) {
+    for (const float v : {5.0f, 500.0f})
+    {
         Scene scene(weightless());
         add_static(scene, Segment{{-3, 0}, {3, 0}, 0, Sides::Left});
         const BodyId down = add_dynamic(scene, {-1, 1}, Circle{.radius = 0.1f}, {}, {0, -v}).body;
@@ -58,7 +65,8 @@ TEST(LawOneWay, OneSidedSegmentsAndArcs)
 
 TEST(LawFilter, CategoriesGroupsAndIgnoredPairs)
 {
-    const auto touch = [](const Filter& a, const Filter& b) {
+    const auto touch = [](const Filter& a, const Filter& b)
+    {
         Scene scene(weightless());
         add_static(scene, Circle{}, {.filter = a});
         add_dynamic(scene, {0.5, 0}, Circle{}, {.filter = b});

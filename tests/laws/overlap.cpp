@@ -12,7 +12,8 @@ void expect_shared(const Geometry& ga, const Geometry& gb, double reach, double 
     Scene scene(weightless());
     const double overlap = 0.1;
     const Thing a = add_dynamic(scene, {0, 0}, ga, {.friction = 0, .restitution = 0});
-    const Thing b = add_dynamic(scene, {reach - overlap, 0}, gb, {.density = static_cast<float>(density_b), .friction = 0, .restitution = 0});
+    const Thing b =
+        add_dynamic(scene, {reach - overlap, 0}, gb, {.density = static_cast<float>(density_b), .friction = 0, .restitution = 0});
     const double ma = scene.body(a.body).mass();
     const double mb = scene.body(b.body).mass();
     const double xb = scene.body(b.body).position().x;
@@ -33,7 +34,8 @@ void expect_shared(const Geometry& ga, const Geometry& gb, double reach, double 
 
 TEST(Row06_ApplyContactForces, OverlapIsRemovedInProportionToTheOtherMass)
 {
-    for (const double density : {1.0, 4.0, 0.1}) {
+    for (const double density : {1.0, 4.0, 0.1})
+    {
         SCOPED_TRACE(density);
         {
             SCOPED_TRACE("circles");
@@ -56,7 +58,8 @@ TEST(Row06_ApplyContactForces, OverlapIsRemovedInProportionToTheOtherMass)
 
 TEST(Row06_ApplyContactForces, AWallKeepsItsPlace)
 {
-    for (const BodyType type : {BodyType::Static, BodyType::Kinematic}) {
+    for (const BodyType type : {BodyType::Static, BodyType::Kinematic})
+    {
         Scene scene(weightless());
         const Thing wall = add(scene, {.type = type}, box(0.5f, 0.5f));
         const Thing body = add_dynamic(scene, {0.9, 0}, box(0.5f, 0.5f));
@@ -74,7 +77,8 @@ TEST(Row06_ApplyContactForces, NoFasterThanThePushSpeed)
     Scene scene(def);
     add_static(scene, box(0.5f, 0.5f));
     const Thing body = add_dynamic(scene, {0.7, 0}, box(0.5f, 0.5f));
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60; ++i)
+    {
         const double x = scene.body(body.body).position().x;
         scene.step(1.0f / 60);
         EXPECT_LE(scene.body(body.body).position().x - x, 0.5 / 60 * 1.05);

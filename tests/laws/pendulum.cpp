@@ -11,7 +11,8 @@ constexpr double pi_d = 3.14159265358979323846;
 
 double agm(double a, double b)
 {
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < 30; ++i)
+    {
         const double mean = 0.5 * (a + b);
         b = std::sqrt(a * b);
         a = mean;
@@ -19,7 +20,10 @@ double agm(double a, double b)
     return a;
 }
 
-double period_of(double length, double amplitude) { return 2 * pi_d * std::sqrt(length / static_cast<double>(9.81f)) / agm(1, std::cos(0.5 * amplitude)); }
+double period_of(double length, double amplitude)
+{
+    return 2 * pi_d * std::sqrt(length / static_cast<double>(9.81f)) / agm(1, std::cos(0.5 * amplitude));
+}
 
 struct Swing
 {
@@ -35,7 +39,8 @@ Swing swing(double amplitude, double reach, const Geometry& geometry, float h, d
     Scene scene(sleepless());
     const double x = reach * std::sin(amplitude);
     const double y = -reach * std::cos(amplitude);
-    const BodyId body = add(scene, {.type = BodyType::Dynamic, .position = {x, y}, .angle = static_cast<float>(amplitude)}, geometry).body;
+    const BodyId body =
+        add(scene, {.type = BodyType::Dynamic, .position = {x, y}, .angle = static_cast<float>(amplitude)}, geometry).body;
     connect(scene, body);
     double highest_early = -1e9;
     double highest_late = -1e9;
@@ -44,10 +49,12 @@ Swing swing(double amplitude, double reach, const Geometry& geometry, float h, d
     double last = 0;
     int crossings = 0;
     double before = x;
-    for (int i = 1; i * static_cast<double>(h) < seconds; ++i) {
+    for (int i = 1; i * static_cast<double>(h) < seconds; ++i)
+    {
         scene.step(h);
         const Position p = scene.body(body).center_of_mass();
-        if ((before < 0) != (p.x < 0)) {
+        if ((before < 0) != (p.x < 0))
+        {
             const double t = (i - 1 + before / (before - p.x)) * static_cast<double>(h);
             if (first < 0)
                 first = t;
@@ -73,9 +80,11 @@ Swing swing(double amplitude, double reach, const Geometry& geometry, float h, d
 TEST(LawPendulum, ABallOnARodHasThePeriodOfAPointMass)
 {
     for (const double amplitude : {0.05, 1.0, 2.0943951})
-        for (const float h : {1.0f / 60, 1.0f / 240}) {
+        for (const float h : {1.0f / 60, 1.0f / 240})
+        {
             SCOPED_TRACE("amplitude " + std::to_string(amplitude) + " h " + std::to_string(h));
-            const Swing s = swing(amplitude, 2, Circle{.radius = 0.1f}, h, 20, [](Scene& scene, BodyId body) { scene.create_joint(DistanceDef{.body_b = body}); });
+            const Swing s = swing(amplitude, 2, Circle{.radius = 0.1f}, h, 20,
+                                  [](Scene& scene, BodyId body) { scene.create_joint(DistanceDef{.body_b = body}); });
             EXPECT_NEAR(s.period, period_of(2, amplitude), 0.005 * s.period);
             EXPECT_LT(std::fabs(s.amplitude_lost), 0.02);
             EXPECT_LT(s.length_error, 0.01);
@@ -88,10 +97,11 @@ TEST(LawPendulum, ABarOnAHingeIsACompoundPendulum)
     const double d = 1;
     const double equivalent = ((0.2 * 0.2 + 2 * 2) / 12 + d * d) / d;
     for (const double amplitude : {0.05, 1.0, 2.0943951})
-        for (const float h : {1.0f / 60, 1.0f / 240}) {
+        for (const float h : {1.0f / 60, 1.0f / 240})
+        {
             SCOPED_TRACE("amplitude " + std::to_string(amplitude) + " h " + std::to_string(h));
-            const Swing s = swing(amplitude, d, box(0.1f, 1), h, 20,
-                                  [](Scene& scene, BodyId body) { scene.create_joint(RevoluteDef{.body_b = body, .anchor_b = {0, 1}}); });
+            const Swing s = swing(amplitude, d, box(0.1f, 1), h, 20, [](Scene& scene, BodyId body)
+                                  { scene.create_joint(RevoluteDef{.body_b = body, .anchor_b = {0, 1}}); });
             EXPECT_NEAR(s.period, period_of(equivalent, amplitude), 0.005 * s.period);
             EXPECT_LT(std::fabs(s.amplitude_lost), 0.02);
             EXPECT_LT(s.length_error, 0.01);

@@ -13,7 +13,11 @@ constexpr float half_pi = 0.5f * pi;
 // A stadium, closed: straight, half circle, straight, half circle. Rolled inside.
 Chain stadium(Sides sides, float thickness)
 {
-    return {.start = {-2, -1}, .pieces = {{.end = {2, -1}}, {.end = {2, 1}, .sweep = pi}, {.end = {-2, 1}}, {.end = {-2, -1}, .sweep = pi}}, .closed = true, .half_thickness = thickness, .sides = sides};
+    return {.start = {-2, -1},
+            .pieces = {{.end = {2, -1}}, {.end = {2, 1}, .sweep = pi}, {.end = {-2, 1}}, {.end = {-2, -1}, .sweep = pi}},
+            .closed = true,
+            .half_thickness = thickness,
+            .sides = sides};
 }
 
 // Straight pieces in line, then a dip made of arcs that bend both ways, all tangential: a skate park. Rolled on top.
@@ -48,11 +52,13 @@ Ride ride(const Chain& chain, Position start, Vec2 velocity, float spin, SceneDe
     def.sleeping = false;
     Scene scene(def);
     add_static(scene, chain, {.friction = friction, .restitution = 0.5f});
-    const BodyId ball = add_dynamic(scene, start, Circle{.radius = r}, {.friction = friction, .restitution = 0.5f}, velocity, spin).body;
+    const BodyId ball =
+        add_dynamic(scene, start, Circle{.radius = r}, {.friction = friction, .restitution = 0.5f}, velocity, spin).body;
     const double before = energy(scene, ball);
     const double moving = kinetic(scene, ball);
     Ride result;
-    for (int i = 0; i * static_cast<double>(h) < seconds; ++i) {
+    for (int i = 0; i * static_cast<double>(h) < seconds; ++i)
+    {
         scene.step(h);
         result.impacts += static_cast<int>(scene.impacts().size());
     }
@@ -84,33 +90,43 @@ TEST(LawSeams, InsideAStadiumWithoutGravity)
 {
     for (const float h : {1.0f / 60, 1.0f / 1000})
         for (const float friction : {0.0f})
-            for (const Sides sides : {Sides::Both, Sides::Left}) {
-                SCOPED_TRACE("h " + std::to_string(h) + " friction " + std::to_string(friction) + " sides " + std::to_string(static_cast<int>(sides)));
+            for (const Sides sides : {Sides::Both, Sides::Left})
+            {
+                SCOPED_TRACE("h " + std::to_string(h) + " friction " + std::to_string(friction) + " sides " +
+                             std::to_string(static_cast<int>(sides)));
                 // 14.3 m around: seven seams in 27 m.
-                expect_clean(ride(stadium(sides, 0), {-1, -1 + static_cast<double>(r)}, {3, 0}, friction > 0 ? -30.0f : 0.0f, with_gravity(false), h, 9, friction), 7);
+                expect_clean(ride(stadium(sides, 0), {-1, -1 + static_cast<double>(r)}, {3, 0}, friction > 0 ? -30.0f : 0.0f,
+                                  with_gravity(false), h, 9, friction),
+                             7);
             }
 }
 
 TEST(LawSeams, InsideAFullCircle)
 {
     for (const float h : {1.0f / 60, 1.0f / 1000})
-        for (const bool gravity : {false, true}) {
+        for (const bool gravity : {false, true})
+        {
             SCOPED_TRACE("h " + std::to_string(h) + " gravity " + std::to_string(gravity));
             SceneDef def = with_gravity(gravity);
             def.sleeping = false;
             Scene scene(def);
-            add_static(scene, Arc{.radius = 1, .start_angle = -half_pi, .sweep = 2 * pi}, {.friction = 0.6f, .restitution = 0.5f});
+            add_static(scene, Arc{.radius = 1, .start_angle = -half_pi, .sweep = 2 * pi},
+                       {.friction = 0.6f, .restitution = 0.5f});
             const float v = gravity ? 9.0f : 3.0f; // enough to pass the top
-            const BodyId ball = add_dynamic(scene, {0, -1 + static_cast<double>(r)}, Circle{.radius = r}, {.restitution = 0.5f}, {v, 0}, -v / r).body;
+            const BodyId ball =
+                add_dynamic(scene, {0, -1 + static_cast<double>(r)}, Circle{.radius = r}, {.restitution = 0.5f}, {v, 0}, -v / r)
+                    .body;
             const double before = energy(scene, ball);
             const double moving = kinetic(scene, ball);
             int impacts = 0;
-            for (int i = 0; i * static_cast<double>(h) < 5; ++i) {
+            for (int i = 0; i * static_cast<double>(h) < 5; ++i)
+            {
                 scene.step(h);
                 impacts += static_cast<int>(scene.impacts().size());
             }
             EXPECT_EQ(impacts, 0);
-            if (!gravity) {
+            if (!gravity)
+            {
                 EXPECT_LT(std::fabs(before - energy(scene, ball)) / moving, 1e-5 * 2.7) << "2.7 times around";
             }
             EXPECT_NEAR(std::hypot(scene.body(ball).position().x, scene.body(ball).position().y), 0.9, 1e-3);
@@ -121,18 +137,23 @@ TEST(LawSeams, OverAParkWithGravity)
 {
     for (const float h : {1.0f / 60, 1.0f / 1000})
         for (const float thickness : {0.0f, 0.05f})
-            for (const float friction : {0.0f, 0.6f}) {
-                SCOPED_TRACE("h " + std::to_string(h) + " thickness " + std::to_string(thickness) + " friction " + std::to_string(friction));
+            for (const float friction : {0.0f, 0.6f})
+            {
+                SCOPED_TRACE("h " + std::to_string(h) + " thickness " + std::to_string(thickness) + " friction " +
+                             std::to_string(friction));
                 // Slow enough not to fly off the crests: v² < g (2 + r).
                 const float v = 2.5f;
-                expect_clean(ride(park(thickness), {-2.8, static_cast<double>(thickness + r)}, {v, 0}, friction > 0 ? -v / r : 0, with_gravity(true), h, 2.4, friction), 6);
+                expect_clean(ride(park(thickness), {-2.8, static_cast<double>(thickness + r)}, {v, 0}, friction > 0 ? -v / r : 0,
+                                  with_gravity(true), h, 2.4, friction),
+                             6);
             }
 }
 
 TEST(LawSeams, OverStraightSeamsWithAndWithoutGravity)
 {
     for (const float h : {1.0f / 60, 1.0f / 1000})
-        for (const bool gravity : {false, true}) {
+        for (const bool gravity : {false, true})
+        {
             SCOPED_TRACE("h " + std::to_string(h) + " gravity " + std::to_string(gravity));
             Chain chain{.start = {-5, 0}};
             for (int i = -4; i <= 5; ++i)
@@ -149,13 +170,15 @@ TEST(LawSeams, BoxesAndCapsulesSlideOverSeams)
     for (int i = -4; i <= 5; ++i)
         chain.pieces.push_back({.end = {static_cast<float>(i), 0}});
     for (const Geometry& geometry : {Geometry{box(0.2f, 0.2f)}, Geometry{Capsule{{-0.2f, 0}, {0.2f, 0}, 0.2f, 0.2f}}})
-        for (const float h : {1.0f / 60, 1.0f / 1000}) {
+        for (const float h : {1.0f / 60, 1.0f / 1000})
+        {
             SCOPED_TRACE("h " + std::to_string(h) + " shape " + std::to_string(geometry.index()));
             Scene scene(sleepless());
             add_static(scene, chain, {.friction = 0});
             const BodyId body = add_dynamic(scene, {-4.5, 0.2}, geometry, {.friction = 0}, {4, 0}).body;
             int impacts = 0;
-            for (int i = 0; i * static_cast<double>(h) < 2; ++i) {
+            for (int i = 0; i * static_cast<double>(h) < 2; ++i)
+            {
                 scene.step(h);
                 impacts += static_cast<int>(scene.impacts().size());
             }
@@ -170,9 +193,11 @@ TEST(LawSeams, AConvexCornerIsLeftAndAConcaveOneIsHit)
 {
     Scene scene(weightless());
     add_static(scene, Chain{.start = {-3, 0}, .pieces = {{.end = {0, 0}}, {.end = {1, 1}}}}, {.friction = 0, .restitution = 1});
-    const BodyId ball = add_dynamic(scene, {-2, static_cast<double>(r)}, Circle{.radius = r}, {.friction = 0, .restitution = 1}, {3, 0}).body;
+    const BodyId ball =
+        add_dynamic(scene, {-2, static_cast<double>(r)}, Circle{.radius = r}, {.friction = 0, .restitution = 1}, {3, 0}).body;
     int impacts = 0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60; ++i)
+    {
         scene.step(1.0f / 60);
         impacts += static_cast<int>(scene.impacts().size());
     }

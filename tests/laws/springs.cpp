@@ -54,14 +54,17 @@ TEST(Row09_Spring, FollowsTheDifferentialEquation)
     for (const double hertz : {1.0, 5.0})
         for (const double zeta : {0.0, 0.1, 0.2, 3.0})
             for (const float h : {1.0f / 60, 1.0f / 240})
-                for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}}) {
-                    SCOPED_TRACE("hertz " + std::to_string(hertz) + " zeta " + std::to_string(zeta) + " h " + std::to_string(h) + " shape " + std::to_string(geometry.index()));
+                for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}})
+                {
+                    SCOPED_TRACE("hertz " + std::to_string(hertz) + " zeta " + std::to_string(zeta) + " h " + std::to_string(h) +
+                                 " shape " + std::to_string(geometry.index()));
                     Hung hung = hang(hertz, zeta, geometry);
                     const double omega = 2 * 3.14159265358979 * hertz;
                     const Oscillator want{hung.mass, hung.mass * omega * omega, 2 * zeta * hung.mass * omega, 0.5};
                     double worst = 0;
                     const int count = static_cast<int>(3 / hertz / static_cast<double>(h) + 0.5); // three periods
-                    for (int i = 1; i <= count; ++i) {
+                    for (int i = 1; i <= count; ++i)
+                    {
                         hung.scene.step(h);
                         const double x = hung.scene.body(hung.body).position().x - 2;
                         worst = std::max(worst, std::fabs(x - want.at(i * static_cast<double>(h))));
@@ -75,10 +78,12 @@ TEST(Row09_Spring, FollowsTheDifferentialEquation)
 
 TEST(Row09_Spring, AnUndampedSpringKeepsItsAmplitude)
 {
-    for (const double hertz : {1.0, 5.0}) {
+    for (const double hertz : {1.0, 5.0})
+    {
         Hung hung = hang(hertz, 0, Circle{});
         double high = 0;
-        for (int i = 0; i < 60 * 20; ++i) {
+        for (int i = 0; i < 60 * 20; ++i)
+        {
             hung.scene.step(1.0f / 60);
             if (i > 60 * 18)
                 high = std::max(high, std::fabs(hung.scene.body(hung.body).position().x - 2));
@@ -91,15 +96,18 @@ TEST(Row09_Spring, StableHoweverStiff)
 {
     for (const float stiffness : {1e4f, 1e6f, 1e8f, 1e12f})
         for (const float damping : {0.0f, 1e2f, 1e6f, 1e10f})
-            for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}}) {
+            for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}})
+            {
                 SCOPED_TRACE("k " + std::to_string(stiffness) + " c " + std::to_string(damping));
                 Scene scene(weightless());
                 const BodyId body = add_dynamic(scene, {2.5, 0}, geometry).body;
                 scene.create_joint(SpringDef{.body_b = body, .stiffness = stiffness, .damping = damping, .length = 2});
                 double farthest = 0;
-                for (int i = 0; i < 600; ++i) {
+                for (int i = 0; i < 600; ++i)
+                {
                     scene.step(1.0f / 60);
-                    farthest = std::max(farthest, std::fabs(std::hypot(scene.body(body).position().x, scene.body(body).position().y) - 2));
+                    farthest = std::max(farthest,
+                                        std::fabs(std::hypot(scene.body(body).position().x, scene.body(body).position().y) - 2));
                 }
                 EXPECT_LT(farthest, 0.55);
                 EXPECT_FALSE(scene.report().has(StepFlag::BodyQuarantined));
@@ -118,7 +126,8 @@ TEST(Row09_Spring, TwoBodiesOscillateAboutTheirCommonCenter)
     scene.create_joint(SpringDef{.body_a = a, .body_b = b, .stiffness = static_cast<float>(k), .length = 2.5f});
     const Oscillator want{ma * mb / (ma + mb), k, 0, 0.5};
     double worst = 0;
-    for (int i = 1; i <= 240; ++i) {
+    for (int i = 1; i <= 240; ++i)
+    {
         scene.step(1.0f / 120);
         const double stretch = scene.body(b).position().x - scene.body(a).position().x - 2.5;
         worst = std::max(worst, std::fabs(stretch - want.at(i / 120.0)));
@@ -142,19 +151,23 @@ TEST(Row09_Spring, NegativeLengthIsMeasured)
 // shared as by mechanics. Rod and ball move together until the spring is at its length (a ball that only leans on the rod leaves there).
 TEST(Row11_SpringLauncher, RodAndBallShareTheEnergyOfTheSpring)
 {
-    for (const float h : {1.0f / 240, 1.0f / 1000}) {
+    for (const float h : {1.0f / 240, 1.0f / 1000})
+    {
         Scene scene(weightless());
         const BodyId rod = add_dynamic(scene, {-0.3, 0}, box(0.2f, 0.1f), {.density = 5, .friction = 0, .restitution = 0}).body;
-        const BodyId ball = add_dynamic(scene, {0, 0}, Circle{.radius = 0.1f}, {.density = 20, .friction = 0, .restitution = 0}).body;
+        const BodyId ball =
+            add_dynamic(scene, {0, 0}, Circle{.radius = 0.1f}, {.density = 20, .friction = 0, .restitution = 0}).body;
         const double m_rod = scene.body(rod).mass();
         const double m_ball = scene.body(ball).mass();
         scene.create_joint(PrismaticDef{.body_b = rod, .anchor_a = {-0.3f, 0}, .axis_a = {1, 0}});
         // The spring's anchor is far behind, so that it is 0.1 m short of its length at the start.
         const double k = 400;
         const double pull = 0.1;
-        scene.create_joint(SpringDef{.body_b = rod, .anchor_a = {-2.3f, 0}, .stiffness = static_cast<float>(k), .length = static_cast<float>(2 + pull)});
+        scene.create_joint(SpringDef{
+            .body_b = rod, .anchor_a = {-2.3f, 0}, .stiffness = static_cast<float>(k), .length = static_cast<float>(2 + pull)});
         double fastest = 0;
-        for (int i = 0; i < static_cast<int>(0.6f / h); ++i) {
+        for (int i = 0; i < static_cast<int>(0.6f / h); ++i)
+        {
             scene.step(h);
             fastest = std::max(fastest, static_cast<double>(scene.body(ball).velocity().x));
         }

@@ -14,7 +14,8 @@ TEST(Row10_Kinematic, TargetPoseGoesTheShorterWayRound)
     scene.set_record_substeps(true);
     scene.step(1.0f / 60);
     int seen = 0;
-    for (const SubstepPose& p : scene.report().substep_poses) {
+    for (const SubstepPose& p : scene.report().substep_poses)
+    {
         if (p.body != bar.body)
             continue;
         ++seen;

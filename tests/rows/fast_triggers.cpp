@@ -8,9 +8,13 @@ using namespace carom::test;
 TEST(Row07_Trigger, AFastBodyNeverMissesOne)
 {
     for (const float v : {5.0f, 50.0f, 300.0f, 1000.0f})
-        for (const Geometry& thin : {Geometry{box(0.001f, 5)}, Geometry{Segment{{0, -5}, {0, 5}}}, Geometry{Circle{.radius = 0.02f}}, Geometry{Arc{.center = {-5, 0}, .radius = 5, .start_angle = -0.5f, .sweep = 1}}})
-            for (const double start : {-3.0, -2.77, -0.4}) {
-                SCOPED_TRACE("v " + std::to_string(v) + " shape " + std::to_string(thin.index()) + " from " + std::to_string(start));
+        for (const Geometry& thin :
+             {Geometry{box(0.001f, 5)}, Geometry{Segment{{0, -5}, {0, 5}}}, Geometry{Circle{.radius = 0.02f}},
+              Geometry{Arc{.center = {-5, 0}, .radius = 5, .start_angle = -0.5f, .sweep = 1}}})
+            for (const double start : {-3.0, -2.77, -0.4})
+            {
+                SCOPED_TRACE("v " + std::to_string(v) + " shape " + std::to_string(thin.index()) + " from " +
+                             std::to_string(start));
                 Scene scene(weightless());
                 add_static(scene, thin, {.trigger = true});
                 const Thing ball = add_dynamic(scene, {start, 0}, Circle{.radius = 0.1f}, {}, {v, 0});
@@ -18,15 +22,18 @@ TEST(Row07_Trigger, AFastBodyNeverMissesOne)
                 int exits = 0;
                 double enter_time = 0;
                 double exit_time = 0;
-                for (int i = 0; i < 120; ++i) {
+                for (int i = 0; i < 120; ++i)
+                {
                     scene.step(1.0f / 60);
-                    for (const TriggerEvent& e : scene.trigger_enters()) {
+                    for (const TriggerEvent& e : scene.trigger_enters())
+                    {
                         ++enters;
                         enter_time = i / 60.0 + static_cast<double>(e.time);
                         EXPECT_GE(e.time, 0);
                         EXPECT_LE(e.time, 1.001f / 60);
                     }
-                    for (const TriggerEvent& e : scene.trigger_exits()) {
+                    for (const TriggerEvent& e : scene.trigger_exits())
+                    {
                         ++exits;
                         exit_time = i / 60.0 + static_cast<double>(e.time);
                     }

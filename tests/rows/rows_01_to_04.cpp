@@ -59,7 +59,8 @@ TEST(Row01_FixedTimestep, AnHourOfFramesLosesNoStep)
     Scene scene(def);
     Random random(9);
     double given = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 20000; ++i)
+    {
         const float frame = random.rangef(0.001, 0.04);
         given += static_cast<double>(frame);
         const UpdateResult r = scene.update(frame);
@@ -118,11 +119,14 @@ TEST(Row01_FixedTimestep, ForcesWaitForAStep)
 TEST(Row02_CollisionTable, EveryPermutationThatCanMeetIsThere)
 {
     using internal::LeafType;
-    const auto moves = [](LeafType t) { return t == LeafType::Circle || t == LeafType::Polygon || t == LeafType::Capsule || t == LeafType::Segment; };
+    const auto moves = [](LeafType t)
+    { return t == LeafType::Circle || t == LeafType::Polygon || t == LeafType::Capsule || t == LeafType::Segment; };
     for (int a = 0; a < internal::leaf_type_count; ++a)
-        for (int b = 0; b < internal::leaf_type_count; ++b) {
+        for (int b = 0; b < internal::leaf_type_count; ++b)
+        {
             const bool can_meet = moves(static_cast<LeafType>(a)) || moves(static_cast<LeafType>(b));
-            EXPECT_EQ(internal::collide_function(static_cast<LeafType>(a), static_cast<LeafType>(b)) != nullptr, can_meet) << a << ", " << b;
+            EXPECT_EQ(internal::collide_function(static_cast<LeafType>(a), static_cast<LeafType>(b)) != nullptr, can_meet)
+                << a << ", " << b;
         }
     EXPECT_EQ(internal::collide_function(LeafType::HalfSpace, LeafType::HalfSpace), nullptr) << "plane and plane never collide";
 }
@@ -141,20 +145,28 @@ TEST(Row02_CollisionTable, EveryPairOfShapesMeetsInBothOrders)
         {"polygon", box(0.5f, 0.5f, {0, -0.5f}), true},
         {"capsule", Capsule{{-0.5f, -0.25f}, {0.5f, -0.25f}}, true},
         {"segment", Segment{{0.5f, -0.1f}, {-0.5f, -0.1f}, 0.1f}, true},
-        {"arc", Arc{.center = {0, -1.1f}, .radius = 1, .start_angle = 0.25f * pi, .sweep = 0.5f * pi, .half_thickness = 0.1f}, false},
-        {"chain", Chain{.start = {1, -0.1f}, .pieces = {{.end = {0.2f, -0.1f}}, {.end = {-1, -0.1f}}}, .half_thickness = 0.1f}, false},
+        {"arc", Arc{.center = {0, -1.1f}, .radius = 1, .start_angle = 0.25f * pi, .sweep = 0.5f * pi, .half_thickness = 0.1f},
+         false},
+        {"chain", Chain{.start = {1, -0.1f}, .pieces = {{.end = {0.2f, -0.1f}}, {.end = {-1, -0.1f}}}, .half_thickness = 0.1f},
+         false},
         {"half-space", HalfSpace{}, false},
     };
     for (const Kind& below : kinds)
-        for (const Kind& above : kinds) {
+        for (const Kind& above : kinds)
+        {
             if (!above.moves && !below.moves)
                 continue;
-            for (const bool above_first : {false, true}) {
+            for (const bool above_first : {false, true})
+            {
                 SCOPED_TRACE(std::string(above.name) + " on " + below.name + (above_first ? ", made first" : ""));
                 // The upper one is turned upside down. Where it cannot move, the lower one rises against it.
                 Scene scene(weightless());
-                const BodyDef lower{.type = below.moves ? BodyType::Dynamic : BodyType::Static, .velocity = {0, above.moves ? 0.0f : 1.0f}};
-                const BodyDef upper{.type = above.moves ? BodyType::Dynamic : BodyType::Static, .position = {0, 0.004}, .angle = pi, .velocity = {0, -1}};
+                const BodyDef lower{.type = below.moves ? BodyType::Dynamic : BodyType::Static,
+                                    .velocity = {0, above.moves ? 0.0f : 1.0f}};
+                const BodyDef upper{.type = above.moves ? BodyType::Dynamic : BodyType::Static,
+                                    .position = {0, 0.004},
+                                    .angle = pi,
+                                    .velocity = {0, -1}};
                 const BodyId first = scene.create_body(above_first ? upper : lower);
                 const BodyId second = scene.create_body(above_first ? lower : upper);
                 const BodyId top = above_first ? first : second;
@@ -163,9 +175,11 @@ TEST(Row02_CollisionTable, EveryPairOfShapesMeetsInBothOrders)
                 scene.create_shape(second, above_first ? below.geometry : above.geometry, {.friction = 0, .restitution = 1});
                 int impacts = 0;
                 Vec2 up{};
-                for (int i = 0; i < 3; ++i) {
+                for (int i = 0; i < 3; ++i)
+                {
                     scene.step(1.0f / 60);
-                    for (const ImpactEvent& hit : scene.impacts()) {
+                    for (const ImpactEvent& hit : scene.impacts())
+                    {
                         ++impacts;
                         up = hit.body_a == bottom ? hit.normal : -hit.normal;
                     }
@@ -182,7 +196,9 @@ TEST(Row02_CollisionTable, EveryPairOfShapesMeetsInBothOrders)
 
 TEST(Row03_Plane, BlocksOnlyWhatMovesAgainstItsNormal)
 {
-    for (const Geometry& geometry : {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}, Geometry{Capsule{{-0.5f, 0}, {0.5f, 0}, 0.5f, 0.5f}}}) {
+    for (const Geometry& geometry :
+         {Geometry{Circle{}}, Geometry{box(0.5f, 0.5f)}, Geometry{Capsule{{-0.5f, 0}, {0.5f, 0}, 0.5f, 0.5f}}})
+    {
         SCOPED_TRACE(geometry.index());
         Scene scene(weightless());
         add_static(scene, HalfSpace{.normal = {0, 2}, .offset = 1});
@@ -208,7 +224,8 @@ TEST(Row03_Plane, IsInfiniteAndTurns)
 TEST(Row03_Plane, IsStaticOnly)
 {
     Scene scene;
-    for (const BodyType type : {BodyType::Dynamic, BodyType::Kinematic}) {
+    for (const BodyType type : {BodyType::Dynamic, BodyType::Kinematic})
+    {
         const BodyId body = scene.create_body({.type = type});
         EXPECT_THROW(scene.create_shape(body, HalfSpace{}), Error);
     }
@@ -243,7 +260,8 @@ TEST(Row04_Contacts, PlaneSphere)
 
 TEST(Row04_Contacts, PlaneBoxAndBoxBoxHaveTwoPoints)
 {
-    for (const bool plane : {true, false}) {
+    for (const bool plane : {true, false})
+    {
         Scene scene(weightless());
         if (plane)
             add_static(scene, HalfSpace{});

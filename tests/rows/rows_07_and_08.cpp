@@ -34,15 +34,18 @@ TEST(Row07_Trigger, PassesThroughAndReportsEnterInsideExit)
     Log log;
     watch(scene, trigger.shape, log);
     int inside_steps = 0;
-    for (int i = 0; i < 120; ++i) {
+    for (int i = 0; i < 120; ++i)
+    {
         scene.step(1.0f / 60);
         const double x = scene.body(ball.body).position().x;
         const bool inside = !scene.inside(trigger.shape).empty();
         inside_steps += inside;
-        if (std::fabs(x) < 0.7) {
+        if (std::fabs(x) < 0.7)
+        {
             EXPECT_TRUE(inside) << x;
         }
-        if (std::fabs(x) > 0.8) {
+        if (std::fabs(x) > 0.8)
+        {
             EXPECT_FALSE(inside) << x;
         }
     }
@@ -56,13 +59,15 @@ TEST(Row07_Trigger, PassesThroughAndReportsEnterInsideExit)
 
 TEST(Row07_Trigger, AFastTriggerNeverMissesABody)
 {
-    for (const BodyType type : {BodyType::Kinematic, BodyType::Dynamic}) {
+    for (const BodyType type : {BodyType::Kinematic, BodyType::Dynamic})
+    {
         Scene scene(weightless());
         add(scene, {.type = type, .position = {-3, 0}, .velocity = {200, 0}}, Circle{.radius = 0.1f}, {.trigger = true});
         add_dynamic(scene, {0, 0}, Circle{.radius = 0.1f});
         int enters = 0;
         int exits = 0;
-        for (int i = 0; i < 10; ++i) {
+        for (int i = 0; i < 10; ++i)
+        {
             scene.step(1.0f / 60);
             enters += static_cast<int>(scene.trigger_enters().size());
             exits += static_cast<int>(scene.trigger_exits().size());
@@ -77,14 +82,17 @@ TEST(Row07_Trigger, SeesBodiesOfEveryTypeAndSleepers)
     for (const BodyType type : {BodyType::Static, BodyType::Kinematic, BodyType::Dynamic})
         for (const BodyType trigger_type : {BodyType::Static, BodyType::Kinematic, BodyType::Dynamic})
             for (const bool awake : {true, false})
-                for (const bool trigger_first : {true, false}) {
-                    SCOPED_TRACE("visitor " + std::to_string(static_cast<int>(type)) + " trigger " + std::to_string(static_cast<int>(trigger_type)) + " awake " + std::to_string(awake) +
+                for (const bool trigger_first : {true, false})
+                {
+                    SCOPED_TRACE("visitor " + std::to_string(static_cast<int>(type)) + " trigger " +
+                                 std::to_string(static_cast<int>(trigger_type)) + " awake " + std::to_string(awake) +
                                  " trigger first " + std::to_string(trigger_first));
                     SceneDef def;
                     def.gravity = {};
                     Scene scene(def);
                     const auto visitor = [&] { return add(scene, {.type = type, .awake = awake}, box(0.5f, 0.5f)); };
-                    const auto trigger = [&] { return add(scene, {.type = trigger_type, .position = {0.3, 0}}, Circle{}, {.trigger = true}); };
+                    const auto trigger = [&]
+                    { return add(scene, {.type = trigger_type, .position = {0.3, 0}}, Circle{}, {.trigger = true}); };
                     const Thing a = trigger_first ? trigger() : visitor();
                     const Thing b = trigger_first ? visitor() : trigger();
                     const Thing& t = trigger_first ? a : b;
@@ -116,13 +124,16 @@ TEST(Row07_Trigger, EveryEnterHasItsExitWhateverEndsIt)
         {"disable trigger", [](Scene& s, const Thing& t, const Thing&) { s.body(t.body).set_enabled(false); }},
         {"teleport visitor", [](Scene& s, const Thing&, const Thing& v) { s.body(v.body).teleport({50, 0}, 0); }},
         {"teleport trigger", [](Scene& s, const Thing& t, const Thing&) { s.body(t.body).teleport({50, 0}, 0); }},
-        {"filter", [](Scene& s, const Thing& t, const Thing&) { s.shape(t.shape).set_def({.filter = {.mask = 0}, .trigger = true}); }},
+        {"filter",
+         [](Scene& s, const Thing& t, const Thing&) { s.shape(t.shape).set_def({.filter = {.mask = 0}, .trigger = true}); }},
         {"no trigger any more", [](Scene& s, const Thing& t, const Thing&) { s.shape(t.shape).set_def({}); }},
-        {"visitor's geometry", [](Scene& s, const Thing&, const Thing& v) { s.shape(v.shape).set_geometry(Circle{.center = {40, 0}}); }},
+        {"visitor's geometry",
+         [](Scene& s, const Thing&, const Thing& v) { s.shape(v.shape).set_geometry(Circle{.center = {40, 0}}); }},
         {"ignored pair", [](Scene& s, const Thing& t, const Thing& v) { s.ignore_pair(t.body, v.body); }},
     };
     for (const How& how : ways)
-        for (const bool asleep : {false, true}) {
+        for (const bool asleep : {false, true})
+        {
             SCOPED_TRACE(std::string(how.name) + (asleep ? ", asleep" : ""));
             SceneDef def;
             def.gravity = {};
@@ -136,9 +147,11 @@ TEST(Row07_Trigger, EveryEnterHasItsExitWhateverEndsIt)
             how.end(scene, trigger, visitor);
             int exits = 0;
             int enters = 0;
-            for (int i = 0; i < 3; ++i) {
+            for (int i = 0; i < 3; ++i)
+            {
                 scene.step(1.0f / 60);
-                for (const TriggerEvent& e : scene.trigger_exits()) {
+                for (const TriggerEvent& e : scene.trigger_exits())
+                {
                     ++exits;
                     EXPECT_EQ(e.trigger, trigger.shape);
                     EXPECT_EQ(e.visitor, visitor.shape);
@@ -158,7 +171,8 @@ TEST(Row07_Trigger, SetTypeKeepsPairsPaired)
     const Thing trigger = add_static(scene, box(1, 1), {.trigger = true});
     const Thing visitor = add_dynamic(scene, {0.2, 0}, Circle{});
     int balance = 0;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 12; ++i)
+    {
         scene.body(visitor.body).set_type(static_cast<BodyType>(i % 3));
         scene.step(1.0f / 60);
         balance += static_cast<int>(scene.trigger_enters().size()) - static_cast<int>(scene.trigger_exits().size());
@@ -183,26 +197,29 @@ TEST(Row08_CollisionCallback, BeginImpactEndAsSpansAndAsCallbacks)
     const Thing ball = add_dynamic(scene, {0, 1.5}, Circle{}, {.restitution = 1});
     std::string story;
     scene.set_callbacks(ball.shape, {.on_contact_begin =
-                                         [&](Scene&, const ContactBeginEvent& e) {
-                                             story += 'b';
-                                             EXPECT_EQ(e.shape_a, ball.shape);
-                                             EXPECT_EQ(e.shape_b, floor.shape);
-                                             EXPECT_NEAR(e.normal.y, -1, 1e-5) << "from the owner to the other";
-                                         },
+                                         [&](Scene&, const ContactBeginEvent& e)
+                                     {
+                                         story += 'b';
+                                         EXPECT_EQ(e.shape_a, ball.shape);
+                                         EXPECT_EQ(e.shape_b, floor.shape);
+                                         EXPECT_NEAR(e.normal.y, -1, 1e-5) << "from the owner to the other";
+                                     },
                                      .on_impact =
-                                         [&](Scene&, const ImpactEvent& e) {
-                                             story += 'i';
-                                             EXPECT_EQ(e.shape_a, ball.shape);
-                                             EXPECT_NEAR(e.approach_speed, std::sqrt(2.0 * 10), 0.01);
-                                             EXPECT_NEAR(e.speed_a - e.speed_b, e.approach_speed, 1e-4);
-                                             EXPECT_NEAR(e.normal.y, -1, 1e-5);
-                                             EXPECT_EQ(e.effective_mass_b, 0);
-                                         },
+                                         [&](Scene&, const ImpactEvent& e)
+                                     {
+                                         story += 'i';
+                                         EXPECT_EQ(e.shape_a, ball.shape);
+                                         EXPECT_NEAR(e.approach_speed, std::sqrt(2.0 * 10), 0.01);
+                                         EXPECT_NEAR(e.speed_a - e.speed_b, e.approach_speed, 1e-4);
+                                         EXPECT_NEAR(e.normal.y, -1, 1e-5);
+                                         EXPECT_EQ(e.effective_mass_b, 0);
+                                     },
                                      .on_contact_end = [&](Scene&, const ContactEndEvent&) { story += 'e'; }});
     int begins = 0;
     int impacts = 0;
     int ends = 0;
-    for (int i = 0; i < 75; ++i) {
+    for (int i = 0; i < 75; ++i)
+    {
         scene.step(1.0f / 60);
         begins += static_cast<int>(scene.contact_begins().size());
         impacts += static_cast<int>(scene.impacts().size());
@@ -233,15 +250,18 @@ TEST(Row08_CollisionCallback, EveryBeginHasItsEnd)
         {"impulse", [](Scene& s, const Thing& t) { s.body(t.body).set_velocity({0, 30}); }},
     };
     for (const How& how : ways)
-        for (const bool asleep : {false, true}) {
+        for (const bool asleep : {false, true})
+        {
             SCOPED_TRACE(std::string(how.name) + (asleep ? ", asleep" : ""));
             Scene scene;
             add_static(scene, box(5, 0.5f, {0, -0.5f}));
             const Thing body = add_dynamic(scene, {0, 0.5}, box(0.5f, 0.5f));
             int begins = 0;
             int ends = 0;
-            const auto count = [&](int n) {
-                for (int i = 0; i < n; ++i) {
+            const auto count = [&](int n)
+            {
+                for (int i = 0; i < n; ++i)
+                {
                     scene.step(1.0f / 60);
                     begins += static_cast<int>(scene.contact_begins().size());
                     ends += static_cast<int>(scene.contact_ends().size());
@@ -278,10 +298,13 @@ TEST(Row08_CollisionCallback, EventsAreSortedAndPaired)
     add_static(scene, Chain{.start = {-3, 0}, .pieces = {{.end = {3, 0}}, {.end = {3, 8}}, {.end = {-3, 8}}}, .closed = true});
     Random random(4);
     for (int i = 0; i < 80; ++i)
-        add_dynamic(scene, {random.range(-2.5, 2.5), random.range(0.5, 7)}, i % 2 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.4f}, random.vec(5));
+        add_dynamic(scene, {random.range(-2.5, 2.5), random.range(0.5, 7)},
+                    i % 2 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.4f},
+                    random.vec(5));
     std::map<std::pair<ShapeId, ShapeId>, int> open;
     const auto key = [](ShapeId a, ShapeId b) { return std::pair(std::min(a, b), std::max(a, b)); };
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 400; ++i)
+    {
         scene.step(1.0f / 60);
         for (std::size_t k = 1; k < scene.contact_begins().size(); ++k)
             EXPECT_LE(scene.contact_begins()[k - 1].time, scene.contact_begins()[k].time);
@@ -292,7 +315,8 @@ TEST(Row08_CollisionCallback, EventsAreSortedAndPaired)
         for (const ContactEndEvent& e : scene.contact_ends())
             --open[key(e.shape_a, e.shape_b)];
         for (const auto& [pair, count] : open)
-            ASSERT_TRUE(count == 0 || count == 1) << "step " << i << " count " << count << " of " << pair.first.slot << ", " << pair.second.slot;
+            ASSERT_TRUE(count == 0 || count == 1)
+                << "step " << i << " count " << count << " of " << pair.first.slot << ", " << pair.second.slot;
     }
     for (const BodyId id : scene.bodies())
         scene.destroy(id);

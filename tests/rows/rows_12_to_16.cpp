@@ -11,7 +11,8 @@ using namespace carom::test;
 
 TEST(Row12_Booster, AForceActsWhileABallIsInside)
 {
-    for (const float h : {1.0f / 60, 1.0f / 1000}) {
+    for (const float h : {1.0f / 60, 1.0f / 1000})
+    {
         Scene scene(weightless());
         add_static(scene, box(1, 1), {.trigger = true, .field = {.force = {10, 0}}});
         const Thing ball = add_dynamic(scene, {-2, 0}, Circle{.radius = 0.1f}, {.density = 30}, {3, 0});
@@ -27,7 +28,8 @@ TEST(Row12_Booster, AForceActsWhileABallIsInside)
 
 TEST(Row12_Booster, AnAccelerationIsTheSameForEveryMass)
 {
-    for (const float density : {1.0f, 50.0f}) {
+    for (const float density : {1.0f, 50.0f})
+    {
         Scene scene(weightless());
         add_static(scene, box(50, 50), {.trigger = true, .field = {.acceleration = {0, 4}}});
         const Thing body = add_dynamic(scene, {0, 0}, box(0.5f, 0.5f), {.density = density});
@@ -49,7 +51,8 @@ TEST(Row12_Booster, DragSlowsExponentially)
 
 TEST(Row12_Booster, OnlyIfMovingAlong)
 {
-    for (const float sign : {1.0f, -1.0f}) {
+    for (const float sign : {1.0f, -1.0f})
+    {
         Scene scene(weightless());
         add_static(scene, box(50, 50), {.trigger = true, .field = {.acceleration = {6, 0}, .only_if_moving_along = true}});
         const Thing body = add_dynamic(scene, {0, 0}, Circle{}, {}, {sign * 2, 0});
@@ -75,21 +78,25 @@ TEST(Row12_Booster, MovesNeitherKinematicNorStaticBodies)
 TEST(Row13_Bouncer, KicksAboveTheThresholdOnly)
 {
     for (const Geometry& geometry : {Geometry{Circle{.radius = 0.25f}}})
-        for (const float v : {0.5f, 0.9f, 1.1f, 4.0f}) {
+        for (const float v : {0.5f, 0.9f, 1.1f, 4.0f})
+        {
             SCOPED_TRACE("v " + std::to_string(v) + " shape " + std::to_string(geometry.index()));
             Scene scene(weightless());
             add_static(scene, box(0.5f, 3), {.friction = 0, .restitution = 0.5f, .kick = {.speed = 3, .threshold = 1}});
             const Thing body = add_dynamic(scene, {-1, 0}, geometry, {.friction = 0, .restitution = 0.5f}, {v, 0});
             float kick = 0;
-            for (int i = 0; i < 60; ++i) {
+            for (int i = 0; i < 60; ++i)
+            {
                 scene.step(1.0f / 60);
-                if (!scene.impacts().empty()) {
+                if (!scene.impacts().empty())
+                {
                     kick = scene.impacts()[0].kick_speed;
                     EXPECT_EQ(scene.impacts()[0].energy_lost < 0, v > 1) << "a kick adds energy here";
                 }
             }
             EXPECT_EQ(kick, v > 1 ? 3.0f : 0.0f);
-            EXPECT_NEAR(scene.body(body.body).velocity().x, v > 1 ? -0.5 * static_cast<double>(v) - 3 : -0.5 * static_cast<double>(v), 1e-3);
+            EXPECT_NEAR(scene.body(body.body).velocity().x,
+                        v > 1 ? -0.5 * static_cast<double>(v) - 3 : -0.5 * static_cast<double>(v), 1e-3);
         }
 }
 
@@ -97,7 +104,8 @@ TEST(Row13_Bouncer, TheImpulseOfAKickFollowsTheEventsTerms)
 {
     Scene scene(weightless());
     add_static(scene, Circle{}, {.friction = 0, .restitution = 0.2f, .kick = {.speed = 3, .threshold = 1}});
-    const Thing ball = add_dynamic(scene, {-1, 0}, Circle{.radius = 0.25f}, {.density = 7, .friction = 0, .restitution = 0.6f}, {8, 0});
+    const Thing ball =
+        add_dynamic(scene, {-1, 0}, Circle{.radius = 0.25f}, {.density = 7, .friction = 0, .restitution = 0.6f}, {8, 0});
     const double m = scene.body(ball.body).mass();
     for (int i = 0; i < 10 && scene.impacts().empty(); ++i)
         scene.step(1.0f / 60);
@@ -109,14 +117,17 @@ TEST(Row13_Bouncer, CooldownHoldsItBack)
 {
     Scene scene(weightless());
     // Between a bouncer and a wall that gives everything back, 1 m of way: hits come every 0.3 s and faster.
-    add_static(scene, box(0.5f, 3, {-0.5f, 0}), {.friction = 0, .restitution = 1, .kick = {.speed = 1, .threshold = 0.5f, .cooldown = 1}});
+    add_static(scene, box(0.5f, 3, {-0.5f, 0}),
+               {.friction = 0, .restitution = 1, .kick = {.speed = 1, .threshold = 0.5f, .cooldown = 1}});
     add_static(scene, box(0.5f, 3, {1.7f, 0}), {.friction = 0, .restitution = 1});
     add_dynamic(scene, {0.6, 0}, Circle{.radius = 0.1f}, {.friction = 0, .restitution = 1}, {-6, 0});
     std::vector<double> kicks;
     int hits = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 300; ++i)
+    {
         scene.step(1.0f / 60);
-        for (const ImpactEvent& e : scene.impacts()) {
+        for (const ImpactEvent& e : scene.impacts())
+        {
             ++hits;
             if (e.kick_speed > 0)
                 kicks.push_back(i / 60.0 + static_cast<double>(e.time));
@@ -133,13 +144,15 @@ TEST(Row13_Bouncer, CooldownHoldsItBack)
 
 TEST(Row14_BroadPhase, PairsGrowWithTheBodiesNotWithTheirSquare)
 {
-    const auto pairs = [](int n) {
+    const auto pairs = [](int n)
+    {
         SceneDef def = weightless();
         Scene scene(def);
         Random random(1);
         const double size = std::sqrt(static_cast<double>(n)) * 1.5;
         for (int i = 0; i < n; ++i)
-            add_dynamic(scene, {random.range(0, size), random.range(0, size)}, Circle{.radius = 0.3f}, {.filter = {.group = -1}}, random.vec(1));
+            add_dynamic(scene, {random.range(0, size), random.range(0, size)}, Circle{.radius = 0.3f}, {.filter = {.group = -1}},
+                        random.vec(1));
         // The group forbids contacts; so count boxes that overlap through shapes that may touch.
         for (const BodyId body : scene.bodies())
             for (const ShapeId shape : scene.body(body).shapes())
@@ -166,10 +179,12 @@ TEST(Row14_BroadPhase, FindsEveryPairAmongSizesThatDifferByAThousand)
         double r;
     };
     std::vector<Disc> discs;
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600; ++i)
+    {
         const double r = 0.01 * std::pow(1000, random.unit() * random.unit());
         const Position p{random.range(-30, 30), random.range(-30, 30)};
-        discs.push_back({add_dynamic(scene, p, Circle{.radius = static_cast<float>(r)}, {.restitution = 0}), p, static_cast<double>(static_cast<float>(r))});
+        discs.push_back({add_dynamic(scene, p, Circle{.radius = static_cast<float>(r)}, {.restitution = 0}), p,
+                         static_cast<double>(static_cast<float>(r))});
     }
     scene.step(1e-6f);
     int want = 0;
@@ -203,22 +218,28 @@ Outcome rain(const Deed& deed)
     add_static(scene, box(10, 0.5f, {0, -0.5f}), {.restitution = 0.5f});
     add_static(scene, box(10, 0.3f, {0, 2}), {.trigger = true});
     Outcome outcome;
-    const auto act = [&](Scene& s, ShapeId own, ShapeId other) {
-        if (outcome.deeds < 400) {
+    const auto act = [&](Scene& s, ShapeId own, ShapeId other)
+    {
+        if (outcome.deeds < 400)
+        {
             ++outcome.deeds;
             deed(s, own, other, random);
         }
     };
-    const auto listen = [&](ShapeId shape) {
-        scene.set_callbacks(shape, {.on_contact_begin = [&act](Scene& s, const ContactBeginEvent& e) { act(s, e.shape_a, e.shape_b); },
-                                    .on_impact = [&act](Scene& s, const ImpactEvent& e) { act(s, e.shape_a, e.shape_b); },
-                                    .on_contact_end = [&act](Scene& s, const ContactEndEvent& e) { act(s, e.shape_a, e.shape_b); },
-                                    .on_trigger_enter = [&act](Scene& s, const TriggerEvent& e) { act(s, e.visitor, e.trigger); },
-                                    .on_trigger_inside = [&act](Scene& s, const TriggerEvent& e) { act(s, e.visitor, e.trigger); },
-                                    .on_trigger_exit = [&act](Scene& s, const TriggerEvent& e) { act(s, e.visitor, e.trigger); }});
+    const auto listen = [&](ShapeId shape)
+    {
+        scene.set_callbacks(shape,
+                            {.on_contact_begin = [&act](Scene& s, const ContactBeginEvent& e) { act(s, e.shape_a, e.shape_b); },
+                             .on_impact = [&act](Scene& s, const ImpactEvent& e) { act(s, e.shape_a, e.shape_b); },
+                             .on_contact_end = [&act](Scene& s, const ContactEndEvent& e) { act(s, e.shape_a, e.shape_b); },
+                             .on_trigger_enter = [&act](Scene& s, const TriggerEvent& e) { act(s, e.visitor, e.trigger); },
+                             .on_trigger_inside = [&act](Scene& s, const TriggerEvent& e) { act(s, e.visitor, e.trigger); },
+                             .on_trigger_exit = [&act](Scene& s, const TriggerEvent& e) { act(s, e.visitor, e.trigger); }});
     };
-    for (int i = 0; i < 200; ++i) {
-        if (i % 2 == 0) {
+    for (int i = 0; i < 200; ++i)
+    {
+        if (i % 2 == 0)
+        {
             const Geometry geometry = i % 4 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)};
             listen(add_dynamic(scene, {random.range(-3, 3), 3}, geometry, {.restitution = 0.5f}, {0, -5}).shape);
         }
@@ -260,59 +281,70 @@ TEST(Row15_SafeChanges, DestroyingTheOther)
 
 TEST(Row15_SafeChanges, DestroyingBothParties)
 {
-    expect_deterministic([](Scene& s, ShapeId own, ShapeId other, Random&) {
-        destroy_body(s, own);
-        destroy_body(s, other);
-    });
+    expect_deterministic(
+        [](Scene& s, ShapeId own, ShapeId other, Random&)
+        {
+            destroy_body(s, own);
+            destroy_body(s, other);
+        });
 }
 
 TEST(Row15_SafeChanges, DestroyingShapesOnly)
 {
-    expect_deterministic([](Scene& s, ShapeId own, ShapeId, Random&) {
-        if (s.is_valid(own))
-            s.destroy(own);
-    });
+    expect_deterministic(
+        [](Scene& s, ShapeId own, ShapeId, Random&)
+        {
+            if (s.is_valid(own))
+                s.destroy(own);
+        });
 }
 
 TEST(Row15_SafeChanges, DestroyingEveryDynamicBody)
 {
-    expect_deterministic([](Scene& s, ShapeId, ShapeId, Random&) {
-        for (const BodyId id : s.bodies())
-            if (s.body(id).type() == BodyType::Dynamic)
-                s.destroy(id);
-    });
+    expect_deterministic(
+        [](Scene& s, ShapeId, ShapeId, Random&)
+        {
+            for (const BodyId id : s.bodies())
+                if (s.body(id).type() == BodyType::Dynamic)
+                    s.destroy(id);
+        });
 }
 
 TEST(Row15_SafeChanges, CreatingBodiesShapesAndJoints)
 {
-    expect_deterministic([](Scene& s, ShapeId own, ShapeId, Random& random) {
-        const Thing fresh = add_dynamic(s, {random.range(-3, 3), random.range(0.5, 4)}, Circle{.radius = 0.1f});
-        const BodyId body = body_of(s, own);
-        if (body.is_null())
-            return;
-        s.create_shape(fresh.body, box(0.1f, 0.1f, {0.2f, 0}));
-        s.create_joint(DistanceDef{.body_a = body, .body_b = fresh.body});
-    });
+    expect_deterministic(
+        [](Scene& s, ShapeId own, ShapeId, Random& random)
+        {
+            const Thing fresh = add_dynamic(s, {random.range(-3, 3), random.range(0.5, 4)}, Circle{.radius = 0.1f});
+            const BodyId body = body_of(s, own);
+            if (body.is_null())
+                return;
+            s.create_shape(fresh.body, box(0.1f, 0.1f, {0.2f, 0}));
+            s.create_joint(DistanceDef{.body_a = body, .body_b = fresh.body});
+        });
 }
 
 TEST(Row15_SafeChanges, EveryVerb)
 {
-    expect_deterministic([](Scene& s, ShapeId own, ShapeId, Random& random) {
-        const BodyId body = body_of(s, own);
-        if (body.is_null() || s.body(body).type() != BodyType::Dynamic)
-            return;
-        switch (random.below(9)) {
-        case 0: s.body(body).teleport({random.range(-3, 3), 4}, 1); break;
-        case 1: s.body(body).set_enabled(false); break;
-        case 2: s.body(body).set_type(BodyType::Kinematic); break;
-        case 3: s.body(body).set_velocity(random.vec(5)); break;
-        case 4: s.shape(own).set_geometry(Capsule{{-0.1f, 0}, {0.1f, 0}, 0.1f, 0.1f}); break;
-        case 5: s.shape(own).set_def({.trigger = true}); break;
-        case 6: s.body(body).set_awake(false); break;
-        case 7: s.body(body).set_mass({.mass = 3, .inertia = 1}); break;
-        default: s.set_callbacks(own, {}); break;
-        }
-    });
+    expect_deterministic(
+        [](Scene& s, ShapeId own, ShapeId, Random& random)
+        {
+            const BodyId body = body_of(s, own);
+            if (body.is_null() || s.body(body).type() != BodyType::Dynamic)
+                return;
+            switch (random.below(9))
+            {
+            case 0: s.body(body).teleport({random.range(-3, 3), 4}, 1); break;
+            case 1: s.body(body).set_enabled(false); break;
+            case 2: s.body(body).set_type(BodyType::Kinematic); break;
+            case 3: s.body(body).set_velocity(random.vec(5)); break;
+            case 4: s.shape(own).set_geometry(Capsule{{-0.1f, 0}, {0.1f, 0}, 0.1f, 0.1f}); break;
+            case 5: s.shape(own).set_def({.trigger = true}); break;
+            case 6: s.body(body).set_awake(false); break;
+            case 7: s.body(body).set_mass({.mass = 3, .inertia = 1}); break;
+            default: s.set_callbacks(own, {}); break;
+            }
+        });
 }
 
 TEST(Row15_SafeChanges, ChangingOnesOwnCallbacksInsideThem)
@@ -322,10 +354,11 @@ TEST(Row15_SafeChanges, ChangingOnesOwnCallbacksInsideThem)
     const Thing ball = add_dynamic(scene, {0, 1}, Circle{}, {.restitution = 1});
     int calls = 0;
     const auto big = std::make_shared<std::vector<int>>(1000, 7);
-    scene.set_callbacks(ball.shape, {.on_impact = [&calls, big, shape = ball.shape](Scene& s, const ImpactEvent&) {
-                            s.set_callbacks(shape, {});
-                            calls += (*big)[999];
-                        }});
+    scene.set_callbacks(ball.shape, {.on_impact = [&calls, big, shape = ball.shape](Scene& s, const ImpactEvent&)
+                                     {
+                                         s.set_callbacks(shape, {});
+                                         calls += (*big)[999];
+                                     }});
     steps(scene, 200);
     EXPECT_EQ(calls, 7) << "what it captured lives until it returns";
 }
@@ -336,11 +369,12 @@ TEST(Row15_SafeChanges, SteppingInsideACallbackIsRefused)
     add_static(scene, box(1, 1), {.trigger = true});
     const Thing ball = add_dynamic(scene, {0, 0}, Circle{});
     int refused = 0;
-    scene.set_callbacks(ball.shape, {.on_trigger_enter = [&](Scene& s, const TriggerEvent&) {
-                            EXPECT_THROW(s.step(1.0f / 60), Error);
-                            EXPECT_THROW(s.update(1.0f / 60), Error);
-                            ++refused;
-                        }});
+    scene.set_callbacks(ball.shape, {.on_trigger_enter = [&](Scene& s, const TriggerEvent&)
+                                     {
+                                         EXPECT_THROW(s.step(1.0f / 60), Error);
+                                         EXPECT_THROW(s.update(1.0f / 60), Error);
+                                         ++refused;
+                                     }});
     scene.step(1.0f / 60);
     EXPECT_EQ(refused, 1);
     EXPECT_EQ(scene.step_count(), 1u);
@@ -364,18 +398,21 @@ TEST(Row15_SafeChanges, TheOtherPartyStillHears)
     const Thing floor = add_static(scene, HalfSpace{});
     const Thing ball = add_dynamic(scene, {0, 0.6}, Circle{});
     int heard = 0;
-    const auto destroy_ball = [&](Scene& s, const ContactBeginEvent&) {
+    const auto destroy_ball = [&](Scene& s, const ContactBeginEvent&)
+    {
         if (s.is_valid(ball.body))
             s.destroy(ball.body);
     };
     scene.set_callbacks(ball.shape, {.on_contact_begin = destroy_ball});
-    scene.set_callbacks(floor.shape, {.on_contact_begin =
-                                          [&](Scene& s, const ContactBeginEvent& e) {
-                                              ++heard;
-                                              EXPECT_EQ(e.shape_b, ball.shape);
-                                              destroy_ball(s, e);
-                                          },
-                                      .on_contact_end = [&](Scene&, const ContactEndEvent& e) { heard += e.shape_b == ball.shape ? 10 : 100; }});
+    scene.set_callbacks(
+        floor.shape, {.on_contact_begin =
+                          [&](Scene& s, const ContactBeginEvent& e)
+                      {
+                          ++heard;
+                          EXPECT_EQ(e.shape_b, ball.shape);
+                          destroy_ball(s, e);
+                      },
+                      .on_contact_end = [&](Scene&, const ContactEndEvent& e) { heard += e.shape_b == ball.shape ? 10 : 100; }});
     steps(scene, 20);
     EXPECT_FALSE(scene.is_valid(ball.body));
     EXPECT_EQ(heard, 11);

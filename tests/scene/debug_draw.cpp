@@ -69,7 +69,8 @@ TEST(SceneDebugDraw, EachOptionDrawsItsOwn)
     const Thing ball = add_dynamic(scene, {5, 3}, Circle{});
     scene.create_joint(SpringDef{.body_a = box_body.body, .body_b = ball.body, .stiffness = 1});
     steps(scene, 5);
-    const auto drawn = [&](auto&& set, DrawRole role) {
+    const auto drawn = [&](auto&& set, DrawRole role)
+    {
         DebugDrawOptions options = nothing();
         set(options);
         Counter draw;

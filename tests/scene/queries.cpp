@@ -17,19 +17,27 @@ struct Zoo
     explicit Zoo(std::uint64_t seed, int count = 80)
     {
         Random random(seed);
-        for (int i = 0; i < count; ++i) {
+        for (int i = 0; i < count; ++i)
+        {
             const Position p{random.range(-8, 8), random.range(-8, 8)};
             Geometry g;
-            switch (i % 6) {
+            switch (i % 6)
+            {
             case 0: g = Circle{.radius = random.rangef(0.05, 1)}; break;
             case 1: g = box(random.rangef(0.1, 1), random.rangef(0.1, 1), {}, 0, random.chance(0.5) ? 0 : 0.1f); break;
             case 2: g = Capsule{{-0.4f, 0}, {0.5f, 0.1f}, 0.3f, 0.1f}; break;
             case 3: g = Segment{{-0.5f, 0}, {0.5f, 0.3f}, random.chance(0.5) ? 0 : 0.05f}; break;
             case 4: g = Arc{.radius = 0.8f, .start_angle = random.rangef(-3, 3), .sweep = 2, .half_thickness = 0.05f}; break;
-            default: g = Chain{.start = {-1, 0}, .pieces = {{.end = {0, 0.2f}}, {.end = {1, 0}, .sweep = 1}}, .half_thickness = 0.02f}; break;
+            default:
+                g = Chain{.start = {-1, 0}, .pieces = {{.end = {0, 0.2f}}, {.end = {1, 0}, .sweep = 1}}, .half_thickness = 0.02f};
+                break;
             }
             const ShapeDef def{.filter = {.category = 1u << (i % 4)}, .trigger = i % 11 == 0};
-            things.push_back(add(scene, {.type = i % 6 < 4 && i % 2 == 0 ? BodyType::Dynamic : BodyType::Static, .position = p, .angle = random.rangef(-3, 3)}, g, def));
+            things.push_back(add(scene,
+                                 {.type = i % 6 < 4 && i % 2 == 0 ? BodyType::Dynamic : BodyType::Static,
+                                  .position = p,
+                                  .angle = random.rangef(-3, 3)},
+                                 g, def));
         }
     }
 };
@@ -41,7 +49,8 @@ TEST(SceneQueries, RaysAgreeWithMarching)
     Zoo zoo(1);
     Random random(2);
     int hits = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 400; ++i)
+    {
         SCOPED_TRACE(i);
         const Position from{random.range(-9, 9), random.range(-9, 9)};
         const Vec2 way = random.vec(8);
@@ -55,25 +64,30 @@ TEST(SceneQueries, RaysAgreeWithMarching)
         EXPECT_EQ(hit->fraction, all[0].fraction);
         for (std::size_t k = 1; k < all.size(); ++k)
             EXPECT_LE(all[k - 1].fraction, all[k].fraction);
-        for (const RayHit& h : all) {
+        for (const RayHit& h : all)
+        {
             ASSERT_GE(h.fraction, 0);
             ASSERT_LE(h.fraction, 1);
             const Position p = from + h.fraction * way;
             EXPECT_NEAR(p.x, h.point.x, 1e-4);
             EXPECT_NEAR(p.y, h.point.y, 1e-4);
-            if (h.fraction > 0) {
+            if (h.fraction > 0)
+            {
                 EXPECT_NEAR(dot(h.normal, h.normal), 1, 1e-4);
                 EXPECT_LE(dot(h.normal, way), 1e-4f) << "against the ray";
                 // The point is on the shape's surface by the closest-point query too.
                 const auto near = zoo.scene.closest_point(h.point, 1e-3f);
                 ASSERT_TRUE(near.has_value());
-            } else {
+            }
+            else
+            {
                 EXPECT_EQ(h.normal, (Vec2{}));
                 EXPECT_TRUE(zoo.scene.shape(h.shape).contains(from));
             }
         }
         // March: nothing solid before the first hit, along the ray.
-        for (int k = 1; k < 200; ++k) {
+        for (int k = 1; k < 200; ++k)
+        {
             const float f = static_cast<float>(k) / 200 * hit->fraction * 0.999f;
             for (const ShapeId id : zoo.scene.overlap_point(from + f * way))
                 EXPECT_LT(zoo.scene.closest_point(from + f * way, 1)->distance, 1e-3f) << id.slot;
@@ -99,7 +113,8 @@ TEST(SceneQueries, OverlapPointAgreesWithContains)
     Zoo zoo(3);
     Random random(4);
     int found = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 2000; ++i)
+    {
         const Position p{random.range(-9, 9), random.range(-9, 9)};
         std::vector<ShapeId> got = zoo.scene.overlap_point(p, {.include_triggers = true});
         std::vector<ShapeId> want;
@@ -118,21 +133,26 @@ TEST(SceneQueries, ClosestPointIsTheNearestOfAll)
 {
     Zoo zoo(5);
     Random random(6);
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 400; ++i)
+    {
         SCOPED_TRACE(i);
         const Position p{random.range(-9, 9), random.range(-9, 9)};
         const auto near = zoo.scene.closest_point(p, 2);
         if (!near)
             continue;
-        if (near->distance > 0) {
+        if (near->distance > 0)
+        {
             EXPECT_NEAR(std::hypot(near->point.x - p.x, near->point.y - p.y), near->distance, 1e-4);
             // No circle a little smaller than the distance meets anything.
-            if (near->distance > 0.02f) {
+            if (near->distance > 0.02f)
+            {
                 EXPECT_TRUE(zoo.scene.overlap_shape(Circle{.radius = near->distance - 0.01f}, {p, {}}).empty());
             }
             const auto with = zoo.scene.overlap_shape(Circle{.radius = near->distance + 0.01f}, {p, {}});
             EXPECT_NE(std::find(with.begin(), with.end(), near->shape), with.end());
-        } else {
+        }
+        else
+        {
             EXPECT_TRUE(zoo.scene.shape(near->shape).contains(p));
         }
     }

@@ -52,12 +52,15 @@ inline Thing add(Scene& scene, const BodyDef& body, const Geometry& geometry, co
     return thing;
 }
 
-inline Thing add_dynamic(Scene& scene, Position position, const Geometry& geometry, const ShapeDef& shape = {}, Vec2 velocity = {}, float spin = 0)
+inline Thing add_dynamic(Scene& scene, Position position, const Geometry& geometry, const ShapeDef& shape = {},
+                         Vec2 velocity = {}, float spin = 0)
 {
-    return add(scene, {.type = BodyType::Dynamic, .position = position, .velocity = velocity, .angular_velocity = spin}, geometry, shape);
+    return add(scene, {.type = BodyType::Dynamic, .position = position, .velocity = velocity, .angular_velocity = spin}, geometry,
+               shape);
 }
 
-inline Thing add_static(Scene& scene, const Geometry& geometry, const ShapeDef& shape = {}, Position position = {}, float angle = 0)
+inline Thing add_static(Scene& scene, const Geometry& geometry, const ShapeDef& shape = {}, Position position = {},
+                        float angle = 0)
 {
     return add(scene, {.position = position, .angle = angle}, geometry, shape);
 }
@@ -88,7 +91,8 @@ inline void steps(Scene& scene, int count, float h = 1.0f / 60)
 inline double kinetic(Scene& scene, BodyId id)
 {
     const Body body = scene.body(id);
-    const double v2 = static_cast<double>(body.velocity().x) * body.velocity().x + static_cast<double>(body.velocity().y) * body.velocity().y;
+    const double v2 =
+        static_cast<double>(body.velocity().x) * body.velocity().x + static_cast<double>(body.velocity().y) * body.velocity().y;
     const double w = body.angular_velocity();
     return 0.5 * static_cast<double>(body.mass()) * v2 + 0.5 * static_cast<double>(body.inertia()) * w * w;
 }
@@ -98,7 +102,8 @@ inline double energy(Scene& scene, BodyId id)
 {
     const Position c = scene.body(id).center_of_mass();
     const Vec2 g = scene.gravity();
-    return kinetic(scene, id) - static_cast<double>(scene.body(id).mass()) * (static_cast<double>(g.x) * c.x + static_cast<double>(g.y) * c.y);
+    return kinetic(scene, id) -
+           static_cast<double>(scene.body(id).mass()) * (static_cast<double>(g.x) * c.x + static_cast<double>(g.y) * c.y);
 }
 
 inline double speed(Scene& scene, BodyId id)
