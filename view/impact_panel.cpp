@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace carom::view {
 namespace {
@@ -38,6 +39,17 @@ void line_widget(Fonts& fonts, const StoryLine& line)
     if (look.indent > 0)
         ImGui::Unindent(look.indent);
     ImGui::PopFont();
+}
+
+// The nearest place to `at` where a centered text of this size, in points, is not cut off by the edge of the picture.
+Position kept_in_view(const Canvas& canvas, Position at, Vec2 size)
+{
+    const Box view = canvas.camera().visible();
+    const Vec2 half = (0.5f * canvas.camera().meters(1)) * (size + Vec2{8, 8});
+    const Box room{view.lower + half, view.upper - half};
+    if (room.lower.x > room.upper.x || room.lower.y > room.upper.y)
+        return at;
+    return {std::clamp(at.x, room.lower.x, room.upper.x), std::clamp(at.y, room.lower.y, room.upper.y)};
 }
 
 } // namespace
@@ -75,7 +87,8 @@ void draw_impact(Canvas& canvas, const ImpactRecord& record)
     {
         TextStyle own = style;
         own.color = color;
-        canvas.text(e.point + e.normal * (direction * 104 * pixel), p.name + index, own);
+        const std::string text = p.name + index;
+        canvas.text(kept_in_view(canvas, e.point + e.normal * (direction * 104 * pixel), canvas.text_size(text, own)), text, own);
     };
     label(record.a, " (1)", -1, party_a_color);
     label(record.b, " (2)", 1, party_b_color);
