@@ -558,11 +558,11 @@ private:
 
     // --- reporting ------------------------------------------------------------------------------------------------------------------
 
-    // Slower than what presses the ball on gives in a sub-step is settling; shallower than a third of a degree along a chain is rolling.
+    // Slower than what presses the ball on gives in a sub-step is settling; shallower than half a degree along a chain is rolling.
     [[nodiscard]] bool is_worth_telling(const Flier& f, const Impact& impact) const
     {
         const bool along_chain = m_state.shapes[f.event_shape].owner != f.event_shape;
-        const double shallow = along_chain ? 0.005 * std::fabs(impact.slide) : 0;
+        const double shallow = along_chain ? 0.01 * std::fabs(impact.slide) : 0;
         return impact.u > std::max({static_cast<double>(m_ctx.scene.tolerances.rest_speed),
                                     impact.pressing * static_cast<double>(m_h), shallow});
     }
