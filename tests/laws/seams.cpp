@@ -205,3 +205,22 @@ TEST(LawSeams, AConvexCornerIsLeftAndAConcaveOneIsHit)
     EXPECT_NEAR(scene.body(ball).velocity().y, 3, 0.01) << "a slope of 45 degrees turns it upwards";
     EXPECT_NEAR(scene.body(ball).velocity().x, 0, 0.01);
 }
+
+TEST(LawSeams, RollingInsideAStadiumWithoutGravity)
+{
+    for (const float h : {1.0f / 60, 1.0f / 1000})
+        for (const Sides sides : {Sides::Both, Sides::Left})
+        {
+            SCOPED_TRACE("h " + std::to_string(h) + " sides " + std::to_string(static_cast<int>(sides)));
+            expect_clean(
+                ride(stadium(sides, 0), {-1, -1 + static_cast<double>(r)}, {3, 0}, -30.0f, with_gravity(false), h, 9, 0.6f), 7);
+        }
+}
+
+TEST(LawSeams, RollingInsideAThickStadium)
+{
+    for (const float h : {1.0f / 60, 1.0f / 1000})
+        expect_clean(ride(stadium(Sides::Both, 0.05f), {-1, -1 + 0.05 + static_cast<double>(r)}, {3, 0}, -30, with_gravity(false),
+                          h, 9, 0.6f),
+                     7);
+}
