@@ -67,8 +67,9 @@ bool went_beyond_its_rows(const StepContext& ctx, const BodyState& s, int body)
 {
     if (!ctx.scene.def.continuous || (s.flags & body_flag::flier) != 0)
         return false;
-    const auto place = static_cast<std::size_t>(ctx.state.bodies[body].awake_index);
-    const float covered = ctx.scratch.motion[place] + ctx.scene.tolerances.speculation;
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    const float expected = ctx.dt * (length(sim.velocity) + ctx.dt * length(ctx.state.gravity));
+    const float covered = expected + ctx.scene.tolerances.speculation;
     return dot(s.delta_position, s.delta_position) > covered * covered;
 }
 
@@ -81,18 +82,20 @@ void commit_state(StepContext& ctx, std::int32_t index)
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     double x = s.delta_position.x;
     double y = s.delta_position.y;
+    bool crowded = false;
     if (const std::int32_t f = ctx.scratch.flier_of_state[static_cast<std::size_t>(index)]; f != none)
     {
         const Flier& flier = ctx.scratch.fliers[static_cast<std::size_t>(f)];
         x = flier.landed ? x : flier.x; // the path itself, in double
         y = flier.landed ? y : flier.y;
+        crowded = flier.crowded;
     }
     if (!is_sound(s, x, y))
     {
         ctx.scratch.unsound.push_back(body);
         return;
     }
-    if (went_beyond_its_rows(ctx, s, body))
+    if (crowded || went_beyond_its_rows(ctx, s, body))
     {
         const double part = free_part_of_path(ctx, body, x, y);
         x *= part;

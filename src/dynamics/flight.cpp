@@ -324,7 +324,10 @@ private:
         }
         collide_ball(f, other);
         if (other != nullptr && holds(f, f.event_shape))
-            add_hold(*other, f.shape);
+            add_hold(*other, f.shape, -f.nx, -f.ny);
+        respect_holds(f);
+        if (other != nullptr)
+            respect_holds(*other);
         path_changed(f.state);
         path_changed(f.event_state);
         const std::int32_t struck = other == nullptr ? f.event_state : none;
@@ -343,10 +346,29 @@ private:
     {
         return std::find(f.held, f.held + f.held_count, shape) != f.held + f.held_count;
     }
-    static void add_hold(Flier& f, int shape)
+    void add_hold(Flier& f, int shape, double nx, double ny)
     {
-        if (!holds(f, shape) && f.held_count < Flier::most_held)
-            f.held[f.held_count++] = shape;
+        if (holds(f, shape) || f.held_count >= Flier::most_held)
+            return;
+        const bool fixed = m_state.bodies[m_state.shapes[shape].body].type == BodyType::Static;
+        f.held[f.held_count] = shape;
+        f.held_nx[f.held_count] = fixed ? nx : 0;
+        f.held_ny[f.held_count] = fixed ? ny : 0;
+        ++f.held_count;
+    }
+
+    // What holds a ball and does not give way is no longer looked for, so nothing may push the ball into it. Two rounds, for a wedge.
+    static void respect_holds(Flier& f)
+    {
+        for (int round = 0; round < 2; ++round)
+        {
+            for (int i = 0; i < f.held_count; ++i)
+            {
+                const double into = std::min(f.vx * f.held_nx[i] + f.vy * f.held_ny[i], 0.0);
+                f.vx -= into * f.held_nx[i];
+                f.vy -= into * f.held_ny[i];
+            }
+        }
     }
 
     // Pushed anew: what held it may be in the way again, or left behind.
@@ -392,6 +414,7 @@ private:
     {
         ++f.impacts;
         m_output.capped |= f.impacts >= impact_limit;
+        f.crowded |= f.impacts >= settling_rounds;
         Target target = target_at(f, m_state.shapes[f.event_shape].body, f.time);
         BodyState& ball = state_of(f);
         const double r = radius_of(f);
@@ -451,7 +474,7 @@ private:
     void hold(Flier& f, Impact& impact)
     {
         impact.e = 0;
-        add_hold(f, f.event_shape);
+        add_hold(f, f.event_shape, f.nx, f.ny);
         f.hold_curvature = target_is_still(f) ? f.curvature : 0;
         if (impact.pressing > 0)
         { // the surface takes the part of the acceleration that presses

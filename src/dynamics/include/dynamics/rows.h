@@ -107,6 +107,8 @@ struct Flier
     std::int32_t shape = none;
     static constexpr int most_held = 4;
     std::int32_t held[most_held] = {none, none, none, none}; ///< shapes it came to rest against in this sub-step
+    double held_nx[most_held] = {};                          ///< away from them, where they do not give way; 0 elsewhere
+    double held_ny[most_held] = {};
     std::int32_t held_count = 0;
     double hold_curvature = 0; ///< of the surface that holds it, if that does not move
     double x = 0;              ///< center, relative to the body's center at the start of the step
@@ -126,7 +128,8 @@ struct Flier
     std::int32_t event_contact = none; ///< none: found in flight, the pair has no contact yet
     std::int32_t event_state = none;   ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
     std::int32_t event_version = 0;    ///< of that state when the event was computed
-    bool landed = false;               ///< no longer flies: the solver has it from the next sub-step on
+    bool crowded = false; ///< was pinched between others in this step: its way is checked against static shapes at the end
+    bool landed = false;  ///< no longer flies: the solver has it from the next sub-step on
 };
 
 } // namespace carom::internal
