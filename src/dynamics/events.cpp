@@ -119,8 +119,6 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
     return events;
 }
 
-bool has_callbacks(const SceneData& scene) { return scene.callback_count > 0; }
-
 } // namespace
 
 void publish_events(StepContext& ctx)
@@ -138,7 +136,7 @@ void publish_events(StepContext& ctx)
 
 void run_callbacks(SceneData& scene, Scene& owner)
 {
-    if (!has_callbacks(scene))
+    if (scene.callback_count == 0)
         return;
     const Events events = scene.events;
     call_both(scene, owner, events.begins, &ShapeCallbacks::on_contact_begin);

@@ -501,7 +501,7 @@ private:
         const double k = static_cast<double>(sim_of(f.body).inverse_mass.x) + r * r * inertia + tx * tx * target.inverse_mass_x +
                          ty * ty * target.inverse_mass_y + turn * turn * target.inverse_inertia;
         const Vec2 tv = target_velocity(target, other);
-        const double tw = target_spin(target, other);
+        const double tw = target_spin(target);
         // The ball's arm is -r n, so that its surface moves by -r w along t.
         const double slip = (f.vx - tv.x + tw * impact.arm_y) * tx + (f.vy - tv.y - tw * impact.arm_x) * ty -
                             r * static_cast<double>(ball.angular_velocity) - surface_speed(f);
@@ -530,7 +530,7 @@ private:
         return m_scratch.states[static_cast<std::size_t>(target.state)].velocity;
     }
 
-    [[nodiscard]] double target_spin(const Target& target, const Flier*) const
+    [[nodiscard]] double target_spin(const Target& target) const
     {
         return target.state == none
                    ? target.path.w
@@ -576,7 +576,7 @@ private:
         const Vec2 tv = target_velocity(target, other);
         return part(sim.inverse_mass.x, f.vx) + part(sim.inverse_mass.y, f.vy) +
                part(sim.inverse_inertia, ball.angular_velocity) + part(target.inverse_mass_x, tv.x) +
-               part(target.inverse_mass_y, tv.y) + part(target.inverse_inertia, target_spin(target, other));
+               part(target.inverse_mass_y, tv.y) + part(target.inverse_inertia, target_spin(target));
     }
 
     // --- reporting ------------------------------------------------------------------------------------------------------------------

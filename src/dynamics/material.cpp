@@ -53,14 +53,6 @@ float restitution_at(const ShapeRecord& shape, float speed)
     return p[n - 1].restitution;
 }
 
-float greatest_restitution(const ShapeRecord& shape)
-{
-    float greatest = shape.curve.count == 0 ? shape.restitution : 0;
-    for (std::uint32_t i = 0; i < shape.curve.count; ++i)
-        greatest = std::max(greatest, shape.curve.points[i].restitution);
-    return greatest;
-}
-
 bool fires(const SceneState& state, const ShapeRecord& shape, float speed)
 {
     return shape.kick.speed > 0 && speed > shape.kick.threshold && state.time >= shape.kick_ready;
@@ -93,14 +85,6 @@ float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float 
         mix(scene.def, MixedValue::Restitution, {restitution_at(a, speed), a.yields_material, user_data_of(scene, shape_a)},
             {restitution_at(b, speed), b.yields_material, user_data_of(scene, shape_b)});
     return value > 0 ? std::min(value, 1.0f) : 0;
-}
-
-bool may_bounce(const SceneData& scene, int shape_a, int shape_b)
-{
-    const ShapeRecord& a = scene.state.shapes[shape_a];
-    const ShapeRecord& b = scene.state.shapes[shape_b];
-    return greatest_restitution(a) > 0 || greatest_restitution(b) > 0 || a.kick.speed > 0 || b.kick.speed > 0 ||
-           scene.def.restitution_rule == MixRule::Function;
 }
 
 KickResult kick_speed(const SceneData& scene, int shape_a, int shape_b, float speed)

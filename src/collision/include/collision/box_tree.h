@@ -82,7 +82,6 @@ public:
 
 private:
     void build_levels();
-    void refit(int leaf);
 
     std::vector<std::int32_t> m_items;
     std::vector<std::vector<FloatBox>> m_levels; ///< [0]: leaves

@@ -11,9 +11,6 @@ namespace carom::internal {
 /// Restitution at an approach speed, curves included.
 [[nodiscard]] float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float approach_speed);
 
-/// The greatest restitution the pair can have; 0 means that it never bounces.
-[[nodiscard]] bool may_bounce(const SceneData& scene, int shape_a, int shape_b);
-
 /// Speed that kicks add at this approach speed; says which shapes fired.
 struct KickResult
 {

@@ -28,13 +28,6 @@ struct Surface
 };
 
 template <class R>
-struct PointOf
-{
-    R x;
-    R y;
-};
-
-template <class R>
 [[nodiscard]] std::optional<Surface<R>> surface_of_circle(R px, R py, R cx, R cy, R radius, int feature)
 {
     const R dx = px - cx;
