@@ -53,7 +53,7 @@ void print_row(std::ostream& out, const Results& results, const Row& row)
     }
     for (const double peer : row.peers)
     {
-        out << padded(number(peer), 14);
+        out << padded(number(peer), 16);
     }
     out << '\n';
 }
@@ -72,7 +72,7 @@ void print_header(std::ostream& out, const Results& results, double hz)
     }
     for (const std::string& name : results.peer_names)
     {
-        out << padded(name, 14);
+        out << padded(name, 16);
     }
     out << '\n';
 }
