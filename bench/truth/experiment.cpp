@@ -19,6 +19,9 @@ std::span<const Experiment> experiments()
         Experiment{9, "billiards", billiards},
         Experiment{10, "nothing passes through", tunneling},
         Experiment{11, "sensors", sensors},
+        Experiment{12, "stacks", stacks, false},
+        Experiment{13, "chains", chains, false},
+        Experiment{14, "a pile of a thousand", pile, false},
         Experiment{15, "the flipper shot", flipper_shot},
     };
     return list;

@@ -64,6 +64,8 @@ struct Experiment
     int number = 0;
     std::string title{};
     Metrics (*run)(const Setup& setup) = nullptr;
+    /// Whether the errors have to shrink with the step. What is at rest has errors of another kind: they are kept below a peer's.
+    bool shrinks = true;
 };
 
 [[nodiscard]] std::span<const Experiment> experiments();

@@ -31,14 +31,15 @@ class Progress
 {
 public:
     explicit Progress(std::string prefix) : m_prefix(std::move(prefix)) {}
-    void operator()(const std::string& what) const
+    void operator()(const std::string& what)
     {
         if (stop_asked)
         {
             throw truth::Interrupted{};
         }
-        if (isatty(STDERR_FILENO))
+        if (isatty(STDERR_FILENO) && what != m_last)
         {
+            m_last = what;
             std::cerr << "\r\033[K" << m_prefix << ": " << what << std::flush;
         }
     }
@@ -52,11 +53,12 @@ public:
 
 private:
     std::string m_prefix;
+    std::string m_last = "none yet";
 };
 
 truth::Metrics run(const truth::Experiment& experiment, const truth::Engine& engine, const Options& options, double hz)
 {
-    const Progress progress(std::to_string(experiment.number) + ". " + experiment.title + ", " + engine.name);
+    Progress progress(std::to_string(experiment.number) + ". " + experiment.title + ", " + engine.name);
     progress("");
     const truth::Setup setup{.engine = engine, .hz = hz, .share = options.share, .progress = progress};
     truth::Metrics metrics = experiment.run(setup);
@@ -72,7 +74,7 @@ void run_all_engines(const truth::Experiment& experiment, const std::vector<trut
     {
         rows.push_back({.ours = metric});
     }
-    if (options.converge)
+    if (options.converge && experiment.shrinks)
     {
         const truth::Metrics finer = run(experiment, engines.front(), options, 4 * options.hz);
         for (std::size_t i = 0; i < rows.size(); ++i)

@@ -117,6 +117,7 @@ struct Engine
 {
     std::string name{};
     std::function<std::unique_ptr<World>(Vec gravity)> make_world{};
+    bool peer = false; ///< another engine than ours: fewer seeds where there are many
 };
 
 [[nodiscard]] Engine carom_engine();

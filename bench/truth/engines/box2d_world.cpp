@@ -163,7 +163,7 @@ private:
 // The library's own b2_version of 2.4.1 says 2.4.0: the name comes from the package.
 Engine box2d_engine()
 {
-    return {"Box2D " TRUTH_HAS_BOX2D, [](Vec gravity) { return std::make_unique<Box2dWorld>(gravity); }};
+    return {"Box2D " TRUTH_HAS_BOX2D, [](Vec gravity) { return std::make_unique<Box2dWorld>(gravity); }, true};
 }
 
 } // namespace truth

@@ -178,7 +178,8 @@ void greet_in_silence()
 Engine chipmunk_engine()
 {
     greet_in_silence();
-    return {std::string("Chipmunk ") + cpVersionString, [](Vec gravity) { return std::make_unique<ChipmunkWorld>(gravity); }};
+    return {std::string("Chipmunk ") + cpVersionString, [](Vec gravity) { return std::make_unique<ChipmunkWorld>(gravity); },
+            true};
 }
 
 } // namespace truth

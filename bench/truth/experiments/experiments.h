@@ -18,6 +18,9 @@ Metrics cradle(const Setup& setup);
 Metrics billiards(const Setup& setup);
 Metrics tunneling(const Setup& setup);
 Metrics sensors(const Setup& setup);
+Metrics stacks(const Setup& setup);
+Metrics chains(const Setup& setup);
+Metrics pile(const Setup& setup);
 Metrics flipper_shot(const Setup& setup);
 
 } // namespace truth

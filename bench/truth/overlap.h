@@ -1,0 +1,24 @@
+#pragma once
+
+/// @file
+/// How deep two bodies are in each other, from their poses alone: the engines' own answers are not asked.
+
+#include "truth/world.h"
+
+namespace truth {
+
+/// A disc or a convex polygon where it stands.
+struct Placed
+{
+    Shape shape{};
+    Vec position{};
+    double angle = 0;
+};
+
+/// Least distance by which they would have to part, m; negative or 0 where they do not overlap.
+[[nodiscard]] double overlap(const Placed& a, const Placed& b);
+
+/// Radius about the position that holds all of it.
+[[nodiscard]] double reach(const Shape& shape);
+
+} // namespace truth
