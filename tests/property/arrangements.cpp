@@ -1,0 +1,38 @@
+#include "property/arrangements.h"
+
+namespace carom::shots {
+
+std::span<const Arrangement> arrangements()
+{
+    static constexpr Arrangement list[] = {
+        {"BallAtWall", 5000, ball_at_wall},
+        {"BallAtBody", 5000, ball_at_body, false},
+        {"BallAtArc", 3000, ball_at_arc, false},
+        {"BallAtClosedChain", 3000, ball_at_closed_chain, false},
+        {"BallInRoom", 5000, ball_in_room, false},
+        {"BallInRoundRoom", 4000, ball_in_round_room, false},
+        {"BallInWedge", 3000, ball_in_wedge, false},
+        {"PieceAtWall", 5000, piece_at_wall, false},
+        {"PieceInRoom", 5000, piece_in_room, false},
+        {"PieceInRoundRoom", 4000, piece_in_round_room, false},
+        {"PieceInWedge", 3000, piece_in_wedge, false},
+        {"BallPair", 5000, ball_pair},
+        {"StraightPair", 4000, straight_pair},
+        {"SpinningPair", 5000, spinning_pair, false},
+        {"Tube", 5000, tube, false},
+        {"BallAtPlate", 4000, ball_at_plate, false},
+        {"PieceAtPlate", 3000, piece_at_plate, false},
+        {"BallAtTurningBar", 4000, ball_at_turning_bar, false},
+        {"Drum", 3000, drum, false},
+        {"FlipperChamber", 4000, flipper_chamber, false},
+        {"ThroughTrigger", 4000, ball_through_trigger, false},
+        {"Crowd", 4000, crowd, false},
+        {"Pile", 3000, pile, false},
+        {"PendulumStruck", 3000, pendulum_struck, false},
+        {"JointsInRoom", 3000, joints_in_room, false},
+        {"SpringsInRoom", 1000, springs_in_room, false},
+    };
+    return list;
+}
+
+} // namespace carom::shots

@@ -1,0 +1,184 @@
+// 100,000 random shots. Every arrangement is a test; every shot has a number.
+//
+//   carom-test-property --shot N    replays one shot, with its arrangement and the state after every step
+//   carom-test-property --survey    runs everything and prints what fails, arrangement by arrangement
+//
+// CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 20th.
+
+#include "property/arrangements.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+using namespace carom;
+using namespace carom::shots;
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(CAROM_VALIDATE)
+constexpr int usual_divisor = 20;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr int usual_divisor = 20;
+#else
+constexpr int usual_divisor = 1;
+#endif
+#else
+constexpr int usual_divisor = 1;
+#endif
+
+int divisor()
+{
+    const char* text = std::getenv("CAROM_SHOT_DIVISOR");
+    return text ? std::max(1, std::atoi(text)) : usual_divisor;
+}
+
+struct Tally
+{
+    std::map<std::string, int> laws{};
+    std::map<std::string, int> first{}; // number of the first shot that broke the law
+    std::string details{};
+    int shots = 0;
+    int failed = 0;
+};
+
+std::optional<Failure> run_shot(const Arrangement& arrangement, int number, bool trace, std::string& story)
+{
+    Trial trial(static_cast<std::uint64_t>(number));
+    trial.story.precision(9);
+    try
+    {
+        arrangement.build(trial);
+        story = trial.story.str();
+        if (trace)
+            std::cout << arrangement.name << ", " << trial.steps << " steps: " << story << "\n";
+        return trial.run(trace);
+    }
+    catch (const Error& error)
+    {
+        story = trial.story.str();
+        return Failure{"refused", 0, error.what()};
+    }
+}
+
+std::string describe(const Arrangement& arrangement, int number, const Failure& failure, const std::string& story)
+{
+    return say(arrangement.name, " --shot ", number, ": ", failure.law, " in step ", failure.step, ": ", failure.sentence,
+               "\n    ", story, "\n");
+}
+
+Tally run_all(const Arrangement& arrangement, int first)
+{
+    constexpr int most_told = 8; // of each law
+    Tally tally;
+    for (int i = first; i < first + arrangement.shots; ++i)
+    {
+        if (i % divisor() != 0)
+            continue;
+        std::string story;
+        ++tally.shots;
+        const auto failure = run_shot(arrangement, i, false, story);
+        if (!failure)
+            continue;
+        ++tally.failed;
+        tally.first.emplace(failure->law, i);
+        if (++tally.laws[failure->law] <= most_told)
+            tally.details += describe(arrangement, i, *failure, story);
+    }
+    return tally;
+}
+
+std::string summary(const Tally& tally)
+{
+    std::string text = say(tally.failed, " of ", tally.shots, " shots fail");
+    for (const auto& [law, count] : tally.laws)
+        text += say(", ", law, " ", count, " (first --shot ", tally.first.at(law), ")");
+    return text;
+}
+
+class ShotTest : public ::testing::Test
+{
+public:
+    ShotTest(const Arrangement& arrangement, int first) : m_arrangement(arrangement), m_first(first) {}
+    void TestBody() override
+    {
+        const Tally tally = run_all(m_arrangement, m_first);
+        EXPECT_GT(tally.shots, 0);
+        if (tally.failed > 0)
+            ADD_FAILURE() << summary(tally) << "\n" << tally.details;
+    }
+
+private:
+    const Arrangement& m_arrangement;
+    int m_first;
+};
+
+void register_tests()
+{
+    int first = 0;
+    for (const Arrangement& arrangement : arrangements())
+    {
+        const std::string name = std::string(arrangement.passes ? "" : "DISABLED_") + arrangement.name;
+        ::testing::RegisterTest("RandomShots", name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+                                [&arrangement, first]() -> ::testing::Test* { return new ShotTest(arrangement, first); });
+        first += arrangement.shots;
+    }
+}
+
+int replay(int number)
+{
+    int first = 0;
+    for (const Arrangement& arrangement : arrangements())
+    {
+        if (number >= first && number < first + arrangement.shots)
+        {
+            std::string story;
+            const auto failure = run_shot(arrangement, number, true, story);
+            std::cout << (failure ? describe(arrangement, number, *failure, "") : std::string("nothing fails\n"));
+            return failure ? 1 : 0;
+        }
+        first += arrangement.shots;
+    }
+    std::cerr << "shots are numbered 0 to " << first - 1 << "\n";
+    return 2;
+}
+
+int survey(const char* only)
+{
+    int first = 0;
+    int shots = 0;
+    int failed = 0;
+    for (const Arrangement& arrangement : arrangements())
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        if (!only || std::strcmp(only, arrangement.name) == 0)
+        {
+            const Tally tally = run_all(arrangement, first);
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+            std::cout << arrangement.name << ": " << summary(tally) << "; " << took.count() << " s\n"
+                      << (only ? tally.details : "");
+            std::cout.flush();
+            shots += tally.shots;
+            failed += tally.failed;
+        }
+        first += arrangement.shots;
+    }
+    std::cout << failed << " of " << shots << " shots fail\n";
+    return failed > 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc > 2 && std::strcmp(argv[1], "--shot") == 0)
+        return replay(std::atoi(argv[2]));
+    if (argc > 1 && std::strcmp(argv[1], "--survey") == 0)
+        return survey(argc > 2 ? argv[2] : nullptr);
+    ::testing::InitGoogleTest(&argc, argv);
+    register_tests();
+    return RUN_ALL_TESTS();
+}
