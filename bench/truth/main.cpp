@@ -1,5 +1,6 @@
 // carom-truth: experiments with known answers, run on Carom and on the engines installed beside it.
 
+#include "truth/pictures.h"
 #include "truth/report.h"
 
 #include <CLI/CLI.hpp>
@@ -7,8 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 
 namespace {
@@ -24,6 +25,7 @@ struct Options
     bool json = false;
     bool peers = true;
     bool converge = false;
+    std::filesystem::path plot{};
 };
 
 /// One line on a terminal, rewritten in place; looks for Ctrl-C on the way.
@@ -99,10 +101,36 @@ bool wanted(const Options& options, int number)
     return options.only.empty() || std::find(options.only.begin(), options.only.end(), number) != options.only.end();
 }
 
-truth::Results run_all(const Options& options)
+std::vector<truth::Engine> chosen_engines(const Options& options)
 {
     std::vector<truth::Engine> engines = truth::engines();
     engines.resize(options.peers ? engines.size() : 1);
+    return engines;
+}
+
+void draw_all(const Options& options)
+{
+    std::filesystem::create_directories(options.plot);
+    for (const truth::Picture& picture : truth::pictures())
+    {
+        if (!wanted(options, picture.experiment))
+        {
+            continue;
+        }
+        std::vector<truth::Setup> setups;
+        for (const truth::Engine& engine : chosen_engines(options))
+        {
+            setups.push_back({.engine = engine, .hz = options.hz, .progress = Progress(picture.file + ", " + engine.name)});
+        }
+        picture.draw(setups, options.plot / picture.file);
+        Progress::clear();
+        std::cout << (options.plot / picture.file).string() << std::endl;
+    }
+}
+
+truth::Results run_all(const Options& options)
+{
+    const std::vector<truth::Engine> engines = chosen_engines(options);
     truth::Results results{.convergence = options.converge};
     for (std::size_t i = 1; i < engines.size(); ++i)
     {
@@ -138,6 +166,25 @@ std::string check_number(const std::string& text)
     return truth::find_experiment(std::atoi(text.c_str())) ? std::string() : "there is no experiment " + text;
 }
 
+/// 0, or what to leave the program with.
+int plot(const Options& options)
+{
+    try
+    {
+        draw_all(options);
+        return 0;
+    }
+    catch (const truth::Interrupted&)
+    {
+        return 130;
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "carom-truth: " << error.what() << '\n';
+        return 1;
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -151,9 +198,14 @@ int main(int argc, char** argv)
     app.add_flag("--json", options.json, "print a list of {experiment, metric, exact, value, bound, ok}");
     app.add_flag("!--no-peers", options.peers, "run Carom alone");
     app.add_flag("--converge", options.converge, "also run at four times the rate: the errors must shrink");
+    app.add_option("--plot", options.plot, "write pictures of experiments 1, 6 and 15 as SVG into this folder, and no table");
     CLI11_PARSE(app, argc, argv);
 
     std::signal(SIGINT, ask_stop);
+    if (!options.plot.empty())
+    {
+        return plot(options);
+    }
     const truth::Results results = run_all(options);
     if (options.json)
     {

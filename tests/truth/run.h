@@ -9,7 +9,7 @@
 
 namespace truth::test {
 
-// Sanitizers and structure walks cost a factor of twenty and more: fewer cases there, the same bounds.
+// Sanitizers and structure walks cost a factor of ten.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool slow_build = true;
 #elif defined(__has_feature)
@@ -22,7 +22,7 @@ inline constexpr bool slow_build = false;
 inline constexpr bool slow_build = false;
 #endif
 
-inline Metrics run(int number, double hz, double share = slow_build ? 0.1 : 1, const Engine& engine = carom_engine())
+inline Metrics run(int number, double hz, double share = 1, const Engine& engine = carom_engine())
 {
     return find_experiment(number)->run({.engine = engine, .hz = hz, .share = share});
 }
