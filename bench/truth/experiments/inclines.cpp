@@ -56,7 +56,8 @@ double acceleration(const Setup& setup, Slope slope)
     run(setup, slope, 0.75);
     const double second = slope.distance();
     run(setup, slope, 0.75);
-    return (slope.distance() - 2 * second + first) / (0.75 * 0.75);
+    const double interval = setup.steps(0.75) * setup.dt();
+    return (slope.distance() - 2 * second + first) / (interval * interval);
 }
 
 double moved(const Setup& setup, Slope slope, double from, double to)
