@@ -15,10 +15,12 @@ void shoot_inside(Trial& trial, const Room& room, const Piece& piece, double spi
     Random& random = trial.random;
     const double speed = pick_speed(random);
     const Point along = pick_direction(random);
-    const double way = way_to_walls(room, {}, along, 1.01 * piece.reach);
+    const double off = random.chance(0.2) ? 0 : 0.95 * std::max(room.depth({}) - 1.02 * piece.reach, 0.0) * random.unit();
+    const Point from = off * pick_direction(random);
+    const double way = way_to_walls(room, from, along, 1.01 * piece.reach);
     const double gap = pick_gap(trial, speed, way);
     pick_steps(trial, gap, speed, 10);
-    const BodyId body = shoot(trial, piece, (way - gap) * along, speed * along);
+    const BodyId body = shoot(trial, piece, from + (way - gap) * along, speed * along);
     expect_inside(trial, room, body, spin);
 }
 

@@ -74,7 +74,7 @@ void drive(Trial& trial, BodyId bat, const Chamber& c, double torque)
     const float applied = f(torque);
     const double start = bat_angle(trial, bat, c);
     trial.story << "torque " << torque << "; ";
-    trial.before_step([&trial, bat, applied] { trial.scene().body(bat).apply_torque(applied); });
+    trial.drive(bat, applied);
     trial.account_work([&trial, bat, c, applied, start]
                        { return static_cast<double>(applied) * (bat_angle(trial, bat, c) - start); });
 }

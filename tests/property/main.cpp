@@ -1,7 +1,9 @@
 // 100,000 random shots. Every arrangement is a test; every shot has a number.
 //
 //   carom-test-property --shot N    replays one shot, with its arrangement and the state after every step
-//   carom-test-property --survey    runs everything and prints what fails, arrangement by arrangement
+//   carom-test-property --program N prints it as a program of its own
+//   carom-test-property --survey [arrangement]
+//                                   runs everything and prints how many fail; of one arrangement, all that fail
 //
 // CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 20th.
 
@@ -45,6 +47,19 @@ struct Tally
     int failed = 0;
 };
 
+// The number of an arrangement's first shot comes with it.
+std::pair<const Arrangement*, int> arrangement_of(int number)
+{
+    int first = 0;
+    for (const Arrangement& arrangement : arrangements())
+    {
+        if (number >= first && number < first + arrangement.shots)
+            return {&arrangement, first};
+        first += arrangement.shots;
+    }
+    return {nullptr, first};
+}
+
 std::optional<Failure> run_shot(const Arrangement& arrangement, int number, bool trace, std::string& story)
 {
     Trial trial(static_cast<std::uint64_t>(number));
@@ -70,9 +85,8 @@ std::string describe(const Arrangement& arrangement, int number, const Failure& 
                "\n    ", story, "\n");
 }
 
-Tally run_all(const Arrangement& arrangement, int first)
+Tally run_all(const Arrangement& arrangement, int first, int most_told)
 {
-    constexpr int most_told = 8; // of each law
     Tally tally;
     for (int i = first; i < first + arrangement.shots; ++i)
     {
@@ -105,7 +119,7 @@ public:
     ShotTest(const Arrangement& arrangement, int first) : m_arrangement(arrangement), m_first(first) {}
     void TestBody() override
     {
-        const Tally tally = run_all(m_arrangement, m_first);
+        const Tally tally = run_all(m_arrangement, m_first, 8);
         EXPECT_GT(tally.shots, 0);
         if (tally.failed > 0)
             ADD_FAILURE() << summary(tally) << "\n" << tally.details;
@@ -128,22 +142,33 @@ void register_tests()
     }
 }
 
+int refuse_number(int shots)
+{
+    std::cerr << "shots are numbered 0 to " << shots - 1 << "\n";
+    return 2;
+}
+
 int replay(int number)
 {
-    int first = 0;
-    for (const Arrangement& arrangement : arrangements())
-    {
-        if (number >= first && number < first + arrangement.shots)
-        {
-            std::string story;
-            const auto failure = run_shot(arrangement, number, true, story);
-            std::cout << (failure ? describe(arrangement, number, *failure, "") : std::string("nothing fails\n"));
-            return failure ? 1 : 0;
-        }
-        first += arrangement.shots;
-    }
-    std::cerr << "shots are numbered 0 to " << first - 1 << "\n";
-    return 2;
+    const auto [arrangement, first] = arrangement_of(number);
+    if (!arrangement)
+        return refuse_number(first);
+    std::string story;
+    const auto failure = run_shot(*arrangement, number, true, story);
+    std::cout << (failure ? describe(*arrangement, number, *failure, "") : std::string("nothing fails\n"));
+    return failure ? 1 : 0;
+}
+
+int print_program(int number)
+{
+    const auto [arrangement, first] = arrangement_of(number);
+    if (!arrangement)
+        return refuse_number(first);
+    Trial trial(static_cast<std::uint64_t>(number));
+    arrangement->build(trial);
+    std::cout << "// carom-test-property --shot " << number << ", " << arrangement->name << "\n";
+    trial.print_program(std::cout);
+    return 0;
 }
 
 int survey(const char* only)
@@ -156,7 +181,7 @@ int survey(const char* only)
         const auto begin = std::chrono::steady_clock::now();
         if (!only || std::strcmp(only, arrangement.name) == 0)
         {
-            const Tally tally = run_all(arrangement, first);
+            const Tally tally = run_all(arrangement, first, arrangement.shots);
             const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
             std::cout << arrangement.name << ": " << summary(tally) << "; " << took.count() << " s\n"
                       << (only ? tally.details : "");
@@ -176,6 +201,8 @@ int main(int argc, char** argv)
 {
     if (argc > 2 && std::strcmp(argv[1], "--shot") == 0)
         return replay(std::atoi(argv[2]));
+    if (argc > 2 && std::strcmp(argv[1], "--program") == 0)
+        return print_program(std::atoi(argv[2]));
     if (argc > 1 && std::strcmp(argv[1], "--survey") == 0)
         return survey(argc > 2 ? argv[2] : nullptr);
     ::testing::InitGoogleTest(&argc, argv);

@@ -218,8 +218,8 @@ std::optional<Failure> Trial::check_sides(int step)
 
 std::optional<Failure> Trial::step_once(int step)
 {
-    for (const auto& action : m_actions)
-        action();
+    for (const auto& [body, torque] : m_torques)
+        m_scene->body(body).apply_torque(torque);
     m_scene->step(dt);
     m_time += d(dt);
     // All of them look at every step: some remember.

@@ -23,7 +23,8 @@ using test::Random;
 /// What went wrong first.
 struct Failure
 {
-    std::string law{}; ///< "passed", "strayed", "energy", "momentum", "finite", "quarantine", "triggers", "contacts", "refused"
+    std::string
+        law{}; ///< "passed", "strayed", "time", "energy", "momentum", "finite", "quarantine", "triggers", "contacts", "refused"
     int step = 0;
     std::string sentence{};
 };
@@ -56,7 +57,8 @@ public:
     /// What the arrangement knows: called after every step, gives a sentence where something is on the wrong side.
     void expect(std::function<std::string()> holds) { m_expectations.push_back({"passed", std::move(holds)}); }
     void expect(const char* law, std::function<std::string()> holds) { m_expectations.push_back({law, std::move(holds)}); }
-    void before_step(std::function<void()> action) { m_actions.push_back(std::move(action)); }
+    /// The torque acts on the body through every step, N m.
+    void drive(BodyId body, float torque) { m_torques.push_back({body, torque}); }
     /// Work that motors and applied torques have done since the start, J.
     void account_work(std::function<double()> work) { m_work = std::move(work); }
     void energy_in(Frame frame) { m_frame = frame; }
@@ -71,6 +73,8 @@ public:
 
     /// Steps, checks, and takes the scene apart at the end. A trace prints every step.
     std::optional<Failure> run(bool trace);
+    /// Prints a stand-alone program that plays the same shot through the public API. Call before run.
+    void print_program(std::ostream& out);
 
 private:
     struct Sums
@@ -104,7 +108,7 @@ private:
         std::function<std::string()> holds;
     };
     std::vector<Expectation> m_expectations;
-    std::vector<std::function<void()>> m_actions;
+    std::vector<std::pair<BodyId, float>> m_torques;
     std::function<double()> m_work = [] { return 0.0; };
     Frame m_frame{};
     bool m_check_energy = true;

@@ -31,15 +31,19 @@ void note(std::vector<double>& times, const Events& events, double begin)
         times.push_back(begin + static_cast<double>(e.time));
 }
 
-std::string compare(const char* what, const std::vector<double>& seen, double exact, const Passage& passage, double now)
+std::string seen_once(const char* what, const std::vector<double>& seen, double exact, const Passage& passage, double now)
 {
-    const double grain = passage.allowed / passage.speed;
     if (seen.empty())
-        return now > exact + grain ? say("no ", what, " until ", now, " s, due at ", exact, " s") : "";
-    if (seen.size() > 1)
-        return say(seen.size(), " times ", what);
+        return now > exact + passage.allowed / passage.speed ? say("no ", what, " until ", now, " s, due at ", exact, " s") : "";
+    return seen.size() > 1 ? say(seen.size(), " times ", what) : "";
+}
+
+std::string seen_in_time(const char* what, const std::vector<double>& seen, double exact, const Passage& passage)
+{
+    if (seen.empty())
+        return "";
     const double off = std::fabs(seen[0] - exact);
-    return off <= grain ? "" : say(what, " off by ", off, " s, ", off * passage.speed, " m of path");
+    return off * passage.speed <= passage.allowed ? "" : say(what, " off by ", off, " s, ", off * passage.speed, " m of path");
 }
 
 // Both ways through the outline: the exit is the meeting of the way back.
@@ -61,8 +65,9 @@ ShapeId add_trigger(Trial& trial, const Piece& piece, Point at, double angle, Po
 
 void expect_passage(Trial& trial, const Passage& passage, bool exact)
 {
+    const auto seen = std::make_shared<Seen>();
     trial.expect(
-        [&trial, passage, exact, seen = std::make_shared<Seen>()]() -> std::string
+        [&trial, passage, exact, seen]() -> std::string
         {
             const double now = trial.time();
             const double begin = now - static_cast<double>(trial.dt);
@@ -70,9 +75,16 @@ void expect_passage(Trial& trial, const Passage& passage, bool exact)
             note(seen->exits, trial.scene().trigger_exits(), begin);
             if (!exact)
                 return seen->enters.empty() && now > passage.exit ? say("never entered, due before ", passage.exit, " s") : "";
-            const std::string wrong = compare("enter", seen->enters, passage.enter, passage, now);
-            return wrong.empty() ? compare("exit", seen->exits, passage.exit, passage, now) : wrong;
+            const std::string wrong = seen_once("enter", seen->enters, passage.enter, passage, now);
+            return wrong.empty() ? seen_once("exit", seen->exits, passage.exit, passage, now) : wrong;
         });
+    if (exact)
+        trial.expect("time",
+                     [passage, seen]() -> std::string
+                     {
+                         const std::string wrong = seen_in_time("enter", seen->enters, passage.enter, passage);
+                         return wrong.empty() ? seen_in_time("exit", seen->exits, passage.exit, passage) : wrong;
+                     });
 }
 
 } // namespace
