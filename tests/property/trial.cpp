@@ -96,6 +96,7 @@ Trial::Sums Trial::sums()
         if (m_scene->body(id).type() == BodyType::Dynamic)
             add_body(m_scene->body(id), sums);
     add_springs(sums);
+    sums.scale += std::fabs(m_work()); // it follows from an angle in floats
     return sums;
 }
 
@@ -222,6 +223,7 @@ std::optional<Failure> Trial::step_once(int step)
         m_scene->body(body).apply_torque(torque);
     m_scene->step(dt);
     m_time += d(dt);
+    m_met = m_met || !m_scene->impacts().empty() || !m_scene->trigger_enters().empty();
     // All of them look at every step: some remember.
     const std::optional<Failure> found[] = {check_finite(step), check_sides(step), check_energy(step), check_momentum(step),
                                             check_pairs(step)};

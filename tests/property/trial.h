@@ -73,6 +73,8 @@ public:
 
     /// Steps, checks, and takes the scene apart at the end. A trace prints every step.
     std::optional<Failure> run(bool trace);
+    /// Whether anything has met anything: a trial without that has shown nothing.
+    [[nodiscard]] bool met() const { return m_met; }
     /// Prints a stand-alone program that plays the same shot through the public API. Call before run.
     void print_program(std::ostream& out);
 
@@ -115,6 +117,7 @@ private:
     bool m_check_momentum = false;
     bool m_check_angular = false;
     double m_time = 0;
+    bool m_met = false;
     Sums m_start{};
     Sums m_least{}; // at the moment of the least energy so far
     double m_least_net = 0;
