@@ -161,7 +161,7 @@ void drum(Trial& trial)
     const Room room = random.chance(0.5) ? pick_polygon_room(random, inner) : pick_round_room(random, inner);
     const Point gravity = pick_gravity(random);
     trial.open(piece.reach, gravity);
-    const double spin = static_cast<double>(static_cast<float>(random.range(-50, 50)));
+    const double spin = as_float(random.range(-50, 50));
     build_walls(trial, room, BodyType::Kinematic, spin);
     if (norm(gravity) > 0)
         trial.skip_energy();

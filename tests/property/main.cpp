@@ -5,7 +5,7 @@
 //   carom-test-property --survey [arrangement]
 //                                   runs everything and prints how many fail; of one arrangement, all that fail
 //
-// CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 20th.
+// CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 5th.
 
 #include "property/arrangements.h"
 
@@ -21,10 +21,10 @@ using namespace carom::shots;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(CAROM_VALIDATE)
-constexpr int usual_divisor = 20;
+constexpr int usual_divisor = 5;
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr int usual_divisor = 20;
+constexpr int usual_divisor = 5;
 #else
 constexpr int usual_divisor = 1;
 #endif

@@ -11,15 +11,12 @@ namespace {
 
 double d(float x) { return static_cast<double>(x); }
 
-// As floats hold it: the engine moves a kinematic body with that, and so do we.
-Point rounded(Point p) { return point(vec(p)); }
-
 void at_plate(Trial& trial, const Piece& piece, double widest)
 {
     Random& random = trial.random;
     const Point gravity = pick_gravity(random);
     Scene& scene = trial.open(piece.reach, gravity);
-    const Point u = rounded(pick_velocity(random, 0.01, 100));
+    const Point u = as_floats(pick_velocity(random, 0.01, 100));
     const double speed = pick_speed(random);
     const Point along = direction(-M_PI / 2 + random.range(-widest, widest));
     const double gap = pick_gap(trial, speed, 100 * piece.reach);
@@ -95,10 +92,10 @@ std::optional<Bounce> pick_bounce(Trial& trial, double radius, double restitutio
     Bounce b;
     b.radius = radius;
     b.bar.length = std::clamp(radius * log_uniform(random, 2, 20), 0.005, 1.0);
-    b.bar.radius = d(static_cast<float>(b.bar.length * random.range(0.005, 0.1)));
+    b.bar.radius = as_float(b.bar.length * random.range(0.005, 0.1));
     const double sign = pick_sign(random, 0.5);
-    b.bar.w = d(static_cast<float>(sign * random.range(1, 50)));
-    b.bar.start = d(static_cast<float>(random.range(-M_PI, M_PI)));
+    b.bar.w = as_float(sign * random.range(1, 50));
+    b.bar.start = as_float(random.range(-M_PI, M_PI));
     b.time = random.range(0.02, 3) * d(trial.dt);
     b.side = random.chance(0.7) == (b.bar.w > 0) ? 1 : -1;
     const double reach = radius + b.bar.radius;
@@ -106,7 +103,7 @@ std::optional<Bounce> pick_bounce(Trial& trial, double radius, double restitutio
     b.n = b.side * turned_left(axis);
     const Point met = random.range(0.15, 0.95) * b.bar.length * axis + reach * b.n;
     const Point surface = b.bar.w * turned_left(met - reach * b.n);
-    const Point v = random.chance(0.2) ? Point{} : rounded(pick_velocity(random, 0.001, 1000));
+    const Point v = random.chance(0.2) ? Point{} : as_floats(pick_velocity(random, 0.001, 1000));
     const double approach = -dot(v - surface, b.n);
     if (approach < 1e-3 * norm(v - surface) || approach < 1e-3)
         return std::nullopt;

@@ -38,6 +38,14 @@ struct Point
 [[nodiscard]] inline Position position(Point p) { return {p.x, p.y}; }
 [[nodiscard]] inline Vec2 vec(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
+/// As a float holds it. Through memory: g++ 12 takes a pair of these for nothing to do (it packs the conversions and cancels them).
+[[nodiscard]] inline double as_float(double x)
+{
+    const volatile float narrow = static_cast<float>(x);
+    return static_cast<double>(narrow);
+}
+[[nodiscard]] inline Point as_floats(Point p) { return {as_float(p.x), as_float(p.y)}; }
+
 /// All points within the radius of a convex polygon: one point makes a disc, two a capsule. Counter-clockwise.
 struct Outline
 {

@@ -100,7 +100,7 @@ void ball_through_trigger(Trial& trial)
     const double speed = pick_speed(random);
     const Point along = pick_direction(random);
     const double angle = random.range(-M_PI, M_PI);
-    const Point u = random.chance(0.5) ? Point{} : point(vec(pick_velocity(random, 0.01, 300)));
+    const Point u = random.chance(0.5) ? Point{} : as_floats(pick_velocity(random, 0.01, 300));
     add_trigger(trial, trigger, {}, angle, u);
     // Through the inner disc of the trigger; the visitor's own inner disc is what a spinning one surely brings through.
     const Point aside = random.range(-0.8, 0.8) * trigger.inner * turned_left(along);

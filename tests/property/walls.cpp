@@ -78,9 +78,8 @@ void ball_at_body(Trial& trial)
     const double angle = random.range(-M_PI, M_PI);
     const Point at{random.range(-20, 20), random.range(-20, 20)};
     add_piece(trial, target, BodyType::Static, at, angle, {}, 0);
-    const Point aim = target.inner > 0
-                          ? at + within(random, 0.9 * target.inner)
-                          : at + random.range(-0.9, 0.9) * reach * direction(static_cast<double>(static_cast<float>(angle)));
+    const Point aim =
+        target.inner > 0 ? at + within(random, 0.9 * target.inner) : at + random.range(-0.9, 0.9) * reach * direction(angle);
     const double speed = pick_speed(random);
     const Point along = pick_direction(random);
     shoot_at(trial, radius, moved(target.outline, at, angle), aim, along, speed);
