@@ -11,7 +11,7 @@
 namespace truth {
 namespace {
 
-const std::string exact_color = "#6e7781";
+constexpr const char* exact_color = "#6e7781";
 
 /// Colours that differ for everybody: ours, then the peers'.
 std::string color_of(std::size_t engine)

@@ -53,9 +53,10 @@ protected:
     static constexpr std::size_t overlaps = 2; // come first, then speeds
 };
 
+// Five seeds of the twenty that carom-truth takes: overlaps hardly differ from pile to pile.
 TEST_F(TruthPile, E14_PiecesLieOnEachOther)
 {
-    truth::Metrics metrics = run(14, 60);
+    truth::Metrics metrics = run(14, 60, 0.25);
     metrics.resize(overlaps);
     expect_bounds(metrics);
 }

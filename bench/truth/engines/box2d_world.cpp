@@ -27,18 +27,19 @@ struct Fixtures
     b2Body* body;
     b2FixtureDef def;
 
-    void add(const b2Shape& shape)
+    void add(const b2Shape& shape) const
     {
-        def.shape = &shape;
-        body->CreateFixture(&def);
+        b2FixtureDef complete = def;
+        complete.shape = &shape;
+        body->CreateFixture(&complete);
     }
-    void operator()(const Disc& disc)
+    void operator()(const Disc& disc) const
     {
         b2CircleShape circle;
         circle.m_radius = static_cast<float>(disc.radius);
         add(circle);
     }
-    void operator()(const Polygon& polygon)
+    void operator()(const Polygon& polygon) const
     {
         std::vector<b2Vec2> vertices;
         std::transform(polygon.vertices.begin(), polygon.vertices.end(), std::back_inserter(vertices), narrow);
@@ -46,7 +47,7 @@ struct Fixtures
         shape.Set(vertices.data(), static_cast<int32>(vertices.size()));
         add(shape);
     }
-    void operator()(const Segment& segment)
+    void operator()(const Segment& segment) const
     {
         b2EdgeShape edge;
         edge.SetTwoSided(narrow(segment.a), narrow(segment.b));
