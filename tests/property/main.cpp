@@ -46,6 +46,8 @@ struct Tally
     int shots = 0;
     int failed = 0;
     int met = 0; // shots in which something met something
+    int slowest = 0;
+    double slowest_ms = 0; // for the survey alone
 };
 
 // The number of an arrangement's first shot comes with it.
@@ -91,7 +93,14 @@ Tally run_all(const Arrangement& arrangement, int first, int most_told)
         if (i % divisor() != 0)
             continue;
         Trial trial(static_cast<std::uint64_t>(i));
+        const auto begin = std::chrono::steady_clock::now();
         const auto failure = run_shot(trial, arrangement, false);
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+        if (took.count() > tally.slowest_ms)
+        {
+            tally.slowest = i;
+            tally.slowest_ms = took.count();
+        }
         ++tally.shots;
         tally.met += trial.met();
         if (!failure)
@@ -182,7 +191,8 @@ int survey(const char* only)
         {
             const Tally tally = run_all(arrangement, first, arrangement.shots);
             const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-            std::cout << arrangement.name << ": " << summary(tally) << "; " << took.count() << " s\n"
+            std::cout << arrangement.name << ": " << summary(tally) << "; " << took.count() << " s, slowest --shot "
+                      << tally.slowest << " " << tally.slowest_ms << " ms\n"
                       << (only ? tally.details : "");
             std::cout.flush();
             shots += tally.shots;
