@@ -105,6 +105,9 @@ void Trial::print_state(int step)
     const Sums now = sums();
     std::cout << "step " << step << " t " << m_time << " energy " << now.energy - m_work() << " momentum " << now.momentum << " "
               << now.angular << "\n";
+    const StepReport& report = m_scene->report();
+    std::cout << "  flags " << report.flags << " flying " << report.flight_bodies << " impacts at their time "
+              << report.flight_impacts << " others " << report.bulk_impacts << "\n";
     for (const BodyId id : m_scene->bodies())
     {
         const ConstBody body = m_scene->body(id);
