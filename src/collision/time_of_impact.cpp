@@ -6,6 +6,7 @@
 
 #include "collision/time_of_impact.h"
 
+#include "collision/probes.h"
 #include "core/trigonometry.h"
 #include "geometry/surface.h"
 
@@ -16,98 +17,244 @@ namespace carom::internal {
 
 namespace {
 
+struct Vector
+{
+    double x = 0;
+    double y = 0;
+};
+double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+double size(Vector a) { return std::sqrt(dot(a, a)); }
+Vector turned(SinCos q, Vector v) { return {q.cos * v.x - q.sin * v.y, q.sin * v.x + q.cos * v.y}; }
+Vector turned_back(SinCos q, Vector v) { return {q.cos * v.x + q.sin * v.y, q.cos * v.y - q.sin * v.x}; }
+
+SinCos rotation_at(const FramePath& f, double t)
+{
+    if (f.w == 0 && f.alpha == 0)
+        return {f.s, f.c};
+    const SinCos turn = sin_cos(t * (f.w + 0.5 * t * f.alpha));
+    return {f.s * turn.cos + f.c * turn.sin, f.c * turn.cos - f.s * turn.sin};
+}
+
+/// What a probe sees of the surface at one moment.
 struct Sight
 {
-    double distance; ///< gap between ball and surface
-    double nx;       ///< world
-    double ny;
-    double rate;          ///< of the gap along the fixed normal
+    double distance; ///< gap between probe and surface
+    Vector n;        ///< from the surface to the probe, world
+    Vector point;    ///< on the probe
+    double rate;     ///< of the gap along the fixed normal
+    double acceleration;
     double bend;          ///< M: bound on minus its second derivative
     double speed;         ///< bound on the relative speed over the rest of the time
-    double hollow_radius; ///< from the arc's center to the ball's, on the hollow side; 0 elsewhere
+    double hollow_radius; ///< from the arc's center to the probe's, on the hollow side; 0 elsewhere
     double curvature;
     int feature;
+    bool end_of_arc;
+    bool faces; ///< the surface answers for this direction; otherwise only the distance and the speed hold
 };
+
+constexpr double corner = 1e-5; // of the size: nearer, and blunter, than this two corners are in one place
 
 class Approach
 {
 public:
-    Approach(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame, double duration)
-        : m_ball(ball), m_radius(radius), m_leaf(leaf), m_frame(frame), m_duration(duration)
+    Approach(const Probe& probe, const FramePath& carrier, const LeafView& leaf, const FramePath& frame, double duration,
+             double length)
+        : m_probe(probe), m_carrier(carrier), m_leaf(leaf), m_frame(frame), m_duration(duration), m_length(length),
+          m_local{static_cast<double>(probe.point.x) - static_cast<double>(carrier.local_center.x),
+                  static_cast<double>(probe.point.y) - static_cast<double>(carrier.local_center.y)},
+          m_reach(size(m_local))
     {
-        // A circle about the center of mass looks the same however it turns.
+        // A circle about the center looks the same however it turns.
         const Leaf& l = *leaf.leaf;
         if (l.type == LeafType::Circle && l.p0 == frame.local_center)
-            m_frame.w = 0;
-        m_ax = ball.ax - m_frame.center.ax;
-        m_ay = ball.ay - m_frame.center.ay;
-        m_acceleration = std::sqrt(m_ax * m_ax + m_ay * m_ay);
+            m_frame.w = m_frame.alpha = 0;
+        if (m_reach == 0)
+            m_carrier.w = m_carrier.alpha = 0;
+        m_a = {carrier.center.ax - frame.center.ax, carrier.center.ay - frame.center.ay};
+        m_w_probe = std::fabs(m_carrier.w) + duration * std::fabs(m_carrier.alpha);
+        m_w_frame = std::fabs(m_frame.w) + duration * std::fabs(m_frame.alpha);
     }
 
-    /// Nothing where the leaf does not face the ball.
-    [[nodiscard]] std::optional<Sight> look(double t) const
+    [[nodiscard]] Sight look(double t) const
     {
+        const CenterPath& p = m_carrier.center;
         const CenterPath& f = m_frame.center;
-        const double rx = m_ball.x - f.x + t * (m_ball.vx - f.vx) + 0.5 * t * t * m_ax;
-        const double ry = m_ball.y - f.y + t * (m_ball.vy - f.vy) + 0.5 * t * t * m_ay;
-        double c = m_frame.c;
-        double s = m_frame.s;
-        if (m_frame.w != 0)
-        {
-            const SinCos turn = sin_cos(m_frame.w * t);
-            c = m_frame.c * turn.cos - m_frame.s * turn.sin;
-            s = m_frame.s * turn.cos + m_frame.c * turn.sin;
-        }
+        const SinCos turn_probe = rotation_at(m_carrier, t);
+        const SinCos turn_frame = rotation_at(m_frame, t);
+        const double wp = m_carrier.w + t * m_carrier.alpha;
+        const double wf = m_frame.w + t * m_frame.alpha;
+        const Vector q = turned(turn_probe, m_local);
+        const Vector to_carrier = {p.x + t * p.vx + 0.5 * t * t * p.ax, p.y + t * p.vy + 0.5 * t * t * p.ay};
+        const Vector r = {to_carrier.x + q.x - (f.x + t * f.vx + 0.5 * t * t * f.ax),
+                          to_carrier.y + q.y - (f.y + t * f.vy + 0.5 * t * t * f.ay)};
+        // Velocity of the probe as the turning frame sees it.
+        const Vector v = {p.vx - f.vx + t * m_a.x - wp * q.y + wf * r.y, p.vy - f.vy + t * m_a.y + wp * q.x - wf * r.x};
+        const Vector local = turned_back(turn_frame, r);
         const std::optional<Surface<double>> surface =
-            surface_at<double>(m_leaf, c * rx + s * ry + m_frame.local_center.x, c * ry - s * rx + m_frame.local_center.y);
-        if (!surface)
-            return std::nullopt;
-        // Velocity of the ball as the turning frame sees it.
-        const double vx = m_ball.vx - f.vx + t * m_ax + m_frame.w * ry;
-        const double vy = m_ball.vy - f.vy + t * m_ay - m_frame.w * rx;
+            surface_for(local.x + static_cast<double>(m_frame.local_center.x),
+                        local.y + static_cast<double>(m_frame.local_center.y), turn_probe, turn_frame);
         Sight sight{};
-        sight.distance = surface->distance - m_radius;
-        sight.nx = c * surface->nx - s * surface->ny;
-        sight.ny = s * surface->nx + c * surface->ny;
-        sight.rate = vx * sight.nx + vy * sight.ny;
+        bound_motion(sight, t, r, v);
+        if (!surface)
+        {
+            sight.distance = plain_distance(*m_leaf.leaf, local.x + static_cast<double>(m_frame.local_center.x),
+                                            local.y + static_cast<double>(m_frame.local_center.y)) -
+                             m_probe.radius;
+            return sight;
+        }
+        sight.faces = true;
+        sight.distance = surface->distance - m_probe.radius;
+        sight.n = turned(turn_frame, {surface->nx, surface->ny});
+        const Vector in_leaf = {local.x + static_cast<double>(m_frame.local_center.x),
+                                local.y + static_cast<double>(m_frame.local_center.y)};
+        if (const int vertex = corner_met(surface->distance, in_leaf); vertex >= 0)
+        {
+            const std::optional<Vector> n = shared_normal(vertex, turn_frame, turn_probe);
+            sight.faces = n.has_value();
+            sight.n = n.value_or(sight.n);
+        }
+        sight.point = {to_carrier.x + q.x - m_probe.radius * sight.n.x, to_carrier.y + q.y - m_probe.radius * sight.n.y};
+        sight.rate = dot(v, sight.n);
         sight.curvature = surface->curvature;
         sight.feature = surface->feature;
-        const double rest = m_duration - t;
-        const double w = std::fabs(m_frame.w);
-        sight.speed = std::sqrt(vx * vx + vy * vy) + rest * (m_acceleration + w * w * std::sqrt(rx * rx + ry * ry));
-        if (w == 0)
-        {
-            sight.bend = std::max(0.0, -(m_ax * sight.nx + m_ay * sight.ny));
-        }
-        else
-        {
-            const double reach = std::sqrt(rx * rx + ry * ry) + rest * sight.speed;
-            sight.bend = m_acceleration + 2 * w * sight.speed + w * w * reach;
-        }
+        sight.end_of_arc = m_leaf.leaf->type == LeafType::Arc && surface->feature != 0;
+        // The gap's own acceleration: of the probe, as the turning frame sees it, and the bend of the surface under its slide.
+        const Vector a = {m_a.x - m_carrier.alpha * q.y - wp * wp * q.x + 2 * wf * v.y + wf * wf * r.x + m_frame.alpha * r.y,
+                          m_a.y + m_carrier.alpha * q.x - wp * wp * q.y - 2 * wf * v.x + wf * wf * r.y - m_frame.alpha * r.x};
+        const double slide = v.y * sight.n.x - v.x * sight.n.y;
+        sight.acceleration = dot(a, sight.n) + surface->curvature * slide * slide;
+        sight.bend += std::max(0.0, -dot(m_a, sight.n));
         if (surface->curvature < 0)
         {
             sight.hollow_radius = -1 / surface->curvature;
             sight.bend += 2 * sight.speed * sight.speed / sight.hollow_radius;
         }
+        if (!sight.faces || !faces_probe(sight, turn_probe))
+        {
+            sight.faces = false;
+            sight.distance = std::fabs(sight.distance);
+        }
         return sight;
     }
 
-    [[nodiscard]] double relative_speed() const
+private:
+    // The surface as the probe meets it. A vertex that has come through a thin line by less than its band is still outside, on the side that
+    // its shape is on: a rounding does not decide that.
+    [[nodiscard]] std::optional<Surface<double>> surface_for(double px, double py, SinCos turn_probe, SinCos turn_frame) const
     {
-        const double vx = m_ball.vx - m_frame.center.vx;
-        const double vy = m_ball.vy - m_frame.center.vy;
-        return std::sqrt(vx * vx + vy * vy) + m_duration * m_acceleration;
+        const Leaf& leaf = *m_leaf.leaf;
+        const std::optional<Surface<double>> plain = surface_at<double>(m_leaf, px, py);
+        const bool line = leaf.type == LeafType::Segment || leaf.type == LeafType::Arc;
+        if (!line || m_probe.band == 0 || (plain && plain->feature != 0) || (plain && plain->distance > m_probe.band))
+            return plain;
+        // The same point seen from both sides.
+        Leaf both = leaf;
+        both.sides = Sides::Both;
+        const std::optional<Surface<double>> seen = surface_at<double>(LeafView{&both}, px, py);
+        if (!seen || seen->feature != 0 || seen->distance > m_probe.band)
+            return plain;
+        const Vector out = turned_back(
+            turn_frame, turned(turn_probe, {static_cast<double>(m_probe.outward.x), static_cast<double>(m_probe.outward.y)}));
+        const double towards = out.x * seen->nx + out.y * seen->ny;
+        if (leaf.sides == Sides::Both ? towards <= 0.1 * size(out) : plain.has_value())
+            return plain;
+        // Through to the other side.
+        const auto thickness = static_cast<double>(leaf.r0);
+        return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, -seen->curvature, 0};
     }
 
-private:
-    CenterPath m_ball;
-    double m_radius;
+    // Two sharp corners in one place: the direction between them, or of the nearer edge, means nothing. Gives the leaf's vertex.
+    [[nodiscard]] int corner_met(double distance, Vector p) const
+    {
+        const Leaf& leaf = *m_leaf.leaf;
+        const double tiny = corner * m_length;
+        if (leaf.type != LeafType::Polygon || m_probe.before == Vec2{} || std::fabs(distance) > tiny ||
+            m_probe.radius + static_cast<double>(leaf.r0) > tiny)
+            return -1;
+        for (int i = 0; i < leaf.count; ++i)
+        {
+            if (size({p.x - static_cast<double>(m_leaf.points[i].x), p.y - static_cast<double>(m_leaf.points[i].y)}) <= tiny)
+                return i;
+        }
+        return -1;
+    }
+
+    // It has to be a normal of both corners: between those of the leaf's two edges, and between the opposites of those of the probe's.
+    [[nodiscard]] std::optional<Vector> shared_normal(int vertex, SinCos turn_frame, SinCos turn_probe) const
+    {
+        const auto cross = [](Vector a, Vector b) { return a.x * b.y - a.y * b.x; };
+        const auto world = [](SinCos q, Vec2 v, double sign)
+        { return turned(q, {sign * static_cast<double>(v.x), sign * static_cast<double>(v.y)}); };
+        const Leaf& leaf = *m_leaf.leaf;
+        const Vector first = world(turn_frame, m_leaf.normals[vertex > 0 ? vertex - 1 : leaf.count - 1], 1);
+        const Vector last = world(turn_frame, m_leaf.normals[vertex], 1);
+        const Vector own_first = world(turn_probe, m_probe.before, -1);
+        const Vector own_last = world(turn_probe, m_probe.after, -1);
+        const Vector from = cross(first, own_first) > 0 ? own_first : first;
+        const Vector to = cross(last, own_last) < 0 ? own_last : last;
+        const Vector middle = {from.x + to.x, from.y + to.y};
+        const double l = size(middle);
+        if (cross(from, to) < -1e-3 || l < 0.1)
+            return std::nullopt;
+        return Vector{middle.x / l, middle.y / l};
+    }
+
+    // Only part of the probe may be surface; and what has been inside an arc's circle is not met by its bulge.
+    [[nodiscard]] bool faces_probe(const Sight& sight, SinCos turn_probe) const
+    {
+        if (m_probe.part == Probe::Part::All)
+            return true;
+        if (m_probe.part == Probe::Part::Bulge && sight.distance < -1e-3 * m_probe.radius)
+            return false;
+        const Vector d = turned_back(turn_probe, {-sight.n.x, -sight.n.y});
+        return faces(m_probe, d.x, d.y);
+    }
+
+    void bound_motion(Sight& sight, double t, Vector r, Vector v) const
+    {
+        const double rest = m_duration - t;
+        const double own = (m_w_probe * m_w_probe + std::fabs(m_carrier.alpha)) * m_reach;
+        const double turning = m_w_frame * m_w_frame + std::fabs(m_frame.alpha);
+        const double speed = size(v);
+        sight.speed = speed + rest * (size(m_a) + own + turning * (size(r) + rest * speed));
+        sight.bend = own;
+        if (turning > 0)
+            sight.bend += 2 * m_w_frame * sight.speed + turning * (size(r) + rest * sight.speed);
+    }
+
+    // To a segment's or arc's line, whichever side answers.
+    static double plain_distance(const Leaf& leaf, double px, double py)
+    {
+        const auto to_point = [&](Vec2 v)
+        { return size({px - static_cast<double>(v.x), py - static_cast<double>(v.y)}) - static_cast<double>(leaf.r0); };
+        const double ends = std::min(to_point(start_point(leaf)), to_point(end_point(leaf)));
+        if (leaf.type == LeafType::Segment)
+        {
+            const Vector e = {static_cast<double>(leaf.p1.x) - static_cast<double>(leaf.p0.x),
+                              static_cast<double>(leaf.p1.y) - static_cast<double>(leaf.p0.y)};
+            const Vector d = {px - static_cast<double>(leaf.p0.x), py - static_cast<double>(leaf.p0.y)};
+            const double along = dot(e, d);
+            return along > 0 && along < dot(e, e) ? std::fabs(e.x * d.y - e.y * d.x) / size(e) - static_cast<double>(leaf.r0)
+                                                  : ends;
+        }
+        const Vector d = {px - static_cast<double>(leaf.p0.x), py - static_cast<double>(leaf.p0.y)};
+        const double l = size(d);
+        const bool ahead = d.x * static_cast<double>(leaf.p1.x) + d.y * static_cast<double>(leaf.p1.y) >=
+                           l * static_cast<double>(leaf.cos_half_sweep);
+        return ahead ? std::fabs(l - static_cast<double>(leaf.arc_radius)) - static_cast<double>(leaf.r0) : ends;
+    }
+
+    Probe m_probe;
+    FramePath m_carrier;
     LeafView m_leaf;
     FramePath m_frame;
     double m_duration;
-    double m_ax;
-    double m_ay;
-    double m_acceleration;
+    double m_length; ///< of what meets here
+    Vector m_local;  ///< probe from the carrier's center, body frame
+    double m_reach;
+    Vector m_a;
+    double m_w_probe;
+    double m_w_frame;
 };
 
 // The first positive root of d + u s - M s²/2; infinite where there is none.
@@ -123,43 +270,119 @@ double safe_step(double d, double u, double bend)
 double next_step(const Sight& sight)
 {
     const double step = safe_step(sight.distance, sight.rate, sight.bend);
+    if (sight.end_of_arc) // the arc itself may bend towards the path
+        return std::min(step, sight.speed > 0 ? std::max(sight.distance, 0.0) / sight.speed : 1e300);
     if (!(sight.hollow_radius > 0) || !(sight.speed > 0))
         return step;
-    // The bend bound holds while the ball keeps half its distance from the arc's center; the plain speed bound always holds.
+    // The bend bound holds while the probe keeps half its distance from the arc's center; the plain speed bound always holds.
     return std::max(std::max(sight.distance, 0.0) / sight.speed, std::min(step, 0.5 * sight.hollow_radius / sight.speed));
 }
 
-constexpr int max_looks = 1024; // 1000 m/s past an unfacing piece in half radii of a pinball; others need 3 to 10
-constexpr double touch = 1e-7;  // of the radius: a nanometre on a pinball
+constexpr int max_looks = 1024; // 1000 m/s past an unfacing piece in small steps; others need 3 to 10
+constexpr double touch = 1e-7;  // of the size: a nanometre on a pinball
 constexpr double nearly_touch = 1e-3;
+constexpr double blind_step = 1e-3; // of the size, along a surface that does not answer
 
-} // namespace
-
-std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf, const FramePath& frame,
-                                           double duration, double least_approach)
+Touch touch_of(const Sight& sight, double t, bool probe_on_a)
 {
-    const Approach approach(ball, radius, leaf, frame, duration);
+    const double sign = probe_on_a ? -1 : 1; // n runs from the surface to the probe
+    return {t,          sight.point.x,      sight.point.y,   sign * sight.n.x, sign * sight.n.y,
+            sight.rate, sight.acceleration, sight.curvature, sight.feature};
+}
+
+std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
+                                          double least_approach)
+{
     double t = 0;
     for (int i = 0; i < max_looks && t <= duration; ++i)
     {
-        const std::optional<Sight> sight = approach.look(t);
-        if (!sight)
+        const Sight sight = approach.look(t);
+        if (!sight.faces)
         {
-            const double speed = approach.relative_speed() + std::fabs(frame.w) * radius;
-            t += speed > 0 ? 0.5 * radius / speed : duration + 1;
+            t += sight.speed > 0 ? std::max(sight.distance, blind_step * length) / sight.speed : duration + 1;
             continue;
         }
-        const bool near = sight->distance <= (i < max_looks - 1 ? touch : nearly_touch) * radius;
-        if (near && sight->rate < -least_approach)
-            return BallHit{t, sight->nx, sight->ny, sight->curvature, sight->feature};
-        if (near && sight->bend <= 0)
+        const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
+        if (near && sight.rate < -least_approach)
+            return touch_of(sight, t, probe_on_a);
+        if (near && sight.end_of_arc)
+        {
+            t += blind_step * length / sight.speed;
+            continue;
+        }
+        if (near && sight.bend <= 0)
             return std::nullopt; // touches, does not approach, and nothing will make it
         // Touching, it cannot approach faster than that before the bend has had its time. A step too short to move the clock would look at
         // the same place for ever.
-        const double patience = near ? std::max((least_approach + sight->rate) / sight->bend, 1e-6 * duration) : 1e-12 * duration;
-        t += std::max(next_step(*sight), patience);
+        const double patience = near ? std::max((least_approach + sight.rate) / sight.bend, 1e-6 * duration) : 1e-12 * duration;
+        t += std::max(next_step(sight), patience);
     }
     return std::nullopt;
+}
+
+} // namespace
+
+double probe_size(const LeafView& v)
+{
+    const Leaf& leaf = *v.leaf;
+    switch (leaf.type)
+    {
+    case LeafType::HalfSpace: return 1e300;
+    case LeafType::Circle: return leaf.r0;
+    case LeafType::Polygon: return static_cast<double>(length(v.points[1] - v.points[0])) + static_cast<double>(leaf.r0);
+    case LeafType::Capsule: return std::max(leaf.r0, leaf.r1);
+    case LeafType::Segment: return static_cast<double>(length(leaf.p1 - leaf.p0)) + static_cast<double>(leaf.r0);
+    case LeafType::Arc: return static_cast<double>(leaf.arc_radius) + static_cast<double>(leaf.r0);
+    }
+    return 1;
+}
+
+std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
+                                 double duration, double least_approach)
+{
+    const double length = std::min(probe_size(a), probe_size(b));
+    std::optional<Touch> first;
+    for_each_probe_pair(a, b,
+                        [&](const Probe& probe, bool on_a)
+                        {
+                            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration,
+                                                    length);
+                            const double left = first ? first->time : duration;
+                            const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach);
+                            if (hit && (!first || hit->time < first->time))
+                                first = hit;
+                        });
+    return first;
+}
+
+namespace {
+
+// A corner on a corner is seen from both sides.
+bool is_known(const Touches& touches, const Touch& t, double length)
+{
+    return std::any_of(touches.begin(), touches.end(), [&](const Touch& o)
+                       { return size({o.x - t.x, o.y - t.y}) < 1e-3 * length && o.nx * t.nx + o.ny * t.ny > 0.99; });
+}
+
+} // namespace
+
+Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double tolerance)
+{
+    const double length = std::min(probe_size(a), probe_size(b));
+    Touches touches;
+    for_each_probe_pair(a, b,
+                        [&](const Probe& probe, bool on_a)
+                        {
+                            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0,
+                                                    length);
+                            const Sight sight = approach.look(0);
+                            if (!sight.faces || sight.distance > tolerance || touches.count == Touches::capacity)
+                                return;
+                            const Touch t = touch_of(sight, 0, on_a);
+                            if (!is_known(touches, t, length))
+                                touches.list[touches.count++] = t;
+                        });
+    return touches;
 }
 
 } // namespace carom::internal

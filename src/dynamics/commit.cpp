@@ -5,6 +5,7 @@
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
+#include "dynamics/flight/motion.h"
 #include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
@@ -86,9 +87,10 @@ void commit_state(StepContext& ctx, std::int32_t index)
     if (const std::int32_t f = ctx.scratch.flier_of_state[static_cast<std::size_t>(index)]; f != none)
     {
         const Flier& flier = ctx.scratch.fliers[static_cast<std::size_t>(f)];
-        x = flier.landed ? x : flier.x; // the path itself, in double
-        y = flier.landed ? y : flier.y;
         crowded = flier.crowded;
+        const CenterMotion center = center_of(flier); // the path itself, in double
+        x = flier.landed ? x : center.x;
+        y = flier.landed ? y : center.y;
     }
     if (!is_sound(s, x, y))
     {
@@ -155,6 +157,17 @@ void commit_joint(StepContext& ctx, const JointWork& work)
     joint.torque = work.torque_sum / ctx.dt;
 }
 
+// What a flier's hinge gave while flight kept it; forces are told as on body b.
+void commit_hinge(StepContext& ctx, const Flier& flier)
+{
+    if (flier.joint == none)
+        return;
+    JointRecord& joint = ctx.state.joints[flier.joint];
+    const float per_time = static_cast<float>(joint.body_b == flier.body ? 1 : -1) / ctx.dt;
+    joint.force += per_time * flier.reaction;
+    joint.torque += per_time * flier.limit_reaction;
+}
+
 // --- what flight left to be done in order ------------------------------------------------------------------------------------------------
 
 void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
@@ -195,8 +208,13 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
     for (const RawTouch& t : output.begins)
     {
         ctx.state.graph_dirty = true;
-        if (t.contact != none && touches_elsewhere(state, t.contact))
-            continue;
+        if (t.contact != none)
+        { // of several pieces of a chain the first speaks for all
+            const bool known = touches_elsewhere(state, t.contact);
+            ctx.state.contacts[t.contact].flags &= ~contact_flag::begun;
+            if (known)
+                continue;
+        }
         ctx.scene.events.begins.push_back({shape_id(state, t.shape_a), shape_id(state, t.shape_b),
                                            body_id(state, state.shapes[t.shape_a].body),
                                            body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
@@ -340,6 +358,8 @@ void commit_and_sleep(StepContext& ctx)
         commit_row(ctx, row);
     for (const JointWork& work : scratch.joints)
         commit_joint(ctx, work);
+    for (const Flier& flier : scratch.fliers)
+        commit_hinge(ctx, flier);
     for (std::size_t u = 0; u < scratch.units.size(); ++u)
         merge_output(ctx, scratch.outputs[u]);
     update_triggers(ctx);

@@ -185,8 +185,8 @@ bool touches_elsewhere(const SceneState& state, int index)
     for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
     {
         const Contact& other = state.contacts[edge >> 1];
-        if ((edge >> 1) != index && (other.flags & contact_flag::touching) != 0 && state.shapes[other.shape_a].owner == owner_a &&
-            state.shapes[other.shape_b].owner == owner_b)
+        if ((edge >> 1) != index && (other.flags & (contact_flag::touching | contact_flag::begun)) == contact_flag::touching &&
+            state.shapes[other.shape_a].owner == owner_a && state.shapes[other.shape_b].owner == owner_b)
             return true;
     }
     return false;

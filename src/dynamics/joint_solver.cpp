@@ -5,6 +5,7 @@
 #include "dynamics/joint_solver.h"
 
 #include "core/trigonometry.h"
+#include "dynamics/joint_direct.h"
 #include "dynamics/joint_rows.h"
 #include "dynamics/scene_data.h"
 
@@ -268,6 +269,37 @@ int count_springs(const SceneState& state, int body)
 
 } // namespace
 
+namespace {
+
+// A hinge to the world whose body flies about it: flight keeps it.
+bool is_in_flight(const SolverView& view, const JointWork& work)
+{
+    return ((view.states[work.a].flags | view.states[work.b].flags) & body_flag::flier) != 0;
+}
+
+} // namespace
+
+JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
+{
+    const JointRows all = rows_of(joint, pose, 0);
+    JointRows holding;
+    for (int i = 0; i < all.count; ++i)
+    {
+        if (all.rows[i].kind == RowKind::Hold && all.rows[i].hertz == 0)
+            holding.add(all.rows[i]);
+    }
+    return holding;
+}
+
+float hinge_angle(const SceneState& state, const JointRecord& joint)
+{
+    const auto rotation = [&](int body)
+    { return body == none ? Rotation{} : state.sims[static_cast<std::size_t>(body)].rotation; };
+    const Rotation relative =
+        rotation(joint.body_b) * inverse(rotation(joint.body_a)) * Rotation::from_angle(-joint.reference_angle);
+    return static_cast<float>(arc_tangent(relative.s, relative.c));
+}
+
 JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::int32_t b)
 {
     const JointRecord& joint = ctx.state.joints[index];
@@ -275,6 +307,11 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     work.joint = index;
     work.a = a;
     work.b = b;
+    if (ctx.slices > 1)
+    {
+        for (float& impulse : ctx.state.joints[index].impulses)
+            impulse /= static_cast<float>(ctx.slices);
+    }
     if (joint.kind == JointType::Spring)
         work.spring_count = std::max(count_springs(ctx.state, joint.body_a), count_springs(ctx.state, joint.body_b));
     const auto place = [&](int body, Vec2 anchor, Vec2& arm, Rotation& q)
@@ -296,8 +333,7 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     const Position pb = place(joint.body_b, joint.anchor_b, work.rb0, qb);
     work.gap0 = pb - pa;
     work.axis0 = rotate(qa, joint.axis_a);
-    const Rotation relative = qb * inverse(qa) * Rotation::from_angle(-joint.reference_angle);
-    work.angle0 = static_cast<float>(arc_tangent(relative.s, relative.c));
+    work.angle0 = hinge_angle(ctx.state, joint);
     if (joint.kind == JointType::Spring)
         fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, joint, work);
     return work;
@@ -317,6 +353,8 @@ void warm_start_joints(const SolverView& view, SceneState& state, std::span<Join
 {
     for (const JointWork& work : joints)
     {
+        if (is_in_flight(view, work))
+            continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
@@ -330,6 +368,8 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
     const Softness soft = make_softness(joint_hertz, 0, view.h);
     for (const JointWork& work : joints)
     {
+        if (is_in_flight(view, work))
+            continue;
         JointRecord& joint = state.joints[work.joint];
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
@@ -337,10 +377,18 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
         const int held = rows.block ? 2 : (joint.kind == JointType::Prismatic ? 2 : 0);
         for (int i = held; i < rows.count; ++i)
             solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
-        if (rows.block)
-            solve_block(bodies, joint, rows, soft, use_bias);
         for (int i = rows.block ? held : 0; i < held; ++i)
             solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
+    }
+    if (solve_hinges(view, state, joints, use_bias))
+        return;
+    for (const JointWork& work : joints)
+    {
+        JointRecord& joint = state.joints[work.joint];
+        if (joint.kind != JointType::Revolute || is_in_flight(view, work))
+            continue;
+        const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
+        solve_block(Bodies(view, work), joint, rows, soft, use_bias);
     }
 }
 
@@ -349,7 +397,7 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
     for (JointWork& work : joints)
     {
         const JointRecord& joint = state.joints[work.joint];
-        if (joint.limit_restitution == 0)
+        if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
@@ -367,7 +415,7 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
     for (JointWork& work : joints)
     {
         JointRecord& joint = state.joints[work.joint];
-        if (joint.limit_restitution == 0)
+        if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
         const Bodies bodies(view, work);
@@ -389,6 +437,8 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
 {
     for (JointWork& work : joints)
     {
+        if (is_in_flight(view, work))
+            continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointPose pose = present_pose(view, work);
         const JointRows rows = rows_of(joint, pose, view.h);

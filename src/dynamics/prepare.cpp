@@ -1,8 +1,12 @@
 #include "dynamics/prepare.h"
 
 #include "core/trigonometry.h"
+#include "dynamics/body_store.h"
+#include "dynamics/joint_solver.h"
 #include "dynamics/scene_data.h"
+#include "geometry/surface.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::internal {
@@ -42,15 +46,57 @@ StateConstants state_constants(const StepContext& ctx, int body)
     return c;
 }
 
-Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int shape)
+namespace {
+
+// About the pivot: the hinge's angle at the start of the step, and how far its limits let the body turn from there.
+void hinge(const StepContext& ctx, int index, const BodySim& sim, Flier& f)
+{
+    const JointRecord& joint = ctx.state.joints[index];
+    const bool is_b = joint.body_b == f.body;
+    f.local_reference = is_b ? joint.anchor_b : joint.anchor_a;
+    const Vec2 arm = rotate(sim.rotation, sim.local_center - f.local_reference);
+    f.arm_x = arm.x;
+    f.arm_y = arm.y;
+    f.x = -f.arm_x;
+    f.y = -f.arm_y;
+    f.vx = f.vy = 0;
+    f.inverse_mass_x = f.inverse_mass_y = 0;
+    f.inverse_inertia =
+        1 / (static_cast<double>(sim.inertia) + static_cast<double>(sim.mass) * (f.arm_x * f.arm_x + f.arm_y * f.arm_y));
+    if (!joint.enable_limit)
+        return;
+    const auto angle = static_cast<double>(hinge_angle(ctx.state, joint));
+    const auto lower = static_cast<double>(joint.lower);
+    const auto upper = static_cast<double>(joint.upper);
+    f.lower = is_b ? lower - angle : angle - upper;
+    f.upper = is_b ? upper - angle : angle - lower;
+}
+
+} // namespace
+
+Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint)
 {
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     Flier flier;
     flier.state = state;
     flier.body = body;
-    flier.shape = shape;
+    flier.joint = joint;
     flier.vx = sim.velocity.x;
     flier.vy = sim.velocity.y;
+    flier.w = sim.angular_velocity;
+    flier.inverse_mass_x = sim.inverse_mass.x;
+    flier.inverse_mass_y = sim.inverse_mass.y;
+    flier.inverse_inertia = sim.inverse_inertia;
+    flier.local_reference = sim.local_center;
+    flier.size = 1e300;
+    for_each_leaf(ctx.state, body,
+                  [&](int shape)
+                  {
+                      if (!ctx.state.shapes[shape].trigger)
+                          flier.size = std::min(flier.size, inner_radius(leaf_view(ctx.state, shape)));
+                  });
+    if (joint != none)
+        hinge(ctx, joint, sim, flier);
     return flier;
 }
 
@@ -113,6 +159,16 @@ float ball_radius(const SceneState& state, const Contact& contact, bool a_gives)
 
 } // namespace
 
+void scale_row(ContactRow& row, float by)
+{
+    row.rolling_impulse *= by;
+    for (RowPoint& p : row.points)
+    {
+        p.normal_impulse *= by;
+        p.tangent_impulse *= by;
+    }
+}
+
 ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
 {
     const Contact& contact = ctx.state.contacts[index];
@@ -134,6 +190,8 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
         row.points[i].normal_impulse = manifold.points[i].normal_impulse;
         row.points[i].tangent_impulse = manifold.points[i].tangent_impulse;
     }
+    if (ctx.slices > 1)
+        scale_row(row, 1 / static_cast<float>(ctx.slices));
     if (contact.rolling_resistance > 0)
     {
         // The limit is a length: coefficient times the radius of what rolls.
@@ -142,7 +200,7 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
         const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);
         const float k = ca.inverse_inertia + cb.inverse_inertia;
         row.rolling = contact.rolling_resistance * radius;
-        row.rolling_impulse = manifold.rolling_impulse;
+        row.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.slices);
         row.rolling_mass = k > 0 ? 1 / k : 0;
     }
     return row;

@@ -40,9 +40,9 @@ namespace {
 class UnitSolver
 {
 public:
-    UnitSolver(StepContext& ctx, const Unit& unit, UnitOutput& output)
-        : m_ctx(ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
-          m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, ctx.scene.tolerances.push_speed},
+    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output)
+        : m_ctx(unit.slices > 1 ? sliced(ctx, unit.slices) : ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
+          m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
           m_rows(std::span(ctx.scratch.rows)
                      .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
           m_joints(std::span(ctx.scratch.joints)
@@ -53,11 +53,14 @@ public:
     {
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
+        if (m_ctx.slices > 1)
+            scale_impulses(static_cast<float>(m_ctx.slices));
     }
 
 private:
     void substep(int k)
     {
+        raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
         integrate_velocities();
         warm_start_all();
@@ -70,6 +73,21 @@ private:
         solve(false);
         bounce(k);
         finish_substep(k);
+    }
+
+    // What is kept for the next step's warm start is of a whole sub-step.
+    void scale_impulses(float by)
+    {
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (ContactRow& row : rows)
+                scale_row(row, by);
+        }
+        for (const JointWork& work : m_joints)
+        {
+            for (float& impulse : m_ctx.state.joints[work.joint].impulses)
+                impulse *= by;
+        }
     }
 
     [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
@@ -422,7 +440,7 @@ private:
     void begin_touch(const ContactRow& row, int k)
     {
         Contact& contact = m_ctx.state.contacts[row.contact];
-        contact.flags |= contact_flag::touching;
+        contact.flags |= contact_flag::touching | contact_flag::begun;
         m_output.begins.push_back(
             {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
     }
@@ -436,7 +454,7 @@ private:
         for (ContactRow& row : late_rows())
             sum_impulses(row);
         finish_joint_substep(m_view, m_ctx.state, m_joints);
-        if (m_ctx.scene.def.record_substeps)
+        if (m_ctx.scene.def.record_substeps && (k + 1) % m_ctx.slices == 0)
             record_poses(k);
     }
 
@@ -451,7 +469,7 @@ private:
 
     void record_poses(int k);
 
-    StepContext& m_ctx;
+    StepContext m_ctx;
     Scratch& m_scratch;
     const Unit& m_unit;
     UnitOutput& m_output;

@@ -26,16 +26,15 @@ struct Core
 Core core_of(const LeafView& v)
 {
     const Leaf& leaf = *v.leaf;
+    const double radius = 0.5 * inner_radius(v);
     if (leaf.type == LeafType::Circle)
-        return {leaf.p0, 0.5 * static_cast<double>(leaf.r0)};
+        return {leaf.p0, radius};
     if (leaf.type != LeafType::Polygon)
-        return {0.5f * (leaf.p0 + leaf.p1), 0.25 * static_cast<double>(leaf.r0 + leaf.r1)};
+        return {0.5f * (leaf.p0 + leaf.p1), radius};
     Vec2 sum{};
     for (int i = 0; i < leaf.count; ++i)
         sum += v.points[i];
-    const Vec2 center = (1 / static_cast<float>(leaf.count)) * sum;
-    const std::optional<Surface<float>> s = surface_at<float>(v, center.x, center.y);
-    return {center, s ? -0.5 * static_cast<double>(s->distance) : 0};
+    return {(1 / static_cast<float>(leaf.count)) * sum, radius};
 }
 
 double free_part(const StepContext& ctx, int shape, double dx, double dy)
@@ -44,7 +43,8 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
     const BodySim& sim = state.sims[static_cast<std::size_t>(state.shapes[shape].body)];
     const Core core = core_of(leaf_view(state, shape));
     const Position start = transform(sim.pose(), core.center);
-    const CenterPath path{0, 0, dx, dy, 0, 0};
+    const FramePath path{{0, 0, dx, dy, 0, 0}};
+    const Leaf disc = {.type = LeafType::Circle, .r0 = static_cast<float>(core.radius)};
     double part = 1;
     const auto visit = [&](int other)
     {
@@ -54,7 +54,7 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
             return true;
         const Pose pose = state.sims[static_cast<std::size_t>(wall.body)].pose();
         const FramePath frame{{pose.position.x - start.x, pose.position.y - start.y}, {}, pose.rotation.c, pose.rotation.s, 0};
-        const std::optional<BallHit> hit = ball_time_of_impact(path, core.radius, leaf_view(state, other), frame, part, 0);
+        const std::optional<Touch> hit = first_touch(leaf_view(state, other), frame, {&disc}, path, part, 0);
         if (hit)
             part = hit->time; // 0 where the core is in the wall already and would go deeper
         return true;

@@ -11,16 +11,20 @@
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/stages.h"
+#include "geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace carom::internal {
 
 namespace {
 
-constexpr int precise_limit = 32; // bodies: beyond it a contact more or less does not decide where a ball goes
-constexpr int color_limit = 63;   // the mask's last bit stands for "no colour left"
+constexpr int precise_limit = 32;   // bodies: beyond it a contact more or less does not decide where a ball goes
+constexpr float slice_turn = 0.02f; // rad
+constexpr int slice_limit = 32;
+constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
 
@@ -97,26 +101,39 @@ bool gets_rows(const SceneState& state, const Contact& contact)
            (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
 }
 
-// A ball: one circle about the center of mass, free to move.
-std::int32_t ball_shape(const SceneState& state, int body)
+constexpr std::int32_t earthbound = -2; ///< in Builder::flight
+
+// What may fly: a body without joints, or one on a single hinge to the world that nothing drives.
+std::int32_t flight_of(const SceneState& state, int body)
 {
     const BodyRecord& record = state.bodies[body];
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    if (record.first_joint != none || sim.inverse_mass.x == 0 || sim.inverse_mass.y == 0)
-        return none;
-    std::int32_t ball = none;
-    for (int shape = record.first_shape; shape != none; shape = state.shapes[shape].next_shape)
-    {
-        const ShapeRecord& s = state.shapes[shape];
-        if (s.trigger)
-            continue;
-        const bool centered =
-            s.has_leaf && s.leaf.type == LeafType::Circle && length(s.leaf.p0 - sim.local_center) <= 1e-4f * s.leaf.r0;
-        if (ball != none || !centered)
-            return none;
-        ball = shape;
-    }
-    return ball;
+    const int edge = record.first_joint;
+    if (edge == none)
+        return sim.inverse_mass != Vec2{} || sim.inverse_inertia != 0 ? none : earthbound;
+    const JointRecord& joint = state.joints[edge >> 1];
+    const int other = joint.body_a == body ? joint.body_b : joint.body_a;
+    const bool hinged = joint.kind == JointType::Revolute && !joint.enable_motor && joint.hertz == 0 &&
+                        joint.next[edge & 1] == none && (other == none || state.bodies[other].type == BodyType::Static) &&
+                        sim.inverse_inertia > 0;
+    if (!hinged)
+        return earthbound;
+    // A body that may not move along is held twice: it turns only if the pivot is its center of mass.
+    const Vec2 anchor = joint.body_a == body ? joint.anchor_a : joint.anchor_b;
+    const bool centered = anchor == sim.local_center;
+    return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
+}
+
+void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }
+
+// The hinge's two points must be in one place; flight does not pull them together.
+bool is_closed(const StepContext& ctx, int index, int body)
+{
+    const JointRecord& joint = ctx.state.joints[index];
+    const auto world = [&](int b, Vec2 anchor)
+    { return b == none ? Position(anchor) : transform(ctx.state.sims[static_cast<std::size_t>(b)].pose(), anchor); };
+    const Vec2 gap = world(joint.body_b, joint.anchor_b) - world(joint.body_a, joint.anchor_a);
+    return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
 }
 
 // Nothing bears it and it overlaps nothing: then its path is its own until it hits something.
@@ -146,13 +163,15 @@ struct Builder
     StepContext& ctx;
     SceneState& state;
     Scratch& scratch;
-    std::vector<std::int32_t> flier_shape; ///< by place in awake_bodies; none: not in flight
+    std::vector<std::int32_t> flight;   ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
+    std::vector<std::int32_t> grounded; ///< the same of what could fly but bears or is borne by something
 
     explicit Builder(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
     void find_fliers()
     {
-        flier_shape.assign(state.awake_bodies.size(), none);
+        flight.assign(state.awake_bodies.size(), earthbound);
+        grounded.assign(state.awake_bodies.size(), earthbound);
         if (!ctx.scene.def.continuous)
             return;
         for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
@@ -160,15 +179,107 @@ struct Builder
             const int body = state.awake_bodies[i];
             if (state.bodies[body].type != BodyType::Dynamic)
                 continue;
-            const std::int32_t shape = ball_shape(state, body);
-            if (shape != none && is_unloaded(ctx, body))
-                flier_shape[i] = shape;
+            const std::int32_t kind = flight_of(state, body);
+            if (kind != earthbound && (kind == none || is_closed(ctx, kind, body)))
+                (is_unloaded(ctx, body) ? flight : grounded)[i] = kind;
         }
+    }
+
+    // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
+    // way.
+    void ground_crowds()
+    {
+        std::vector<std::int32_t> fliers(scratch.units.size(), 0);
+        for (std::size_t i = 0; i < flight.size(); ++i)
+        {
+            if (flight[i] != earthbound)
+                ++fliers[static_cast<std::size_t>(scratch.unit_of[i])];
+        }
+        for (std::size_t i = 0; i < flight.size(); ++i)
+        {
+            if (flight[i] == earthbound || fliers[static_cast<std::size_t>(scratch.unit_of[i])] <= precise_limit)
+                continue;
+            if (!shoots(state.awake_bodies[i]))
+                std::swap(flight[i], grounded[i]);
+        }
+    }
+
+    // Goes half its size or more in a sub-step, also as its neighbours see it.
+    [[nodiscard]] bool shoots(int body) const
+    {
+        const float limit = 0.5f * size_of(body) / ctx.h;
+        const Vec2 v = state.sims[static_cast<std::size_t>(body)].velocity;
+        bool shoots = length(v) > limit;
+        for (int edge = state.bodies[body].first_contact; shoots && edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            const int other = other_body(contact, body);
+            shoots = !gets_rows(state, contact) || state.bodies[other].type != BodyType::Dynamic ||
+                     length(v - state.sims[static_cast<std::size_t>(other)].velocity) > limit;
+        }
+        return shoots;
+    }
+
+    // The least inner radius of its shapes.
+    [[nodiscard]] float size_of(int body) const
+    {
+        double size = 1e30;
+        for_each_leaf(state, body,
+                      [&](int shape)
+                      {
+                          if (!state.shapes[shape].trigger)
+                              size = std::min(size, inner_radius(leaf_view(state, shape)));
+                      });
+        return static_cast<float>(size);
+    }
+
+    // A contact whose normal turns with a bar or a bat is followed in slices of at most this turn.
+    void choose_slices()
+    {
+        for (const std::int32_t index : state.awake_contacts)
+        {
+            const Contact& contact = state.contacts[index];
+            const std::int32_t u = unit_of_pair(contact.body_a, contact.body_b);
+            if (u == none || !gets_rows(state, contact))
+                continue;
+            const float turn = ctx.h * turn_rate(contact);
+            Unit& unit = scratch.units[static_cast<std::size_t>(u)];
+            const int slices = std::min(static_cast<int>(std::ceil(turn / slice_turn)), slice_limit);
+            unit.slices = std::max(unit.slices, slices);
+        }
+        std::vector<std::int32_t> bodies(scratch.units.size(), 0);
+        for (const std::int32_t u : scratch.unit_of)
+        {
+            if (u != none && ++bodies[static_cast<std::size_t>(u)] > precise_limit)
+                scratch.units[static_cast<std::size_t>(u)].slices = 1;
+        }
+    }
+
+    // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
+    // is followed exactly in flight.
+    [[nodiscard]] float turn_rate(const Contact& contact) const
+    {
+        const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));
+        if (driven * ctx.h < 0.1f * slice_turn)
+            return 0;
+        const BodySim& a = state.sims[static_cast<std::size_t>(contact.body_a)];
+        const BodySim& b = state.sims[static_cast<std::size_t>(contact.body_b)];
+        const Vec2 arm = b.center - a.center;
+        const Vec2 slide = b.velocity - a.velocity - cross(a.angular_velocity, arm);
+        const float radius = std::max(state.shapes[contact.shape_a].leaf.r0, state.shapes[contact.shape_b].leaf.r0);
+        return driven + ((contact.flags & contact_flag::round) != 0 && radius > 0 ? length(slide) / radius : 0);
+    }
+
+    [[nodiscard]] float driven_spin(int body) const
+    {
+        const bool driven =
+            state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
+        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
     }
 
     [[nodiscard]] bool flies(int body) const
     {
-        return is_moving_dynamic(state, body) && flier_shape[static_cast<std::size_t>(state.bodies[body].awake_index)] != none;
+        return is_moving_dynamic(state, body) && flight[static_cast<std::size_t>(state.bodies[body].awake_index)] != earthbound;
     }
 
     // Islands first, then what this step adds.
@@ -201,10 +312,11 @@ struct Builder
         for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         {
             const int body = state.awake_bodies[i];
-            if (flier_shape[i] == none || !may_be_deflected(body))
+            if (flight[i] == earthbound || !may_be_deflected(body))
                 continue;
             const Position c = state.sims[static_cast<std::size_t>(body)].center;
-            const double r = static_cast<double>(scratch.motion[i]) + static_cast<double>(state.shapes[flier_shape[i]].leaf.r0);
+            const double r =
+                static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
             reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
         }
         for (const Reach& reach : reaches)
@@ -302,7 +414,7 @@ struct Builder
         {
             Contact& contact = state.contacts[index];
             contact.color = none;
-            // Balls in flight meet things at their own time; a row would stop them early.
+            // Bodies in flight meet things at their own time; a row would stop them early.
             if (gets_rows(state, contact) && !flies(contact.body_a) && !flies(contact.body_b))
                 chosen.push_back(index);
         }
@@ -360,36 +472,45 @@ struct Builder
         for (Unit& unit : scratch.units)
         {
             const int first = unit.first_state;
+            const StepContext unit_ctx = sliced(ctx, unit.slices);
             unit.first_state = static_cast<std::int32_t>(scratch.states.size());
             unit.first_flier = static_cast<std::int32_t>(scratch.fliers.size());
+            unit.precise = unit.state_count <= precise_limit;
             add_fixed_state(none); // stands for every body that does not move, so that units share nothing
             for (int i = first; i < first + unit.state_count; ++i)
-                add_dynamic_state(sorted[static_cast<std::size_t>(i)]);
+                add_dynamic_state(unit_ctx, sorted[static_cast<std::size_t>(i)]);
             unit.flier_count = static_cast<std::int32_t>(scratch.fliers.size()) - unit.first_flier;
             for (int i = 0; i < unit.flier_count; ++i)
                 copy_kinematic_neighbours(unit, scratch.fliers[static_cast<std::size_t>(unit.first_flier + i)].body);
-            unit.precise = unit.state_count <= precise_limit;
-            add_rows(unit);
+            add_rows(unit_ctx, unit);
             unit.state_count = static_cast<std::int32_t>(scratch.states.size()) - unit.first_state;
         }
     }
 
-    void add_dynamic_state(std::int32_t place)
+    void add_dynamic_state(const StepContext& unit_ctx, std::int32_t place)
     {
         const int body = state.awake_bodies[static_cast<std::size_t>(place)];
         const auto index = static_cast<std::int32_t>(scratch.states.size());
         scratch.state_of[static_cast<std::size_t>(place)] = index;
         scratch.states.push_back(initial_state(state, body));
-        scratch.constants.push_back(state_constants(ctx, body));
+        scratch.constants.push_back(state_constants(unit_ctx, body));
         scratch.state_bodies.push_back(body);
-        if (const std::int32_t shape = flier_shape[static_cast<std::size_t>(place)]; shape != none)
+        if (const std::int32_t kind = flight[static_cast<std::size_t>(place)]; kind != earthbound)
         {
             scratch.states.back().flags |= body_flag::flier;
-            scratch.fliers.push_back(make_flier(ctx, index, body, shape));
+            ++ctx.report.flight_bodies;
+            if (kind != none)
+                forget_impulses(state.joints[kind]);
+            scratch.fliers.push_back(make_flier(unit_ctx, index, body, kind));
+        }
+        else if (const std::int32_t could = grounded[static_cast<std::size_t>(place)]; could != earthbound)
+        {
+            scratch.fliers.push_back(make_flier(unit_ctx, index, body, could));
+            scratch.fliers.back().landed = true;
         }
     }
 
-    // A ball may land on a kinematic body, which then needs its place in the unit.
+    // A flier may land on a kinematic body, which then needs its place in the unit.
     void copy_kinematic_neighbours(const Unit& unit, int body)
     {
         for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
@@ -424,7 +545,7 @@ struct Builder
     }
 
     // Rows sorted by colour: the least colour that neither moving body has yet, in the order of the contacts.
-    void add_rows(Unit& unit)
+    void add_rows(const StepContext& unit_ctx, Unit& unit)
     {
         scratch.color_masks.resize(scratch.states.size());
         std::fill(scratch.color_masks.begin() + unit.first_state, scratch.color_masks.end(), 0);
@@ -438,10 +559,10 @@ struct Builder
         std::copy(order.begin(), order.end(), scratch.solved_contacts.begin() + first);
         unit.first_impact_row = static_cast<std::int32_t>(scratch.impact_rows.size());
         for (const std::int32_t index : order)
-            add_row(unit, index);
+            add_row(unit_ctx, unit, index);
         unit.impact_row_count = static_cast<std::int32_t>(scratch.impact_rows.size()) - unit.first_impact_row;
         for (int i = 0; i < unit.joint_count; ++i)
-            add_joint(unit, scratch.solved_joints[static_cast<std::size_t>(unit.first_joint + i)]);
+            add_joint(unit_ctx, unit, scratch.solved_joints[static_cast<std::size_t>(unit.first_joint + i)]);
     }
 
     void assign_color(Unit& unit, Contact& contact)
@@ -467,12 +588,12 @@ struct Builder
         unit.colors = std::max(unit.colors, color + 1);
     }
 
-    void add_row(const Unit& unit, std::int32_t index)
+    void add_row(const StepContext& unit_ctx, const Unit& unit, std::int32_t index)
     {
         const Contact& contact = state.contacts[index];
         const std::int32_t a = state_for(unit, contact.body_a);
         const std::int32_t b = state_for(unit, contact.body_b);
-        scratch.rows.push_back(prepare_row(ctx, index, contact.manifold, a, b));
+        scratch.rows.push_back(prepare_row(unit_ctx, index, contact.manifold, a, b));
         ContactRow& row = scratch.rows.back();
         row.refreshed = unit.precise && (contact.flags & contact_flag::round) != 0;
         if ((contact.flags & contact_flag::loaded) == 0)
@@ -481,12 +602,12 @@ struct Builder
         scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
     }
 
-    void add_joint(const Unit& unit, std::int32_t joint)
+    void add_joint(const StepContext& unit_ctx, const Unit& unit, std::int32_t joint)
     {
         const JointRecord& record = state.joints[joint];
         const std::int32_t a = state_for(unit, record.body_a);
         const std::int32_t b = state_for(unit, record.body_b);
-        scratch.joints.push_back(prepare_joint(ctx, joint, a, b));
+        scratch.joints.push_back(prepare_joint(unit_ctx, joint, a, b));
         scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
         scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
     }
@@ -502,7 +623,6 @@ struct Builder
     void count()
     {
         ctx.report.units = static_cast<int>(scratch.units.size());
-        ctx.report.flight_bodies = static_cast<int>(scratch.fliers.size());
         for (const Unit& unit : scratch.units)
             ctx.report.colors = std::max(ctx.report.colors, static_cast<int>(unit.colors));
         for (const std::int32_t index : state.awake_contacts)
@@ -523,6 +643,8 @@ void build_units(StepContext& ctx)
     builder.link_units();
     builder.link_deflected();
     builder.number_units();
+    builder.ground_crowds();
+    builder.choose_slices();
     builder.sort_contacts();
     builder.sort_joints();
     builder.lay_out_states();

@@ -75,8 +75,9 @@ TEST(CollisionTimeOfImpact, AgreesWithFineStepping)
         VertexStore store;
         ASSERT_TRUE(normalize_geometry("test", c.geometry));
         const Leaf leaf = make_leaves(c.geometry, store)[0];
+        const Leaf ball = {.type = LeafType::Circle, .r0 = static_cast<float>(c.radius)};
         const double duration = 0.25;
-        const auto hit = ball_time_of_impact(c.ball, c.radius, view(leaf, store), c.frame, duration, 0);
+        const auto hit = first_touch(view(leaf, store), c.frame, {&ball}, {c.ball}, duration, 0);
         double first = -1;
         double nearest = 1e9;
         const int n = 1000;

@@ -86,17 +86,17 @@ TEST(Flipper, SpeedFollowsTheTorqueAllTheWayUp)
         field.step(both);
         const float time = 0.001f * static_cast<float>(i);
         EXPECT_NEAR(field.state(index).speed, acceleration * time, 0.05f);
-        // Half a sub-step ahead, as sub-steps go.
-        EXPECT_NEAR(field.state(index).angle - def.rest, 0.5f * acceleration * time * (time + 0.00025f), 0.0002f);
+        EXPECT_NEAR(field.state(index).angle - def.rest, 0.5f * acceleration * time * time, 1e-5f);
     }
 }
 
-TEST(Flipper, StrokeOfTheTableTakes21MillisecondsAndEndsAt108RadiansPerSecond)
+TEST(Flipper, StrokeOfTheTableTakes22MillisecondsAndEndsAt108RadiansPerSecond)
 {
     Flipper def = plain_flipper();
     def.coil_rise = 0.015f;
     const Stroke s = stroke(def, both);
-    EXPECT_NEAR(static_cast<float>(s.steps), 21.4f, 1.1f);
+    // 21.4 ms, and 0.9 ms in which the rising coil overcomes the return spring; the strike falls into the 23rd step.
+    EXPECT_EQ(s.steps, 23);
     EXPECT_GT(s.end_speed, 107.8f - 10) << "up to a step before the stop";
     EXPECT_LE(s.end_speed, 108.0f);
 }

@@ -1,7 +1,10 @@
 #pragma once
 
-// When does a ball in free flight meet a leaf that moves? Both paths are exact functions of time: the ball's a parabola, the leaf's body a
-// straight line or parabola of its center with a steady turn about it. All in double; the target is zero distance.
+// When do two leaves that move first touch? Both paths are exact functions of time: a point of the body along a parabola, and a turn about it
+// with steady angular acceleration. All in double; the target is zero distance.
+//
+// Two leaves always touch at a corner of one: a circle, an end of a capsule, a vertex, the bulge of an arc. So a leaf is seen as a few
+// probes, circles fixed to its body, and the question becomes when a probe meets the surface of the other leaf.
 
 #include "carom/math.h"
 #include "geometry/leaf.h"
@@ -23,25 +26,46 @@ struct CenterPath
 
 struct FramePath
 {
-    CenterPath center;   ///< of mass
+    CenterPath center;   ///< of the point the body turns about: its center of mass, or a pivot
     Vec2 local_center{}; ///< where that is in the body's frame
     double c = 1;        ///< rotation at t = 0
     double s = 0;
-    double w = 0; ///< rad/s
+    double w = 0;     ///< rad/s at t = 0
+    double alpha = 0; ///< rad/s²
 };
 
-struct BallHit
+struct Touch
 {
-    double time;
-    double nx; ///< world normal from the leaf to the ball
-    double ny;
-    double curvature; ///< of the surface there, see Surface
-    int feature;
+    double time = 0;
+    double x = 0; ///< point of contact, in the coordinates of the paths
+    double y = 0;
+    double nx = 0; ///< unit normal from a to b
+    double ny = 0;
+    double rate = 0;         ///< of the gap, m/s; negative: they approach
+    double acceleration = 0; ///< of the gap while the paths go on, m/s²; negative: they press
+    double curvature = 0;    ///< of the surface as seen from the probe, see Surface
+    int feature = 0;
 };
 
-/// The first time in [0, duration] at which the ball touches the leaf and approaches it faster than least_approach. Balls that overlap and approach hit at 0; what
-/// touches and separates does not hit until it comes back.
-[[nodiscard]] std::optional<BallHit> ball_time_of_impact(const CenterPath& ball, double radius, const LeafView& leaf,
-                                                         const FramePath& frame, double duration, double least_approach);
+/// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
+/// approaches touches at 0; what touches and separates does not until it comes back.
+[[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
+                                               const FramePath& path_b, double duration, double least_approach);
+
+/// All points at which the leaves are nearer than `tolerance` at t = 0.
+struct Touches
+{
+    static constexpr int capacity = 8;
+    Touch list[capacity];
+    int count = 0;
+
+    [[nodiscard]] const Touch* begin() const { return list; }
+    [[nodiscard]] const Touch* end() const { return list + count; }
+};
+[[nodiscard]] Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
+                                  double tolerance);
+
+/// The nearest of a leaf's probes to zero size: what tolerances of distance are measured by.
+[[nodiscard]] double probe_size(const LeafView& v);
 
 } // namespace carom::internal

@@ -3,9 +3,16 @@
 // The passes over joints, beside those over contact rows.
 
 #include "dynamics/contact_solver.h"
+#include "dynamics/joint_rows.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
+
+/// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
+[[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
+
+/// Angle of body b against body a, less the reference angle; (-pi, pi].
+[[nodiscard]] float hinge_angle(const SceneState& state, const JointRecord& joint);
 
 [[nodiscard]] JointWork prepare_joint(const StepContext& ctx, int joint, std::int32_t a, std::int32_t b);
 

@@ -10,9 +10,13 @@ namespace carom::internal {
 [[nodiscard]] StateConstants state_constants(const StepContext& ctx, int body);
 [[nodiscard]] ContactRow prepare_row(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
                                      std::int32_t b);
-[[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int shape);
+/// A body in flight; joint: the hinge to the world that it turns on, or none.
+[[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint);
 
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the row.
 void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& manifold);
+
+/// All impulses of the last sub-step, for a sub-step of another length.
+void scale_row(ContactRow& row, float by);
 
 } // namespace carom::internal

@@ -99,37 +99,73 @@ struct JointWork
     float torque_sum = 0;
 };
 
-/// A ball in free flight: position and velocity in double, along an exact parabola.
+/// A point at which two shapes rest against each other in flight, for what is left of the sub-step.
+struct Hold
+{
+    std::int32_t own = none;
+    std::int32_t other = none;
+    Vec2 point{};               ///< in the world
+    Vec2 normal{};              ///< from the other to the own shape
+    float force = 0;            ///< on the own shape, along the normal, N
+    float friction = 0;         ///< along perp(normal), N
+    double start = 0;           ///< time of the sub-step
+    std::int32_t solved = none; ///< state of the other body, where the solver has it and not flight
+};
+
+/// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
+/// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
+/// the step, in double.
 struct Flier
 {
     std::int32_t state = none;
     std::int32_t body = none;
-    std::int32_t shape = none;
-    static constexpr int most_held = 4;
-    std::int32_t held[most_held] = {none, none, none, none}; ///< shapes it came to rest against in this sub-step
-    double held_nx[most_held] = {};                          ///< away from them, where they do not give way; 0 elsewhere
-    double held_ny[most_held] = {};
-    std::int32_t held_count = 0;
-    double hold_curvature = 0; ///< of the surface that holds it, if that does not move
-    double x = 0;              ///< center, relative to the body's center at the start of the step
+    std::int32_t joint = none; ///< the hinge to the world; none: free
+    std::int32_t impacts = 0;  ///< in this sub-step
+    double x = 0;              ///< reference point
     double y = 0;
     double vx = 0;
     double vy = 0;
     double ax = 0;
     double ay = 0;
-    double time = 0;          ///< within the sub-step up to which it has flown
-    std::int32_t impacts = 0; ///< in this sub-step
+    double angle = 0; ///< turned since the step began
+    double w = 0;
+    double alpha = 0;
+    double time = 0;  ///< within the sub-step up to which it has flown
+    double arm_x = 0; ///< from the reference point to the center of mass, at the start of the step
+    double arm_y = 0;
+    double inverse_mass_x = 0; ///< of the reference point: 0 for a pivot
+    double inverse_mass_y = 0;
+    double inverse_inertia = 0; ///< about the reference point
+    double lower = -1e300;      ///< range of the angle, from the hinge's limits
+    double upper = 1e300;
+    Vec2 local_reference{}; ///< in the body's frame
+    double size = 0;        ///< the least inner radius of its shapes
+    // What a hinge's pivot gave: the change of the center's momentum less that of contacts and of acceleration.
+    double start_vx = 0; ///< of the center of mass, at the start of the sub-step
+    double start_vy = 0;
+    double impulse_x = 0; ///< of contacts, in this sub-step
+    double impulse_y = 0;
+    double start_w = 0;
+    double turn_impulse = 0;  ///< of contacts about the pivot
+    Vec2 reaction{};          ///< over the step
+    float limit_reaction = 0; ///< N m s, of the limits, over the step
+
+    static constexpr int most_held = 12;
+    Hold held[most_held];
+    std::int32_t held_count = 0;
+    bool led = false;      ///< what holds it does not give way
+    double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
+
     // The next event, as last computed.
     double event_time = 0; ///< beyond the sub-step: none
-    double nx = 0;         ///< from what is hit to the ball
-    double ny = 0;
-    double curvature = 0;
-    std::int32_t event_shape = none;
-    std::int32_t event_contact = none; ///< none: found in flight, the pair has no contact yet
-    std::int32_t event_state = none;   ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
-    std::int32_t event_version = 0;    ///< of that state when the event was computed
-    bool crowded = false; ///< was pinched between others in this step: its way is checked against static shapes at the end
-    bool landed = false;  ///< no longer flies: the solver has it from the next sub-step on
+    std::int32_t event_own = none;
+    std::int32_t event_shape = none; ///< none: a limit of the hinge, or a hold to be renewed
+    std::int32_t event_state = none; ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
+    std::int32_t event_version = 0;  ///< of that state when the event was computed
+    bool deflected = false;          ///< its path is no longer the one that the pairs of this step were found with
+    bool crowded = false;            ///< struck in a crowd: its way is checked against static shapes at the end of the step
+    bool constrained = false;        ///< its accelerations are those of a hold
+    bool landed = false;             ///< does not fly: the solver has it, until something makes it fast
 };
 
 } // namespace carom::internal

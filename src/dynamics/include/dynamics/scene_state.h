@@ -61,7 +61,7 @@ struct BodySim
 
 namespace body_flag {
 inline constexpr std::uint32_t dynamic = 1;
-inline constexpr std::uint32_t flier = 2;     ///< a ball in free flight: moved by flight, not by the solver
+inline constexpr std::uint32_t flier = 2;     ///< in flight: moved by flight, not by the solver
 inline constexpr std::uint32_t unbound = 4;   ///< no rows and no joints: its path is an exact parabola
 inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
@@ -129,6 +129,7 @@ inline constexpr std::uint32_t passing = 4;  ///< one-way: went through from beh
 inline constexpr std::uint32_t fresh = 8;    ///< never updated
 inline constexpr std::uint32_t round = 16;   ///< a circle takes part
 inline constexpr std::uint32_t loaded = 32;  ///< had an impulse at the end of the last step
+inline constexpr std::uint32_t begun = 64;   ///< began to touch while the units were solved, and this is not yet told
 } // namespace contact_flag
 
 struct Contact

@@ -30,7 +30,8 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
-    bool precise = false; ///< few bodies: contacts of round shapes are looked at anew in every sub-step
+    std::int32_t slices = 1; ///< of each sub-step
+    bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
 };
 
 /// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
@@ -39,6 +40,7 @@ struct DeferredImpulse
     std::int32_t body;
     Vec2 impulse;
     Vec2 arm;
+    double time; ///< within the step; the unit that gave it sees the body go on from there
 };
 
 /// Where a flier's path bends.
@@ -116,11 +118,15 @@ struct StepContext
     float dt; ///< of the step
     float h;  ///< of a sub-step
     int substeps;
-    Softness contact_softness;
-    Softness static_softness; ///< against bodies of infinite mass: twice as stiff
-    float joint_hertz;
-    float rest_speed; ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
+    int slices = 1; ///< of each of the scene's sub-steps, in units whose contacts turn fast
+    Softness contact_softness{};
+    Softness static_softness{}; ///< against bodies of infinite mass: twice as stiff
+    float joint_hertz = 0;
+    float rest_speed = 0; ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
 };
+
+/// The same step with each sub-step cut into slices.
+[[nodiscard]] StepContext sliced(const StepContext& ctx, int slices);
 
 /// How far any point of a body may move in this step, if nothing strikes it; 0 for what rests.
 [[nodiscard]] inline float motion_of(const StepContext& ctx, int body)

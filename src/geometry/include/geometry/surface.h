@@ -213,4 +213,20 @@ template <class R>
     return std::nullopt;
 }
 
+/// Radius of a circle about the middle of a shape that has an inside: half its thickness, or a little less.
+[[nodiscard]] inline double inner_radius(const LeafView& v)
+{
+    const Leaf& leaf = *v.leaf;
+    if (leaf.type == LeafType::Circle)
+        return static_cast<double>(leaf.r0);
+    if (leaf.type != LeafType::Polygon)
+        return 0.5 * static_cast<double>(leaf.r0 + leaf.r1);
+    Vec2 sum{};
+    for (int i = 0; i < leaf.count; ++i)
+        sum += v.points[i];
+    const Vec2 center = (1 / static_cast<float>(leaf.count)) * sum;
+    const std::optional<Surface<float>> s = surface_at<float>(v, center.x, center.y);
+    return s && s->distance < 0 ? -static_cast<double>(s->distance) : 0;
+}
+
 } // namespace carom::internal

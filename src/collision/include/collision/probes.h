@@ -1,0 +1,102 @@
+#pragma once
+
+// A leaf as circles fixed to its body. Whatever it touches, it touches with one of them, or with its flat sides the probes of the other.
+
+#include "collision/time_of_impact.h"
+#include "geometry/surface.h"
+
+namespace carom::internal {
+
+struct Probe
+{
+    Vec2 point{}; ///< in the body's frame
+    double radius = 0;
+    const Leaf* piece = nullptr; ///< of a segment or arc: only part of the circle is surface
+    enum class Part : std::uint8_t
+    {
+        All,
+        Start,
+        End,
+        Bulge
+    } part = Part::All;
+    Vec2 before{}; ///< of a polygon's vertex: normals of the edges that meet there
+    Vec2 after{};
+    Vec2 outward{};  ///< where the shape is not, seen from a vertex or an end; 0 for circles
+    double band = 0; ///< so far beyond a line without thickness the probe still counts as on the side that its shape is on
+};
+
+/// Whether the probe's surface looks that way; direction in the probe's frame.
+[[nodiscard]] inline bool faces(const Probe& probe, double dx, double dy)
+{
+    if (probe.part == Probe::Part::All)
+        return true;
+    const Leaf& leaf = *probe.piece;
+    constexpr double slack = 1e-3;
+    if (probe.part == Probe::Part::Start)
+    {
+        const Vec2 t = start_tangent(leaf);
+        return static_cast<double>(t.x) * dx + static_cast<double>(t.y) * dy <= slack && start_answers<double>(leaf, t, dx, dy);
+    }
+    if (probe.part == Probe::Part::End)
+    {
+        const Vec2 t = end_tangent(leaf);
+        return static_cast<double>(t.x) * dx + static_cast<double>(t.y) * dy >= -slack && end_answers<double>(leaf, t, dx, dy);
+    }
+    const Sides outer = leaf.sweep > 0 ? Sides::Right : Sides::Left;
+    return (leaf.sides == Sides::Both || leaf.sides == outer) &&
+           dx * static_cast<double>(leaf.p1.x) + dy * static_cast<double>(leaf.p1.y) >= static_cast<double>(leaf.cos_half_sweep);
+}
+
+/// Calls visit(probe) for each.
+template <class Visit>
+void for_each_probe(const LeafView& v, Visit&& visit)
+{
+    const Leaf& leaf = *v.leaf;
+    const auto r0 = static_cast<double>(leaf.r0);
+    switch (leaf.type)
+    {
+    case LeafType::HalfSpace: return;
+    case LeafType::Circle: visit(Probe{leaf.p0, r0}); return;
+    case LeafType::Capsule:
+        visit(Probe{.point = leaf.p0, .radius = r0, .outward = leaf.p0 - leaf.p1, .band = 0.5 * r0});
+        visit(Probe{.point = leaf.p1,
+                    .radius = static_cast<double>(leaf.r1),
+                    .outward = leaf.p1 - leaf.p0,
+                    .band = 0.5 * static_cast<double>(leaf.r1)});
+        return;
+    case LeafType::Polygon:
+    {
+        const double band = 0.25 * inner_radius(v);
+        for (int i = 0; i < leaf.count; ++i)
+        {
+            const Vec2 before = v.normals[i > 0 ? i - 1 : leaf.count - 1];
+            const Vec2 after = v.normals[i];
+            visit(Probe{
+                .point = v.points[i], .radius = r0, .before = before, .after = after, .outward = before + after, .band = band});
+        }
+        return;
+    }
+    case LeafType::Arc:
+        visit(Probe{leaf.p0, static_cast<double>(leaf.arc_radius) + r0, &leaf, Probe::Part::Bulge});
+        [[fallthrough]];
+    case LeafType::Segment:
+        visit(Probe{start_point(leaf), r0, &leaf, Probe::Part::Start});
+        if (!leaf.has_next)
+            visit(Probe{end_point(leaf), r0, &leaf, Probe::Part::End});
+        return;
+    }
+}
+
+/// Probes of a meet the surface of b and probes of b that of a; a circle is one probe and needs no others.
+template <class Visit>
+void for_each_probe_pair(const LeafView& a, const LeafView& b, Visit&& visit)
+{
+    const bool a_is_circle = a.leaf->type == LeafType::Circle;
+    const bool b_is_circle = b.leaf->type == LeafType::Circle;
+    if (!b_is_circle || a_is_circle)
+        for_each_probe(a, [&](const Probe& p) { visit(p, true); });
+    if (!a_is_circle)
+        for_each_probe(b, [&](const Probe& p) { visit(p, false); });
+}
+
+} // namespace carom::internal

@@ -1,0 +1,52 @@
+#include "dynamics/flight/hold.h"
+
+namespace carom::internal {
+
+void correct_state(BodyState& s, double left, double dvx, double dvy, double dw)
+{
+    const Vec2 dv = {static_cast<float>(dvx), static_cast<float>(dvy)};
+    const auto time = static_cast<float>(left);
+    s.velocity += dv;
+    s.angular_velocity += static_cast<float>(dw);
+    s.delta_position += time * dv;
+    s.delta_rotation = s.delta_rotation * Rotation::from_angle(time * static_cast<float>(dw));
+}
+
+namespace {
+
+// The force lasted from its start until `time`: as much as an impulse half way.
+void push_back(const FlightSpan& span, const Hold& h, double time)
+{
+    if (h.solved == none)
+        return;
+    BodyState& s = span.state_of(h.solved);
+    const StateConstants& c = span.constants_of(h.solved);
+    const Vec2 impulse = static_cast<float>(h.start - time) * (h.force * h.normal + h.friction * perp(h.normal));
+    if (Flier* other = span.flier_at(h.solved))
+    { // it has taken off since
+        other->vx += other->inverse_mass_x * static_cast<double>(impulse.x);
+        other->vy += other->inverse_mass_y * static_cast<double>(impulse.y);
+        s.velocity += {c.inverse_mass.x * impulse.x, c.inverse_mass.y * impulse.y};
+        return;
+    }
+    const Vec2 arm = h.point - to_vec2(span.sim_of(span.state.shapes[h.other].body).center + s.delta_position);
+    correct_state(s, span.h - 0.5 * (h.start + time), static_cast<double>(c.inverse_mass.x * impulse.x),
+                  static_cast<double>(c.inverse_mass.y * impulse.y),
+                  static_cast<double>(c.inverse_inertia * cross(arm, impulse)));
+}
+
+} // namespace
+
+void release_holds(const FlightSpan& span, Flier& f, double time)
+{
+    for (int i = 0; i < f.held_count; ++i)
+        push_back(span, f.held[i], time);
+    f.held_count = 0;
+    f.constrained = false;
+    const StateConstants& c = span.constants_of(f.state);
+    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
+    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
+    f.alpha = turning_acceleration(span, f, f.angle);
+}
+
+} // namespace carom::internal

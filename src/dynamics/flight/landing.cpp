@@ -1,0 +1,163 @@
+#include "dynamics/flight/landing.h"
+
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/flight/hold.h"
+#include "dynamics/prepare.h"
+
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+class Landing
+{
+public:
+    Landing(const FlightSpan& span, const Flier& f) : m_span(span), m_flier(f) {}
+
+    // Rows for everything near it.
+    void run()
+    {
+        const BodyState& s = m_span.state_of(m_flier.state);
+        const float turn = std::fabs(s.angular_velocity) * m_span.sim_of(m_flier.body).extent;
+        const float margin = m_span.ctx.scene.tolerances.speculation + (length(s.velocity) + turn) * m_span.ctx.dt;
+        const SceneState& state = m_span.state;
+        for (int edge = state.bodies[m_flier.body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) == 0)
+                add_row(edge >> 1, margin);
+        }
+    }
+
+private:
+    void add_row(int index, float margin) const
+    {
+        const Contact& contact = m_span.state.contacts[index];
+        const int body = other_body(contact, m_flier.body);
+        const std::int32_t other = state_of_other(body);
+        if (other == none || m_span.flier_at(other) != nullptr || has_row(index))
+            return; // another unit's, or still in flight: the next step links them
+        const Manifold manifold =
+            world_manifold(m_span.state, contact, pose_now(contact.body_a, other), pose_now(contact.body_b, other), margin);
+        if (manifold.count == 0)
+            return;
+        const bool flier_is_a = contact.body_a == m_flier.body;
+        ContactRow row =
+            prepare_row(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other, flier_is_a ? other : m_flier.state);
+        hand_over(contact, row);
+        row.refreshed = m_span.unit.precise && (contact.flags & contact_flag::round) != 0;
+        m_span.state_of(other).flags &= ~body_flag::unbound;
+        m_span.output.late_rows.push_back(row);
+    }
+
+    // What held the body goes on bearing it.
+    void hand_over(const Contact& contact, ContactRow& row) const
+    {
+        const bool is_a = contact.body_a == m_flier.body;
+        const std::int32_t own = is_a ? contact.shape_a : contact.shape_b;
+        const std::int32_t other = is_a ? contact.shape_b : contact.shape_a;
+        const BodyState& a = m_span.state_of(row.a);
+        const Vec2 center = to_vec2(m_span.sim_of(contact.body_a).center + a.delta_position);
+        for (int i = 0; i < m_flier.held_count; ++i)
+        {
+            const Hold& h = m_flier.held[i];
+            if (h.own != own || h.other != other)
+                continue;
+            const auto distance = [&](const RowPoint& p) { return length(center + p.ra - h.point); };
+            RowPoint& p = row.points[row.count == 2 && distance(row.points[1]) < distance(row.points[0])];
+            p.normal_impulse += m_span.ctx.h * h.force;
+            p.tangent_impulse += m_span.ctx.h * h.friction;
+        }
+    }
+
+    [[nodiscard]] bool has_row(int contact) const
+    {
+        for (const ContactRow& row : m_span.output.late_rows)
+        {
+            if (row.contact == contact)
+                return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] std::int32_t state_of_other(int body) const
+    {
+        const int place = m_span.state.bodies[body].awake_index;
+        if (place == none)
+            return m_span.unit.first_state; // stands for all that does not move
+        const std::int32_t s = m_span.scratch.state_of[static_cast<std::size_t>(place)];
+        return s >= m_span.unit.first_state && s < m_span.unit.first_state + m_span.unit.state_count ? s : none;
+    }
+
+    [[nodiscard]] BodyPose pose_now(int body, std::int32_t other) const
+    {
+        const BodySim& sim = m_span.sim_of(body);
+        const BodyState& s = m_span.state_of(body == m_flier.body ? m_flier.state : other);
+        return {sim.center + s.delta_position, s.delta_rotation * sim.rotation, sim.local_center};
+    }
+
+    const FlightSpan& m_span;
+    const Flier& m_flier;
+};
+
+void land(const FlightSpan& span, Flier& f)
+{
+    f.landed = true;
+    const Flier held = f;
+    release_holds(span, f, span.h);
+    span.state_of(f.state).flags &= ~(body_flag::flier | body_flag::unbound);
+    Landing(span, held).run();
+}
+
+// Struck too often: it stays where it is for the rest of the sub-step, while forces go on.
+void wait(const FlightSpan& span, Flier& f)
+{
+    const double left = span.h - f.time;
+    f.vx += left * f.ax;
+    f.vy += left * f.ay;
+    f.w += left * f.alpha;
+    f.time = span.h;
+}
+
+// m dv = reaction + contacts + m a h
+void sum_reaction(const FlightSpan& span, Flier& f, const CenterMotion& center)
+{
+    const auto m = static_cast<double>(span.sim_of(f.body).mass);
+    const Vec2 a = span.constants_of(f.state).acceleration;
+    f.reaction += {static_cast<float>(m * (center.vx - f.start_vx - span.h * static_cast<double>(a.x)) - f.impulse_x),
+                   static_cast<float>(m * (center.vy - f.start_vy - span.h * static_cast<double>(a.y)) - f.impulse_y)};
+    if (f.lower > -1e200)
+        f.limit_reaction += static_cast<float>(
+            (f.w - f.start_w - span.h * turning_acceleration(span, f, f.angle)) / f.inverse_inertia - f.turn_impulse);
+}
+
+} // namespace
+
+void finish_flight(const FlightSpan& span, Flier& f)
+{
+    if (f.landed)
+        return;
+    if (f.impacts < impact_limit)
+        advance(span, f, span.h);
+    else
+        wait(span, f);
+    const CenterMotion center = center_of(f);
+    BodyState& s = span.state_of(f.state);
+    s.velocity = {static_cast<float>(center.vx), static_cast<float>(center.vy)};
+    s.angular_velocity = static_cast<float>(f.w);
+    s.delta_position = {static_cast<float>(center.x), static_cast<float>(center.y)};
+    s.delta_rotation = f.angle != 0 ? Rotation::from_angle(static_cast<float>(f.angle)) : Rotation{};
+    if (f.joint != none)
+        sum_reaction(span, f, center);
+    if (f.held_count == 0)
+        return;
+    if (is_fast(span, f, center.vx, center.vy, f.w))
+        release_holds(span, f, span.h);
+    else
+        land(span, f);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,324 @@
+// Free flight is exact: a parabola and an even turn. A body on a hinge has one coordinate, its angle, integrated by velocity Verlet from one
+// change of its path to the next: the angular acceleration of the start carries it, the mean of start and end changes its speed.
+
+#include "dynamics/flight/motion.h"
+
+#include "core/trigonometry.h"
+#include "dynamics/body_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace carom::internal {
+
+FlightSpan::FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out)
+    : ctx(context), state(context.state), scratch(context.scratch), unit(u), output(out), k(substep),
+      h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale))
+{}
+
+std::span<Flier> FlightSpan::fliers() const
+{
+    return std::span(scratch.fliers)
+        .subspan(static_cast<std::size_t>(unit.first_flier), static_cast<std::size_t>(unit.flier_count));
+}
+
+Flier* FlightSpan::flier_at(std::int32_t state_index) const
+{
+    if (state_index == none)
+        return nullptr;
+    const std::int32_t f = scratch.flier_of_state[static_cast<std::size_t>(state_index)];
+    if (f == none || scratch.fliers[static_cast<std::size_t>(f)].landed)
+        return nullptr;
+    return &scratch.fliers[static_cast<std::size_t>(f)];
+}
+
+std::int32_t FlightSpan::state_in_unit(int body) const
+{
+    const int place = state.bodies[body].awake_index;
+    if (place == none || state.bodies[body].type != BodyType::Dynamic)
+        return none;
+    const std::int32_t s = scratch.state_of[static_cast<std::size_t>(place)];
+    return s >= unit.first_state && s < unit.first_state + unit.state_count ? s : none;
+}
+
+double turning_acceleration(const FlightSpan& span, const Flier& f, double angle)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    if (f.joint == none)
+        return static_cast<double>(c.angular_acceleration);
+    const BodySim& sim = span.sim_of(f.body);
+    const SinCos q = sin_cos(angle);
+    const double x = q.cos * f.arm_x - q.sin * f.arm_y;
+    const double y = q.sin * f.arm_x + q.cos * f.arm_y;
+    const double torque =
+        static_cast<double>(sim.mass) * (x * static_cast<double>(c.acceleration.y) - y * static_cast<double>(c.acceleration.x)) +
+        static_cast<double>(sim.inertia) * static_cast<double>(c.angular_acceleration);
+    return torque * f.inverse_inertia;
+}
+
+namespace {
+
+constexpr double at_limit = 1e-7; // rad
+
+// A limit that the acceleration presses against and that nothing leaves holds the body still.
+bool leans_on_limit(const Flier& f)
+{
+    const bool low = f.angle <= f.lower + at_limit && f.alpha <= 0 && f.w <= 0;
+    const bool high = f.angle >= f.upper - at_limit && f.alpha >= 0 && f.w >= 0;
+    return low || high;
+}
+
+} // namespace
+
+namespace {
+
+void clear_substep(const FlightSpan& span, Flier& f)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
+    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
+    f.alpha = turning_acceleration(span, f, f.angle);
+    f.impacts = 0;
+    f.impulse_x = f.impulse_y = f.turn_impulse = 0;
+    f.start_w = f.w;
+    f.held_count = 0;
+    f.constrained = false;
+    const CenterMotion center = center_of(f);
+    f.start_vx = center.vx;
+    f.start_vy = center.vy;
+}
+
+} // namespace
+
+void start_flight(const FlightSpan& span, Flier& f)
+{
+    if (f.landed)
+        return;
+    const StateConstants& c = span.constants_of(f.state);
+    f.vx *= c.linear_decay;
+    f.vy *= c.linear_decay;
+    f.w *= c.angular_decay;
+    f.time = 0;
+    clear_substep(span, f);
+    if (f.joint != none && leans_on_limit(f) && std::fabs(f.w) <= span.h * std::fabs(f.alpha))
+    {
+        f.w = f.alpha = 0;
+        f.constrained = true;
+    }
+}
+
+namespace {
+
+// What is held follows a surface: the force across its way turns the velocity, the force along it changes the speed. A parabola would gain
+// speed by both.
+void follow_surface(Flier& f, double t)
+{
+    const double speed = std::sqrt(f.vx * f.vx + f.vy * f.vy);
+    const double along = (f.vx * f.ax + f.vy * f.ay) / speed;
+    const double turn = t * (f.vx * f.ay - f.vy * f.ax) / (speed * speed);
+    const double way = t * (speed + 0.5 * t * along);
+    // The chord of an arc of that length and turn.
+    const SinCos half = sin_cos(0.5 * turn);
+    const double chord = std::fabs(turn) > 1e-4 ? way * half.sin / (0.5 * turn) : way;
+    const double ux = f.vx / speed;
+    const double uy = f.vy / speed;
+    f.x += chord * (half.cos * ux - half.sin * uy);
+    f.y += chord * (half.sin * ux + half.cos * uy);
+    const SinCos full = sin_cos(turn);
+    const double after = speed + t * along;
+    f.vx = after * (full.cos * ux - full.sin * uy);
+    f.vy = after * (full.sin * ux + full.cos * uy);
+    const double ax = f.ax;
+    f.ax = full.cos * ax - full.sin * f.ay;
+    f.ay = full.sin * ax + full.cos * f.ay;
+}
+
+void follow_parabola(Flier& f, double t)
+{
+    f.x += t * (f.vx + 0.5 * t * f.ax);
+    f.y += t * (f.vy + 0.5 * t * f.ay);
+    f.vx += t * f.ax;
+    f.vy += t * f.ay;
+}
+
+// Only along what does not give way: of two that lean on each other each takes the other's momentum. Slow against what the forces do, a turn of the velocity means nothing.
+bool is_led(const Flier& f, double t)
+{
+    return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < f.vx * f.vx + f.vy * f.vy;
+}
+
+} // namespace
+
+void advance(const FlightSpan& span, Flier& f, double time)
+{
+    const double t = time - f.time;
+    is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
+    f.angle += t * (f.w + 0.5 * t * f.alpha);
+    f.w += t * f.alpha;
+    f.time = time;
+    if (f.joint == none || f.constrained || t == 0)
+        return;
+    const double there = turning_acceleration(span, f, f.angle);
+    f.w += 0.5 * t * (there - f.alpha);
+    f.alpha = there;
+}
+
+CenterMotion center_of(const Flier& f)
+{
+    const SinCos q = f.arm_x != 0 || f.arm_y != 0 ? sin_cos(f.angle) : SinCos{0, 1};
+    const double x = q.cos * f.arm_x - q.sin * f.arm_y;
+    const double y = q.sin * f.arm_x + q.cos * f.arm_y;
+    return {f.x + x, f.y + y, f.vx - f.w * y, f.vy + f.w * x};
+}
+
+bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w)
+{
+    const BodySim& sim = span.sim_of(f.body);
+    if (!span.unit.precise)
+    { // a crowd that falls together is no shot: what counts is what this step has done
+        vx -= static_cast<double>(sim.velocity.x);
+        vy -= static_cast<double>(sim.velocity.y);
+        w -= static_cast<double>(sim.angular_velocity);
+    }
+    return span.h * (std::sqrt(vx * vx + vy * vy) + std::fabs(w) * static_cast<double>(sim.extent)) > 0.5 * f.size;
+}
+
+void take_off(const FlightSpan& span, Flier& f, double time)
+{
+    const BodySim& sim = span.sim_of(f.body);
+    const FramePath path = path_from(span, f.body, time, sim.center);
+    f.angle = arc_tangent(path.s * static_cast<double>(sim.rotation.c) - path.c * static_cast<double>(sim.rotation.s),
+                          path.c * static_cast<double>(sim.rotation.c) + path.s * static_cast<double>(sim.rotation.s));
+    if (f.joint == none)
+    {
+        f.x = path.center.x;
+        f.y = path.center.y;
+        f.vx = path.center.vx;
+        f.vy = path.center.vy;
+    }
+    f.w = path.w;
+    f.landed = false;
+    f.deflected = true;
+    span.state_of(f.state).flags |= body_flag::flier;
+    const auto drop_rows = [&](std::span<ContactRow> rows)
+    {
+        for (ContactRow& row : rows)
+        {
+            if (row.a == f.state || row.b == f.state)
+                row.count = 0;
+        }
+    };
+    drop_rows(std::span(span.scratch.rows)
+                  .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
+    drop_rows(span.output.late_rows);
+    if (f.joint != none)
+    {
+        JointRecord& joint = span.state.joints[f.joint];
+        std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f);
+    }
+    clear_substep(span, f);
+    f.time = time;
+}
+
+namespace {
+
+void turn_frame(Rotation q, double angle, FramePath& path)
+{
+    const SinCos turn = angle != 0 ? sin_cos(angle) : SinCos{0, 1};
+    path.c = turn.cos * static_cast<double>(q.c) - turn.sin * static_cast<double>(q.s);
+    path.s = turn.sin * static_cast<double>(q.c) + turn.cos * static_cast<double>(q.s);
+}
+
+// What has hit things too often stays where it is until the sub-step is over.
+bool is_capped(const Flier& f) { return f.impacts >= impact_limit; }
+
+void follow_flier(const Flier& f, const BodySim& sim, double time, FramePath& path)
+{
+    const double t = is_capped(f) ? 0 : time - f.time;
+    CenterPath& c = path.center;
+    c.x += f.x + t * (f.vx + 0.5 * t * f.ax);
+    c.y += f.y + t * (f.vy + 0.5 * t * f.ay);
+    path.local_center = f.local_reference;
+    turn_frame(sim.rotation, f.angle + t * (f.w + 0.5 * t * f.alpha), path);
+    if (is_capped(f))
+        return;
+    c.vx = f.vx + t * f.ax;
+    c.vy = f.vy + t * f.ay;
+    c.ax = f.ax;
+    c.ay = f.ay;
+    path.w = f.w + t * f.alpha;
+    path.alpha = f.alpha;
+}
+
+// The solver has already moved it to the end of the sub-step.
+void follow_solved(const FlightSpan& span, std::int32_t index, const BodySim& sim, double time, FramePath& path)
+{
+    const BodyState& s = span.state_of(index);
+    const double left = span.h - time;
+    CenterPath& c = path.center;
+    c.vx = s.velocity.x;
+    c.vy = s.velocity.y;
+    if ((s.flags & body_flag::unbound) != 0)
+    {
+        c.ax = span.constants_of(index).acceleration.x;
+        c.ay = span.constants_of(index).acceleration.y;
+    }
+    // Back from the end: position and velocity at `time`.
+    c.x += static_cast<double>(s.delta_position.x) - left * c.vx + 0.5 * left * left * c.ax;
+    c.y += static_cast<double>(s.delta_position.y) - left * c.vy + 0.5 * left * left * c.ay;
+    c.vx -= left * c.ax;
+    c.vy -= left * c.ay;
+    path.w = s.angular_velocity;
+    turn_frame(s.delta_rotation * sim.rotation, -left * path.w, path);
+}
+
+void follow_straight(const FlightSpan& span, int body, const BodySim& sim, double time, FramePath& path)
+{
+    const double since = span.time_of_step(time);
+    CenterPath& c = path.center;
+    c.vx = sim.velocity.x;
+    c.vy = sim.velocity.y;
+    c.x += since * c.vx;
+    c.y += since * c.vy;
+    path.w = sim.angular_velocity;
+    double angle = since * path.w;
+    for (const DeferredImpulse& d : span.output.deferred)
+    { // what this unit has struck goes on from there
+        if (d.body != body)
+            continue;
+        const auto dvx = static_cast<double>(sim.inverse_mass.x * d.impulse.x);
+        const auto dvy = static_cast<double>(sim.inverse_mass.y * d.impulse.y);
+        const auto dw = static_cast<double>(sim.inverse_inertia * cross(d.arm, d.impulse));
+        c.vx += dvx;
+        c.vy += dvy;
+        c.x += (since - d.time) * dvx;
+        c.y += (since - d.time) * dvy;
+        path.w += dw;
+        angle += (since - d.time) * dw;
+    }
+    turn_frame(sim.rotation, angle, path);
+}
+
+} // namespace
+
+FramePath path_from(const FlightSpan& span, int body, double time, const Position& origin)
+{
+    const BodySim& sim = span.sim_of(body);
+    FramePath path;
+    path.local_center = sim.local_center;
+    path.center.x = sim.center.x - origin.x;
+    path.center.y = sim.center.y - origin.y;
+    path.c = sim.rotation.c;
+    path.s = sim.rotation.s;
+    const std::int32_t index = span.state_in_unit(body);
+    if (const Flier* f = span.flier_at(index))
+        follow_flier(*f, sim, time, path);
+    else if (index != none)
+        follow_solved(span, index, sim, time, path);
+    else if (span.state.bodies[body].awake_index != none || span.state.bodies[body].type == BodyType::Dynamic)
+        follow_straight(span, body, sim, time, path); // kinematic, of another unit, or asleep
+    return path;
+}
+
+} // namespace carom::internal

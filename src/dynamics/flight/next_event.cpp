@@ -1,0 +1,165 @@
+#include "dynamics/flight/next_event.h"
+
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/half_space_box.h"
+#include "dynamics/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+bool holds(const Flier& f, std::int32_t own, std::int32_t other)
+{
+    return std::any_of(f.held, f.held + f.held_count, [&](const Hold& h) { return h.own == own && h.other == other; });
+}
+
+namespace {
+
+class Search
+{
+public:
+    Search(const FlightSpan& span, Flier& f)
+        : m_span(span), m_flier(f), m_origin(span.sim_of(f.body).center), m_own_path(path_from(span, f.body, f.time, m_origin))
+    {}
+
+    void run()
+    {
+        consider_limits();
+        for (int edge = m_span.state.bodies[m_flier.body].first_contact; edge != none;)
+        {
+            const int index = edge >> 1;
+            Contact& contact = m_span.state.contacts[index];
+            edge = contact.next[edge & 1];
+            if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0)
+                continue;
+            const bool is_a = contact.body_a == m_flier.body;
+            consider(is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, index);
+        }
+        if (m_flier.deflected)
+            look_beyond_boxes();
+    }
+
+private:
+    // The angle reaches a limit of the hinge: the first root of angle + w t + alpha t²/2.
+    void consider_limits()
+    {
+        if (m_flier.joint == none || m_flier.constrained)
+            return;
+        consider_limit(m_flier.upper - m_flier.angle, m_flier.w, m_flier.alpha);
+        consider_limit(m_flier.angle - m_flier.lower, -m_flier.w, -m_flier.alpha);
+    }
+
+    // Room d >= 0 shrinks at speed u, faster by a.
+    void consider_limit(double d, double u, double a)
+    {
+        if (d > 1e200)
+            return;
+        d = std::max(d, 0.0);
+        const double tiny = m_span.least_approach;
+        if (d == 0 && u <= tiny && a <= 0)
+            return;
+        double t = 0;
+        if (d > 0 || u <= tiny)
+        {
+            const double discriminant = u * u + 2 * a * d;
+            if (discriminant < 0)
+                return;
+            const double root = std::sqrt(discriminant);
+            // Leaving the limit, it comes back later; patience as for contacts.
+            t = u + root > 0 ? 2 * d / (u + root) : 1e300;
+            if (d == 0)
+                t = a > 0 ? std::max(2 * (tiny - u) / a, 1e-6 * m_span.h) : 1e300;
+        }
+        if (m_flier.time + t >= m_flier.event_time || m_flier.time + t > m_span.h)
+            return;
+        m_flier.event_time = m_flier.time + t;
+        m_flier.event_own = none;
+        m_flier.event_shape = none;
+        m_flier.event_state = none;
+        m_flier.event_version = 0;
+    }
+
+    // A bounce or a kick may lead out of the boxes that the pairs were found with.
+    void look_beyond_boxes()
+    {
+        Flier end = m_flier;
+        advance(m_span, end, m_span.h);
+        const CenterMotion from = center_of(m_flier);
+        const CenterMotion to = center_of(end);
+        const double r = m_span.sim_of(m_flier.body).extent;
+        const FloatBox path = round_outwards(m_origin.x + std::min(from.x, to.x) - r, m_origin.y + std::min(from.y, to.y) - r,
+                                             m_origin.x + std::max(from.x, to.x) + r, m_origin.y + std::max(from.y, to.y) + r);
+        for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_beyond_box(own, path); });
+    }
+
+    void look_beyond_box(int own, const FloatBox& path)
+    {
+        const SceneState& state = m_span.state;
+        if (state.shapes[own].trigger || contains(state.broad_phase.box(own), path))
+            return;
+        const auto visit = [&](int shape)
+        {
+            if (state.shapes[shape].body != m_flier.body && !state.pairs.contains(pair_key(own, shape)) &&
+                !state.shapes[shape].trigger && may_collide(state, own, shape))
+                consider(own, shape, none);
+            return true;
+        };
+        state.broad_phase.query(Layer::Moving, path, visit);
+        state.broad_phase.query(Layer::Resting, path, visit);
+        for (const std::int32_t half_space : state.broad_phase.unbounded())
+        {
+            if (reaches_half_space(state, half_space, path, 0))
+                visit(half_space);
+        }
+    }
+
+    void consider(int own, int shape, int contact)
+    {
+        if (holds(m_flier, own, shape))
+            return;
+        SceneState& state = m_span.state;
+        const int body = state.shapes[shape].body;
+        const FramePath target = path_from(m_span, body, m_flier.time, m_origin);
+        const double left = std::min(m_span.h, m_flier.event_time) - m_flier.time;
+        const std::optional<Touch> hit =
+            first_touch(leaf_view(state, shape), target, leaf_view(state, own), m_own_path, left, m_span.least_approach);
+        if (!hit || m_flier.time + hit->time >= m_flier.event_time)
+            return;
+        // The flier is b as the material sees it: the normal runs from the shape to the flier.
+        if (lets_pass(m_span.ctx.scene, shape, own, {static_cast<float>(hit->nx), static_cast<float>(hit->ny)}))
+        {
+            if (contact != none)
+                state.contacts[contact].flags |= contact_flag::passing;
+            return;
+        }
+        m_flier.event_time = m_flier.time + hit->time;
+        m_flier.event_own = own;
+        m_flier.event_shape = shape;
+        m_flier.event_state = m_span.state_in_unit(body);
+        m_flier.event_version = version_of(m_span, m_flier.event_state);
+    }
+
+    const FlightSpan& m_span;
+    Flier& m_flier;
+    Position m_origin;
+    FramePath m_own_path;
+};
+
+} // namespace
+
+void find_next_event(const FlightSpan& span, Flier& f)
+{
+    f.event_time = 1e300;
+    if (f.landed || f.impacts >= impact_limit || f.time >= span.h)
+        return;
+    Search(span, f).run();
+    if (f.held_count == 0 || f.hold_until >= std::min(f.event_time, span.h))
+        return;
+    f.event_time = f.hold_until;
+    f.event_own = f.event_shape = f.event_state = none;
+    f.event_version = 0;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,69 @@
+#pragma once
+
+// How bodies in flight move, and how everything else moves as they see it.
+
+#include "collision/time_of_impact.h"
+#include "dynamics/step_context.h"
+
+#include <span>
+
+namespace carom::internal {
+
+inline constexpr int impact_limit = 64; ///< per body and sub-step: beyond it a body stays where it is until the next
+
+/// A sub-step of a unit, as flight sees it.
+struct FlightSpan
+{
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+    const Unit& unit;
+    UnitOutput& output;
+    int k;
+    double h;
+    double least_approach; ///< m/s: what is slower is rounding
+
+    FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out);
+
+    [[nodiscard]] std::span<Flier> fliers() const;
+    [[nodiscard]] Flier* flier_at(std::int32_t state_index) const; ///< nothing for what does not fly or has landed
+    [[nodiscard]] BodyState& state_of(std::int32_t index) const { return scratch.states[static_cast<std::size_t>(index)]; }
+    [[nodiscard]] const StateConstants& constants_of(std::int32_t i) const
+    {
+        return scratch.constants[static_cast<std::size_t>(i)];
+    }
+    [[nodiscard]] const BodySim& sim_of(int body) const { return state.sims[static_cast<std::size_t>(body)]; }
+    /// The state of a dynamic body of this unit; none: it does not move, or belongs elsewhere.
+    [[nodiscard]] std::int32_t state_in_unit(int body) const;
+    [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }
+};
+
+/// Forces of the sub-step; a body that leans on its hinge's limit stays there.
+void start_flight(const FlightSpan& span, Flier& f);
+
+/// Moves the flier to a time of the sub-step.
+void advance(const FlightSpan& span, Flier& f, double time);
+
+/// Goes half its size or more in a sub-step (in a crowd: because of what struck it in this step): such a body is not left to contacts found beforehand.
+[[nodiscard]] bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w);
+
+/// From the solver's hands into flight, at a time of the sub-step; its rows are dropped.
+void take_off(const FlightSpan& span, Flier& f, double time);
+
+/// Center of mass and its velocity.
+struct CenterMotion
+{
+    double x;
+    double y;
+    double vx;
+    double vy;
+};
+[[nodiscard]] CenterMotion center_of(const Flier& f);
+
+/// Angular acceleration of a body on a hinge at an angle: gravity, force and torque about the pivot. That of a free one is its own.
+[[nodiscard]] double turning_acceleration(const FlightSpan& span, const Flier& f, double angle);
+
+/// The path of any body from `time` on, relative to `origin`. Of one that the solver moves: back from where it has been put.
+[[nodiscard]] FramePath path_from(const FlightSpan& span, int body, double time, const Position& origin);
+
+} // namespace carom::internal
