@@ -124,8 +124,8 @@ void solve_both_normals(const SolverView& view, const Pair& pair, ContactRow& ro
     // Softness is compliance on the diagonal: mass_scale = k / (k + c), impulse_scale = c / (k + c).
     const float a11 = k11 / tp.mass_scale;
     const float a22 = k22 / tq.mass_scale;
-    const float b1 = dot(pair.relative_velocity(p), row.n) + tp.bias - k11 * p.normal_impulse - k12 * q.normal_impulse;
-    const float b2 = dot(pair.relative_velocity(q), row.n) + tq.bias - k12 * p.normal_impulse - k22 * q.normal_impulse;
+    const float b1 = dot(pair.relative_velocity(p), row.n) + tp.bias - (k11 * p.normal_impulse + k12 * q.normal_impulse);
+    const float b2 = dot(pair.relative_velocity(q), row.n) + tq.bias - (k12 * p.normal_impulse + k22 * q.normal_impulse);
     const float inverse_det = 1 / (a11 * a22 - k12 * k12);
     float x = inverse_det * (k12 * b2 - a22 * b1);
     float y = inverse_det * (k12 * b1 - a11 * b2);
@@ -175,13 +175,13 @@ void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bia
         const Pair pair(view, row);
         if (row.rolling > 0)
             solve_rolling(pair, row);
-        for (int i = 0; i < row.count; ++i)
-            solve_friction(pair, row, row.points[i]);
         if (row.count == 2 && row.coupling != 0)
             solve_both_normals(view, pair, row, use_bias);
         else
             for (int i = 0; i < row.count; ++i)
                 solve_normal(view, pair, row, row.points[i], use_bias);
+        for (int i = 0; i < row.count; ++i)
+            solve_friction(pair, row, row.points[i]);
     }
 }
 
