@@ -7,30 +7,30 @@ using namespace truth::test;
 TEST(Truth, E01_ElasticBall) { expect_bounds(1); }
 TEST(Truth, E02_Restitution) { expect_bounds(2); }
 TEST(Truth, E03_TwoDiscs) { expect_bounds(3); }
-TEST(Truth, DISABLED_E04_BoxCorner) { expect_bounds(4); }
-TEST(Truth, DISABLED_E05_Inclines) { expect_bounds(5); }
-TEST(Truth, DISABLED_E06_Pendulums) { expect_bounds(6); }
+TEST(Truth, E04_BoxCorner) { expect_bounds(4); }
+TEST(Truth, E05_Inclines) { expect_bounds(5); }
+TEST(Truth, E06_Pendulums) { expect_bounds(6); }
 TEST(Truth, E07_Springs) { expect_bounds(7); }
-TEST(Truth, DISABLED_E08_Cradle) { expect_bounds(8); }
+TEST(Truth, E08_Cradle) { expect_bounds(8); }
 TEST(Truth, E09_Billiards) { expect_bounds(9); }
 TEST(Truth, E10_NothingPasses) { expect_bounds(10); }
 TEST(Truth, E11_Sensors) { expect_bounds(11); }
-TEST(Truth, DISABLED_E15_FlipperShot) { expect_bounds(15); }
+TEST(Truth, E15_FlipperShot) { expect_bounds(15); }
 
 TEST(TruthShrinks, E01_ElasticBall) { expect_shrinking(1); }
 TEST(TruthShrinks, E02_Restitution) { expect_shrinking(2); }
 TEST(TruthShrinks, E03_TwoDiscs) { expect_shrinking(3); }
 TEST(TruthShrinks, E04_BoxCorner) { expect_shrinking(4); }
-TEST(TruthShrinks, DISABLED_E05_Inclines) { expect_shrinking(5); }
+TEST(TruthShrinks, E05_Inclines) { expect_shrinking(5); }
 TEST(TruthShrinks, E06_Pendulums) { expect_shrinking(6); }
 TEST(TruthShrinks, E07_Springs) { expect_shrinking(7); }
-TEST(TruthShrinks, DISABLED_E08_Cradle) { expect_shrinking(8); }
+TEST(TruthShrinks, E08_Cradle) { expect_shrinking(8); }
 TEST(TruthShrinks, E09_Billiards) { expect_shrinking(9); }
 TEST(TruthShrinks, E10_NothingPasses) { expect_shrinking(10); }
 TEST(TruthShrinks, E11_Sensors) { expect_shrinking(11); }
 TEST(TruthShrinks, E15_FlipperShot) { expect_shrinking(15); }
 
-TEST(TruthAtRest, DISABLED_E12_Stacks) { expect_bounds(12); }
+TEST(TruthAtRest, E12_Stacks) { expect_bounds(12); }
 
 TEST(TruthAtRest, E13_ChainsStayFinite)
 {
