@@ -290,8 +290,17 @@ Touch touch_of(const Sight& sight, double t, bool probe_on_a)
             sight.rate, sight.acceleration, sight.curvature, sight.feature};
 }
 
+// Touching, it cannot approach faster than least_approach before the bend has had its time; and hardly before the gap's own acceleration,
+// which for a short while tells more than its bound.
+double patience_at(const Sight& sight, double least_approach, double duration)
+{
+    const double slack = least_approach + sight.rate;
+    const double soon = sight.acceleration < 0 ? 0.5 * slack / -sight.acceleration : duration;
+    return std::max({slack / sight.bend, std::min(soon, 5e-3 * duration), 1e-6 * duration});
+}
+
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
-                                          double least_approach)
+                                          double least_approach, double wait)
 {
     double t = 0;
     for (int i = 0; i < max_looks && t <= duration; ++i)
@@ -303,7 +312,8 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
             continue;
         }
         const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
-        if (near && sight.rate < -least_approach)
+        const double least = std::max(least_approach, -sight.acceleration * wait);
+        if (near && sight.rate < -least)
             return touch_of(sight, t, probe_on_a);
         if (near && sight.end_of_arc)
         {
@@ -312,9 +322,8 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
         }
         if (near && sight.bend <= 0)
             return std::nullopt; // touches, does not approach, and nothing will make it
-        // Touching, it cannot approach faster than that before the bend has had its time. A step too short to move the clock would look at
-        // the same place for ever.
-        const double patience = near ? std::max((least_approach + sight.rate) / sight.bend, 1e-6 * duration) : 1e-12 * duration;
+        // A step too short to move the clock would look at the same place for ever.
+        const double patience = near ? patience_at(sight, least, duration) : 1e-12 * duration;
         t += std::max(next_step(sight), patience);
     }
     return std::nullopt;
@@ -338,20 +347,20 @@ double probe_size(const LeafView& v)
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach)
+                                 double duration, double least_approach, double wait)
 {
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Touch> first;
-    for_each_probe_pair(a, b,
-                        [&](const Probe& probe, bool on_a)
-                        {
-                            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration,
-                                                    length);
-                            const double left = first ? first->time : duration;
-                            const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach);
-                            if (hit && (!first || hit->time < first->time))
-                                first = hit;
-                        });
+    for_each_probe_pair(
+        a, b,
+        [&](const Probe& probe, bool on_a)
+        {
+            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
+            const double left = first ? first->time : duration;
+            const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach, wait);
+            if (hit && (!first || hit->time < first->time))
+                first = hit;
+        });
     return first;
 }
 

@@ -2,6 +2,7 @@
 
 #include "geometry/bounds.h"
 #include "geometry/mass.h"
+#include "geometry/surface.h"
 
 #include <algorithm>
 
@@ -58,6 +59,16 @@ void update_inverse_mass(SceneState& state, int body)
     sim.inverse_inertia = dynamic && sim.inertia > 0 && !record.locks.angular ? 1 / sim.inertia : 0;
 }
 
+namespace {
+
+void measure(const LeafView& leaf, BodySim& sim)
+{
+    sim.extent = std::max(sim.extent, leaf_extent(leaf, sim.local_center));
+    sim.size = std::min(sim.size, static_cast<float>(inner_radius(leaf)));
+}
+
+} // namespace
+
 void update_mass(SceneState& state, int body)
 {
     const BodyRecord& record = state.bodies[body];
@@ -79,8 +90,8 @@ void update_mass(SceneState& state, int body)
     }
     update_inverse_mass(state, body);
     sim.extent = 0;
-    for_each_leaf(state, body,
-                  [&](int shape) { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, shape), sim.local_center)); });
+    sim.size = 1e30f;
+    for_each_leaf(state, body, [&](int shape) { measure(leaf_view(state, shape), sim); });
 }
 
 void include_mass(SceneState& state, int body, int shape)
@@ -91,8 +102,7 @@ void include_mass(SceneState& state, int body, int shape)
         return;
     }
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    const auto include = [&](int leaf)
-    { sim.extent = std::max(sim.extent, leaf_extent(leaf_view(state, leaf), sim.local_center)); };
+    const auto include = [&](int leaf) { measure(leaf_view(state, leaf), sim); };
     if (state.shapes[shape].has_leaf)
         include(shape);
     for (int piece = state.shapes[shape].has_leaf ? none : state.shapes[shape].next_piece; piece != none;

@@ -63,15 +63,14 @@ bool is_sound(const BodyState& s, double x, double y)
            is_finite(s.delta_rotation.c) && is_finite(s.delta_rotation.s);
 }
 
-// Struck or pulled in the step, farther than the rows it was given cover.
-bool went_beyond_its_rows(const StepContext& ctx, const BodyState& s, int body)
+// The solver's bodies see what they may meet on the way that they set out on; struck or pulled from it, one that goes farther than its own
+// size may have been led anywhere.
+bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 {
     if (!ctx.scene.def.continuous || (s.flags & body_flag::flier) != 0)
         return false;
-    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    const float expected = ctx.dt * (length(sim.velocity) + ctx.dt * length(ctx.state.gravity));
-    const float covered = expected + ctx.scene.tolerances.speculation;
-    return dot(s.delta_position, s.delta_position) > covered * covered;
+    const float size = ctx.state.sims[static_cast<std::size_t>(body)].size;
+    return dot(s.delta_position, s.delta_position) > size * size;
 }
 
 void commit_state(StepContext& ctx, std::int32_t index)
@@ -97,7 +96,7 @@ void commit_state(StepContext& ctx, std::int32_t index)
         ctx.scratch.unsound.push_back(body);
         return;
     }
-    if (crowded || went_beyond_its_rows(ctx, s, body))
+    if (crowded || may_have_passed(ctx, s, body))
     {
         const double part = free_part_of_path(ctx, body, x, y);
         x *= part;

@@ -1,10 +1,8 @@
 #include "dynamics/prepare.h"
 
 #include "core/trigonometry.h"
-#include "dynamics/body_store.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/scene_data.h"
-#include "geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,13 +86,7 @@ Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint
     flier.inverse_mass_y = sim.inverse_mass.y;
     flier.inverse_inertia = sim.inverse_inertia;
     flier.local_reference = sim.local_center;
-    flier.size = 1e300;
-    for_each_leaf(ctx.state, body,
-                  [&](int shape)
-                  {
-                      if (!ctx.state.shapes[shape].trigger)
-                          flier.size = std::min(flier.size, inner_radius(leaf_view(ctx.state, shape)));
-                  });
+    flier.size = sim.size;
     if (joint != none)
         hinge(ctx, joint, sim, flier);
     return flier;

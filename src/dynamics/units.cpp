@@ -11,11 +11,11 @@
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/stages.h"
-#include "geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace carom::internal {
 
@@ -207,7 +207,7 @@ struct Builder
     // Goes half its size or more in a sub-step, also as its neighbours see it.
     [[nodiscard]] bool shoots(int body) const
     {
-        const float limit = 0.5f * size_of(body) / ctx.h;
+        const float limit = 0.5f * state.sims[static_cast<std::size_t>(body)].size / ctx.h;
         const Vec2 v = state.sims[static_cast<std::size_t>(body)].velocity;
         bool shoots = length(v) > limit;
         for (int edge = state.bodies[body].first_contact; shoots && edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
@@ -218,19 +218,6 @@ struct Builder
                      length(v - state.sims[static_cast<std::size_t>(other)].velocity) > limit;
         }
         return shoots;
-    }
-
-    // The least inner radius of its shapes.
-    [[nodiscard]] float size_of(int body) const
-    {
-        double size = 1e30;
-        for_each_leaf(state, body,
-                      [&](int shape)
-                      {
-                          if (!state.shapes[shape].trigger)
-                              size = std::min(size, inner_radius(leaf_view(state, shape)));
-                      });
-        return static_cast<float>(size);
     }
 
     // A contact whose normal turns with a bar or a bat is followed in slices of at most this turn.
@@ -472,7 +459,8 @@ struct Builder
         for (Unit& unit : scratch.units)
         {
             const int first = unit.first_state;
-            const StepContext unit_ctx = sliced(ctx, unit.slices);
+            const std::optional<StepContext> cut = unit.slices > 1 ? std::optional(sliced(ctx, unit.slices)) : std::nullopt;
+            const StepContext& unit_ctx = cut ? *cut : ctx;
             unit.first_state = static_cast<std::int32_t>(scratch.states.size());
             unit.first_flier = static_cast<std::int32_t>(scratch.fliers.size());
             unit.precise = unit.state_count <= precise_limit;

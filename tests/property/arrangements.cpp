@@ -6,9 +6,9 @@ std::span<const Arrangement> arrangements()
 {
     static constexpr Arrangement list[] = {
         {"BallAtWall", 5000, ball_at_wall},
-        {"BallAtBody", 5000, ball_at_body, false},
-        {"BallAtArc", 3000, ball_at_arc, false},
-        {"BallAtClosedChain", 3000, ball_at_closed_chain, false},
+        {"BallAtBody", 5000, ball_at_body},
+        {"BallAtArc", 3000, ball_at_arc},
+        {"BallAtClosedChain", 3000, ball_at_closed_chain},
         {"BallInRoom", 5000, ball_in_room, false},
         {"BallInRoundRoom", 4000, ball_in_round_room, false},
         {"BallInWedge", 3000, ball_in_wedge, false},
@@ -22,7 +22,7 @@ std::span<const Arrangement> arrangements()
         {"Tube", 5000, tube, false},
         {"BallAtPlate", 4000, ball_at_plate, false},
         {"PieceAtPlate", 3000, piece_at_plate, false},
-        {"BallAtTurningBar", 4000, ball_at_turning_bar, false},
+        {"BallAtTurningBar", 4000, ball_at_turning_bar},
         {"Drum", 3000, drum, false},
         {"FlipperChamber", 4000, flipper_chamber, false},
         {"ThroughTrigger", 4000, ball_through_trigger, false},

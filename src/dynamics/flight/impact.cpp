@@ -26,7 +26,7 @@ namespace {
 constexpr double touching = 1e-6; // of the size: contacts this near take part
 constexpr double still_held = 1e-3;
 constexpr double hold_turn = 0.05; // rad: so far a hold is followed before it is looked at again
-constexpr int crowd_limit = 16;    // impacts of a body in a sub-step
+constexpr int crowd_limit = 8;     // impacts of a body in a sub-step
 constexpr double at_limit = 1e-7;  // rad
 
 class ImpactSet
@@ -71,6 +71,7 @@ private:
         double slide = 0; ///< speed of the own center along perp(n) before
         double speed_other = 0;
         bool kicked = false;
+        bool rests = false; ///< its bounce was none
     };
 
     // --- who takes part -------------------------------------------------------------------------------------------------------------
@@ -357,7 +358,10 @@ private:
         }
         const double rest = std::max(-0.5 * s.touch.acceleration * m_span.h, 0.0) + m_span.least_approach;
         if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
+        {
             bounce.restitution = 0;
+            s.rests = true;
+        }
         return bounce;
     }
 
@@ -551,7 +555,11 @@ private:
         std::vector<Pressing> pressing;
         for (std::size_t i = 0; i < m_rows.size(); ++i)
         {
-            if (m_rows[i].kind != ImpactRow::Kind::Hold && std::fabs(gap_rate(m_bodies, m_rows[i])) <= 2 * m_span.least_approach)
+            if (m_rows[i].kind == ImpactRow::Kind::Hold || std::fabs(gap_rate(m_bodies, m_rows[i])) > 2 * m_span.least_approach)
+                continue;
+            if (both_give_way(m_rows[i]))
+                rest_on_each_other(m_rows[i], m_sources[i]);
+            else
                 pressing.push_back({static_cast<int>(i), gap_acceleration(i), slip_acceleration(i)});
         }
         press(accelerations, m_rows, pressing);
@@ -572,6 +580,28 @@ private:
         }
         for (std::size_t i = 0; i < m_members.size(); ++i)
             accelerate(m_members[i], accelerations[i], changed);
+    }
+
+    [[nodiscard]] bool both_give_way(const ImpactRow& row) const
+    {
+        const auto gives = [&](int member)
+        {
+            const int body = m_members[static_cast<std::size_t>(member)].body;
+            return body != none && m_state.bodies[body].type == BodyType::Dynamic;
+        };
+        return row.kind == ImpactRow::Kind::Contact && gives(row.a) && gives(row.b);
+    }
+
+    // A force over a time on two that turn about each other would feed them energy: they are the solver's when the sub-step is over.
+    void rest_on_each_other(const ImpactRow& row, const Source& s)
+    {
+        if (!s.rests)
+            return;
+        for (const int member : {row.a, row.b})
+        {
+            if (Flier* f = m_members[static_cast<std::size_t>(member)].flier)
+                f->rests = true;
+        }
     }
 
     void accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const

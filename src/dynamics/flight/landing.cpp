@@ -152,7 +152,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
     s.delta_rotation = f.angle != 0 ? Rotation::from_angle(static_cast<float>(f.angle)) : Rotation{};
     if (f.joint != none)
         sum_reaction(span, f, center);
-    if (f.held_count == 0)
+    if (f.held_count == 0 && !f.rests)
         return;
     if (is_fast(span, f, center.vx, center.vy, f.w))
         release_holds(span, f, span.h);

@@ -83,6 +83,7 @@ void clear_substep(const FlightSpan& span, Flier& f)
     f.impulse_x = f.impulse_y = f.turn_impulse = 0;
     f.start_w = f.w;
     f.held_count = 0;
+    f.rests = false;
     f.constrained = false;
     const CenterMotion center = center_of(f);
     f.start_vx = center.vx;

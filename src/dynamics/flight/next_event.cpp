@@ -17,6 +17,9 @@ bool holds(const Flier& f, std::int32_t own, std::int32_t other)
 
 namespace {
 
+// Of two that both give way none holds the other; what presses them together is taken in small blows, so often in a sub-step at the most.
+constexpr double press_time = 1.0 / 4;
+
 class Search
 {
 public:
@@ -121,10 +124,13 @@ private:
             return;
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
+        if (is_out_of_reach(body))
+            return;
         const FramePath target = path_from(m_span, body, m_flier.time, m_origin);
         const double left = std::min(m_span.h, m_flier.event_time) - m_flier.time;
         const std::optional<Touch> hit =
-            first_touch(leaf_view(state, shape), target, leaf_view(state, own), m_own_path, left, m_span.least_approach);
+            first_touch(leaf_view(state, shape), target, leaf_view(state, own), m_own_path, left, m_span.least_approach,
+                        state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0);
         if (!hit || m_flier.time + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.
@@ -139,6 +145,28 @@ private:
         m_flier.event_shape = shape;
         m_flier.event_state = m_span.state_in_unit(body);
         m_flier.event_version = version_of(m_span, m_flier.event_state);
+    }
+
+    // Two moving bodies that stay apart whatever they turn: most of a crowd.
+    [[nodiscard]] bool is_out_of_reach(int body) const
+    {
+        if (m_span.state.bodies[body].type != BodyType::Dynamic)
+            return false;
+        const BodySim& a = m_span.sim_of(m_flier.body);
+        const BodySim& b = m_span.sim_of(body);
+        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
+        if (other == nullptr)
+            return false;
+        const CenterMotion from = center_of(m_flier);
+        const CenterMotion to = center_of(*other);
+        const double left = m_span.h - std::min(m_flier.time, other->time);
+        const double dx = b.center.x - a.center.x + to.x - from.x;
+        const double dy = b.center.y - a.center.y + to.y - from.y;
+        const auto speed = [left](const Flier& f, const CenterMotion& c)
+        { return std::hypot(c.vx, c.vy) + left * (std::hypot(f.ax, f.ay) + std::fabs(f.alpha) * std::hypot(f.arm_x, f.arm_y)); };
+        const double reach =
+            static_cast<double>(a.extent) + static_cast<double>(b.extent) + left * (speed(m_flier, from) + speed(*other, to));
+        return dx * dx + dy * dy > reach * reach;
     }
 
     const FlightSpan& m_span;

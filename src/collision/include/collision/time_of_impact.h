@@ -48,9 +48,10 @@ struct Touch
 };
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
-/// approaches touches at 0; what touches and separates does not until it comes back.
+/// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew only when it has pressed
+/// for `wait` seconds.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
-                                               const FramePath& path_b, double duration, double least_approach);
+                                               const FramePath& path_b, double duration, double least_approach, double wait = 0);
 
 /// All points at which the leaves are nearer than `tolerance` at t = 0.
 struct Touches

@@ -153,6 +153,7 @@ struct Flier
     static constexpr int most_held = 12;
     Hold held[most_held];
     std::int32_t held_count = 0;
+    bool rests = false;    ///< against something that gives way
     bool led = false;      ///< what holds it does not give way
     double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 

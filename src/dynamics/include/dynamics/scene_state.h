@@ -51,6 +51,7 @@ struct BodySim
     float angular_damping = 0;
     float sleep_time = 0;       ///< s below the sleep speed
     float extent = 0;           ///< farthest point of any shape from the center of mass
+    float size = 1e30f;         ///< least inner radius of its shapes
     Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
     Position target_center{};
