@@ -299,6 +299,12 @@ double patience_at(const Sight& sight, double least_approach, double duration)
     return std::max({slack / sight.bend, std::min(soon, 5e-3 * duration), 1e-6 * duration});
 }
 
+// What presses for so long, and no deeper than that.
+double pressed_speed(double acceleration, double wait, double depth)
+{
+    return acceleration > 0 ? std::min(acceleration * wait, std::sqrt(2 * acceleration * depth)) : 0;
+}
+
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
                                           double least_approach, double wait)
 {
@@ -312,7 +318,7 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
             continue;
         }
         const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
-        const double least = std::max(least_approach, -sight.acceleration * wait);
+        const double least = std::max(least_approach, pressed_speed(-sight.acceleration, wait, nearly_touch * length));
         if (near && sight.rate < -least)
             return touch_of(sight, t, probe_on_a);
         if (near && sight.end_of_arc)

@@ -95,6 +95,30 @@ private:
         const FloatBox path = round_outwards(m_origin.x + std::min(from.x, to.x) - r, m_origin.y + std::min(from.y, to.y) - r,
                                              m_origin.x + std::max(from.x, to.x) + r, m_origin.y + std::max(from.y, to.y) + r);
         for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_beyond_box(own, path); });
+        for (const Flier& other : m_span.fliers())
+        { // neither is in the box that it had
+            if (other.deflected && other.body != m_flier.body && !is_out_of_reach(other.body))
+                for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_at(own, other); });
+        }
+    }
+
+    void look_at(int own, const Flier& other)
+    {
+        const SceneState& state = m_span.state;
+        if (state.shapes[own].trigger)
+            return;
+        for_each_leaf(state, other.body,
+                      [&](int shape)
+                      {
+                          if (is_new(own, shape))
+                              consider(own, shape, none);
+                      });
+    }
+
+    [[nodiscard]] bool is_new(int own, int shape) const
+    {
+        const SceneState& state = m_span.state;
+        return !state.shapes[shape].trigger && !state.pairs.contains(pair_key(own, shape)) && may_collide(state, own, shape);
     }
 
     void look_beyond_box(int own, const FloatBox& path)
@@ -104,8 +128,7 @@ private:
             return;
         const auto visit = [&](int shape)
         {
-            if (state.shapes[shape].body != m_flier.body && !state.pairs.contains(pair_key(own, shape)) &&
-                !state.shapes[shape].trigger && may_collide(state, own, shape))
+            if (state.shapes[shape].body != m_flier.body && is_new(own, shape))
                 consider(own, shape, none);
             return true;
         };
