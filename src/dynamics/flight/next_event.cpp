@@ -151,6 +151,8 @@ private:
             return;
         const FramePath target = path_from(m_span, body, m_flier.time, m_origin);
         const double left = std::min(m_span.h, m_flier.event_time) - m_flier.time;
+        if (stays_away(own, shape, target, contact, left))
+            return;
         const std::optional<Touch> hit =
             first_touch(leaf_view(state, shape), target, leaf_view(state, own), m_own_path, left, m_span.least_approach,
                         state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0);
@@ -168,6 +170,25 @@ private:
         m_flier.event_shape = shape;
         m_flier.event_state = m_span.state_in_unit(body);
         m_flier.event_version = version_of(m_span, m_flier.event_state);
+    }
+
+    // Along the line of their centers, or the normal at the start of the step: a look at every corner is dear.
+    [[nodiscard]] bool stays_away(int own, int shape, const FramePath& target, int contact, double left) const
+    {
+        const SceneState& state = m_span.state;
+        const LeafView a = leaf_view(state, shape);
+        const LeafView b = leaf_view(state, own);
+        if (contact != none && state.contacts[contact].manifold.count > 0)
+        {
+            const double sign = state.contacts[contact].shape_a == shape ? 1 : -1;
+            const Vec2 n = state.contacts[contact].manifold.normal;
+            if (stay_apart(a, target, b, m_own_path, sign * static_cast<double>(n.x), sign * static_cast<double>(n.y), left))
+                return true;
+        }
+        const double dx = m_own_path.center.x - target.center.x;
+        const double dy = m_own_path.center.y - target.center.y;
+        const double l = std::sqrt(dx * dx + dy * dy);
+        return l > 0 && stay_apart(a, target, b, m_own_path, dx / l, dy / l, left);
     }
 
     // Two moving bodies that stay apart whatever they turn: most of a crowd.
