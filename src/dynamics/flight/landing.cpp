@@ -155,7 +155,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
         sum_reaction(span, f, center);
     if (f.held_count == 0 && !f.rests)
         return;
-    if (is_fast(span, f, center.vx, center.vy, f.w))
+    if (is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
         release_holds(span, f, span.h);
     else
         land(span, f);

@@ -218,6 +218,25 @@ bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, doubl
     return span.h * (std::sqrt(vx * vx + vy * vy) + std::fabs(w) * static_cast<double>(sim.extent)) > 0.5 * f.size;
 }
 
+bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
+{
+    if (!f.deflected)
+        return false;
+    const BodySim& sim = span.sim_of(f.body);
+    const BodyState& s = span.state_of(f.state);
+    const Rotation q = s.delta_rotation * sim.rotation;
+    const Pose pose{sim.center + s.delta_position - rotate(q, sim.local_center), q};
+    const float ahead = span.ctx.h * (length(s.velocity) + std::fabs(s.angular_velocity) * sim.extent);
+    bool leaves = false;
+    for_each_leaf(span.state, f.body,
+                  [&](int own)
+                  {
+                      const FloatBox soon = grow(round_outwards(leaf_bounds(leaf_view(span.state, own), pose)), ahead);
+                      leaves |= !contains(span.state.broad_phase.box(own), soon);
+                  });
+    return leaves;
+}
+
 void take_off(const FlightSpan& span, Flier& f, double time)
 {
     const BodySim& sim = span.sim_of(f.body);

@@ -42,6 +42,7 @@ public:
         }
         if (m_flier.deflected)
             look_beyond_boxes();
+        look_at_deflected();
     }
 
 private:
@@ -95,8 +96,13 @@ private:
         const FloatBox path = round_outwards(m_origin.x + std::min(from.x, to.x) - r, m_origin.y + std::min(from.y, to.y) - r,
                                              m_origin.x + std::max(from.x, to.x) + r, m_origin.y + std::max(from.y, to.y) + r);
         for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_beyond_box(own, path); });
+    }
+
+    // Who has been struck may be anywhere, whether it flies still or has come to rest against something.
+    void look_at_deflected()
+    {
         for (const Flier& other : m_span.fliers())
-        { // neither is in the box that it had
+        {
             if (other.deflected && other.body != m_flier.body && !is_out_of_reach(other.body))
                 for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_at(own, other); });
         }

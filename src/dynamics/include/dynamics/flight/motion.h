@@ -52,6 +52,9 @@ void advance(const FlightSpan& span, Flier& f, double time);
 /// Goes half its size or more in a sub-step (in a crowd: because of what struck it in this step): such a body is not left to contacts found beforehand.
 [[nodiscard]] bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w);
 
+/// Struck in this step, and on its way out of where pairs were looked for: the solver would not see what is there.
+[[nodiscard]] bool leaves_its_boxes(const FlightSpan& span, const Flier& f);
+
 /// From the solver's hands into flight, at a time of the sub-step; its rows are dropped.
 void take_off(const FlightSpan& span, Flier& f, double time);
 
