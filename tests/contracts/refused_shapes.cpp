@@ -47,6 +47,59 @@ TEST_F(Contract, PlacesOfGeometries)
     }
 }
 
+TEST_F(Contract, PlacesAndSizesBeyondAllMeasure)
+{
+    for (const float far : {1.1e8f, 1e25f, 3e38f})
+    {
+        const auto in_scene = [&](const Geometry& geometry, const char* field)
+        {
+            geometry_refused(geometry, field, fixed.body);
+            refused([&] { scene.shape(fixed.shape).set_geometry(geometry); }, {"Shape::set_geometry", field});
+        };
+        in_scene(Circle{.center = {far, 0}}, "Circle.center");
+        in_scene(Circle{.center = {0, -far}}, "Circle.center");
+        in_scene(Circle{.radius = far}, "Circle.radius");
+        in_scene(Polygon{{{0, 0}, {far, 0}, {far, far}}}, "Polygon.vertices");
+        in_scene(Capsule{.a = {-far, 0}}, "Capsule.a");
+        in_scene(Capsule{.b = {far, 0}}, "Capsule.b");
+        in_scene(Segment{.a = {-far, 0}}, "Segment.a");
+        in_scene(Segment{.b = {far, 0}}, "Segment.b");
+        in_scene(Segment{.half_thickness = far}, "Segment.half_thickness");
+        in_scene(Arc{.center = {far, 0}}, "Arc.center");
+        in_scene(Arc{.radius = far}, "Arc.radius");
+        in_scene(Chain{.start = {far, 0}, .pieces = {{.end = {1, 0}}}}, "Chain.start");
+        in_scene(Chain{.pieces = {{.end = {far, 0}}}}, "Chain.pieces.end");
+        in_scene(Chain{.pieces = {{.end = {1, 0}, .sweep = 1 / far}}}, "Chain.pieces.sweep");
+        in_scene(HalfSpace{.offset = -far}, "HalfSpace.offset");
+    }
+    EXPECT_NO_THROW(scene.create_shape(fixed.body, Circle{.center = {9e7f, -9e7f}, .radius = 9e7f}));
+    EXPECT_NO_THROW(scene.create_shape(fixed.body, Chain{.pieces = {{.end = {1, 0}, .sweep = 2e-8f}}}));
+}
+
+TEST_F(Contract, MassesBeyondFloats)
+{
+    const Polygon large{{{0, 0}, {9e7f, 0}, {9e7f, 9e7f}}};
+    const auto mass_refused = [&](const Geometry& geometry, float density, const char* field)
+    {
+        refused([&] { scene.create_shape(ball.body, geometry, {.density = density}); }, {"Scene::create_shape", field});
+        const ShapeId shape = scene.create_shape(crate.body, geometry, {.density = 0});
+        refused([&] { scene.shape(shape).set_def({.density = density}); }, {"Shape::set_def", field});
+        scene.destroy(shape);
+        scene.shape(crate.shape).set_def({.density = density});
+        refused([&] { scene.shape(crate.shape).set_geometry(geometry); }, {"Shape::set_geometry", field});
+        scene.shape(crate.shape).set_def({});
+    };
+    mass_refused(large, 1e30f, "the shape's mass");
+    mass_refused(large, 1e6f, "the shape's moment of inertia");
+    mass_refused(Circle{.radius = 1e-5f}, 1e-30f, "the shape's mass");
+    mass_refused(Circle{.radius = 1e-10f}, 1, "the shape's moment of inertia");
+    // What has no mass has no limits of it.
+    EXPECT_NO_THROW(scene.create_shape(ball.body, large, {.density = 0}));
+    EXPECT_NO_THROW(scene.create_shape(ball.body, large, {.density = 1e30f, .trigger = true}));
+    EXPECT_NO_THROW(scene.create_shape(ball.body, large));
+    EXPECT_TRUE(std::isfinite(scene.body(ball.body).mass()) && std::isfinite(scene.body(ball.body).inertia()));
+}
+
 TEST_F(Contract, Outlines)
 {
     geometry_refused(Polygon{}, "vertices");
@@ -115,6 +168,17 @@ TEST_F(Contract, ShapeDefinitions)
         def_refused({.trigger = true, .field = {.acceleration = {0, bad}}}, "Field::acceleration");
     }
     def_refused({.restitution = 1.5f}, "restitution");
+}
+
+TEST_F(Contract, FieldsOnShapesThatAreNoTriggers)
+{
+    for (const Field& field : {Field{.force = {1, 0}}, Field{.acceleration = {0, 1}}, Field{.drag = 1}})
+    {
+        def_refused({.field = field}, "ShapeDef::field");
+        refused([&] { scene.shape(zone.shape).set_def({.trigger = false, .field = field}); },
+                {"Shape::set_def", "ShapeDef::field"});
+        EXPECT_NO_THROW(scene.shape(zone.shape).set_def({.trigger = true, .field = field}));
+    }
 }
 
 TEST_F(Contract, RestitutionCurves)
