@@ -497,6 +497,7 @@ void solve_units(StepContext& ctx)
         scratch.outputs.resize(scratch.units.size());
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
         scratch.outputs[i].clear();
+    mark_traced(ctx);
     // Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
     std::vector<std::int32_t>& starts = scratch.order;
     starts.assign(1, 0);

@@ -27,6 +27,9 @@ void solve_units(StepContext& ctx);
 /// New poses and velocities, deferred impulses, triggers, sleep.
 void commit_and_sleep(StepContext& ctx);
 
+/// Whose paths update_triggers will ask for.
+void mark_traced(StepContext& ctx);
+
 /// Enter, inside and exit of trigger shapes along the paths of this step.
 void update_triggers(StepContext& ctx);
 

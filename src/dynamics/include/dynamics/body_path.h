@@ -1,0 +1,41 @@
+#pragma once
+
+// The way a body went in this step, once poses are committed: pieces, each a parabola and an even turn.
+
+#include "dynamics/contact_update.h"
+#include "dynamics/step_context.h"
+
+#include <span>
+
+namespace carom::internal {
+
+/// Gathers what the units recorded into Scratch::paths, body by body.
+void gather_paths(StepContext& ctx);
+
+class BodyPath
+{
+public:
+    BodyPath(const StepContext& ctx, int body);
+
+    [[nodiscard]] const BodyPose& start() const { return m_start; }
+    /// As committed; the last piece ends near it.
+    [[nodiscard]] const BodyPose& end() const { return m_end; }
+    [[nodiscard]] bool moves() const { return m_moves; }
+    /// From a time of the step on, until next_bend; relative to the center at the start.
+    [[nodiscard]] FramePath from(double time) const;
+    /// The first bend after a time; the end of the step, where none comes.
+    [[nodiscard]] double next_bend(double time) const;
+
+private:
+    void follow_chord(const StepContext& ctx, int body);
+    [[nodiscard]] bool ends_there(std::span<const PathPiece> pieces, double tolerance) const;
+
+    double m_dt;
+    bool m_moves = false;
+    BodyPose m_start;
+    BodyPose m_end;
+    std::span<const PathPiece> m_pieces;
+    PathPiece m_chord{}; ///< stands for the pieces of what nothing was recorded of
+};
+
+} // namespace carom::internal
