@@ -2,7 +2,7 @@
 
 #include "core/trigonometry.h"
 #include "dynamics/scene_data.h"
-#include "dynamics/wake.h"
+#include "geometry/bounds.h"
 
 #include <algorithm>
 #include <tuple>
@@ -46,27 +46,61 @@ std::span<const PathPiece> recorded(const StepContext& ctx, int body)
 BodyPath::BodyPath(const StepContext& ctx, int body) : m_dt(static_cast<double>(ctx.dt))
 {
     m_start = m_end = pose_at_start(ctx.state, body);
-    m_pieces = {&m_chord, 1};
-    m_chord.path.c = static_cast<double>(m_end.rotation.c);
-    m_chord.path.s = static_cast<double>(m_end.rotation.s);
-    m_chord.path.local_center = m_end.local_center;
-    if (!took_part(ctx, body))
-        return;
+    const bool moved = took_part(ctx, body);
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    m_start.center = sim.previous_center;
-    m_start.rotation = sim.previous_rotation;
+    if (moved)
+    {
+        m_start.center = sim.previous_center;
+        m_start.rotation = sim.previous_rotation;
+    }
+    m_chord.c = static_cast<double>(m_start.rotation.c);
+    m_chord.s = static_cast<double>(m_start.rotation.s);
+    m_chord.local_center = m_start.local_center;
+    if (!moved)
+        return;
     m_moves = m_start.center != m_end.center || m_start.rotation != m_end.rotation;
-    follow_chord(ctx, body);
     const std::span<const PathPiece> pieces = recorded(ctx, body);
-    if (!pieces.empty() && ends_there(pieces, 0.01 * static_cast<double>(sim.size)))
-        m_pieces = pieces;
+    if (pieces.empty() || !ends_there(pieces, 0.01 * static_cast<double>(sim.size)))
+    {
+        follow_chord(ctx, body);
+        return;
+    }
+    m_moves = true; // there may be nothing but a way to and fro
+    m_pieces = pieces;
+    if (pieces.front().start > 0)
+        lead_to(pieces.front());
+}
+
+// From pose to pose, straight and evenly turning: the very path of a kinematic body.
+void BodyPath::follow_chord(const StepContext& ctx, int body)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    m_chord.center.vx = (m_end.center.x - m_start.center.x) / m_dt;
+    m_chord.center.vy = (m_end.center.y - m_start.center.y) / m_dt;
+    const BodyRecord& record = ctx.state.bodies[body];
+    const Rotation turn = m_end.rotation * inverse(m_start.rotation);
+    const bool turns_evenly = record.type == BodyType::Kinematic && !record.has_target; // by more than half a turn, even
+    m_chord.w = turns_evenly ? static_cast<double>(sim.angular_velocity) : arc_tangent(turn.s, turn.c) / m_dt;
+}
+
+// What came near triggers only because something threw it there is recorded from then on: straight until then.
+void BodyPath::lead_to(const PathPiece& first)
+{
+    m_chord.local_center = first.path.local_center;
+    const Vec2 arm = rotate(m_start.rotation, m_chord.local_center - m_start.local_center);
+    m_chord.center.x = static_cast<double>(arm.x);
+    m_chord.center.y = static_cast<double>(arm.y);
+    m_chord.center.vx = (first.path.center.x - m_chord.center.x) / first.start;
+    m_chord.center.vy = (first.path.center.y - m_chord.center.y) / first.start;
+    m_chord.w =
+        arc_tangent(first.path.s * m_chord.c - first.path.c * m_chord.s, first.path.c * m_chord.c + first.path.s * m_chord.s) /
+        first.start;
 }
 
 // Not so where a wall has stopped the body short of it afterwards (stop_at_wall.cpp).
 bool BodyPath::ends_there(std::span<const PathPiece> pieces, double tolerance) const
 {
-    const PathPiece& last = pieces.back();
-    const FramePath end = path_after(last.path, m_dt - last.start);
+    const FramePath end = path_after(pieces.back().path, m_dt - pieces.back().start);
     // A hinge's pivot and the center of mass are different points.
     const Vec2 arm =
         rotate(Rotation{static_cast<float>(end.c), static_cast<float>(end.s)}, m_start.local_center - end.local_center);
@@ -75,28 +109,14 @@ bool BodyPath::ends_there(std::span<const PathPiece> pieces, double tolerance) c
     return x * x + y * y <= tolerance * tolerance;
 }
 
-// From pose to pose, straight and evenly turning: the very path of a kinematic body.
-void BodyPath::follow_chord(const StepContext& ctx, int body)
-{
-    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    FramePath& path = m_chord.path;
-    path.c = static_cast<double>(m_start.rotation.c);
-    path.s = static_cast<double>(m_start.rotation.s);
-    path.center.vx = (m_end.center.x - m_start.center.x) / m_dt;
-    path.center.vy = (m_end.center.y - m_start.center.y) / m_dt;
-    const BodyRecord& record = ctx.state.bodies[body];
-    const Rotation turn = m_end.rotation * inverse(m_start.rotation);
-    const bool turns_evenly = record.type == BodyType::Kinematic && !record.has_target; // by more than half a turn, even
-    path.w = turns_evenly ? static_cast<double>(sim.angular_velocity) : arc_tangent(turn.s, turn.c) / m_dt;
-}
-
 FramePath BodyPath::from(double time) const
 {
-    // The last piece that has begun. The first one counts as begun.
-    std::size_t i = m_pieces.size() - 1;
-    while (i > 0 && m_pieces[i].start > time)
-        --i;
-    return path_after(m_pieces[i].path, time - m_pieces[i].start);
+    for (std::size_t i = m_pieces.size(); i-- > 0;)
+    {
+        if (m_pieces[i].start <= time)
+            return path_after(m_pieces[i].path, time - m_pieces[i].start);
+    }
+    return path_after(m_chord, time);
 }
 
 double BodyPath::next_bend(double time) const
@@ -107,6 +127,28 @@ double BodyPath::next_bend(double time) const
             return std::min(piece.start, m_dt);
     }
     return m_dt;
+}
+
+FloatBox deflected_box(const StepContext& ctx, int body)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    FloatBox box = round_outwards(Box{sim.center, sim.center});
+    const std::span<const PathPiece> pieces = recorded(ctx, body);
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+        const double end = i + 1 < pieces.size() ? pieces[i + 1].start : static_cast<double>(ctx.dt);
+        const CenterPath& from = pieces[i].path.center;
+        const CenterPath to = path_after(pieces[i].path, end - pieces[i].start).center;
+        // A parabola lies within its ends and the crossing of their tangents.
+        const double half = 0.5 * (end - pieces[i].start);
+        for (const Position& p :
+             {Position{from.x, from.y}, Position{from.x + half * from.vx, from.y + half * from.vy}, Position{to.x, to.y}})
+        {
+            const Position at{sim.previous_center.x + p.x, sim.previous_center.y + p.y};
+            box = unite(box, round_outwards(Box{at, at}));
+        }
+    }
+    return grow(box, sim.extent);
 }
 
 } // namespace carom::internal

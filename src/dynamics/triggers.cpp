@@ -3,18 +3,19 @@
 // first touch on the piece run backwards. Whether it is inside at the ends of a piece says the contact manifold there, and that is what
 // counts: where rounding or a one-sided line hides the moment from the search, it is found between the two by halving.
 //
-// What leaves and comes back within one piece, as the corner of something that turns may, has been inside all the time.
+// What leaves and comes back within one piece, as the corner of something that turns may, has been inside all the time, unless it is outside
+// half way.
 
 #include "collision/time_of_impact.h"
 #include "dynamics/body_path.h"
 #include "dynamics/contact_store.h"
+#include "dynamics/crossings.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 
 namespace carom::internal {
 
@@ -89,13 +90,25 @@ private:
             pass(part, *in, out && *out > *in ? *out : out_of_one_sided(part, *in));
     }
 
-    // In and out on one part; by a rounding at its ends, perhaps not at all.
+    // In and out on one part; by a rounding at its ends, perhaps not at all. At the top of a throw it may be outside between two passages.
     void pass(const Part& part, double in, double out)
     {
         if (out <= in)
             return;
+        const double middle = 0.5 * (in + out);
+        if (out - in > 1e-6 * m_dt && !is_inside(part, middle))
+        {
+            follow({part.start, middle, part.a, part.b}, false);
+            follow(rest_of(part, middle), false);
+            return;
+        }
         cross(part.start + in);
         cross(part.start + out);
+    }
+
+    [[nodiscard]] static Part rest_of(const Part& part, double from)
+    {
+        return {part.start + from, part.length - from, path_after(part.a, from), path_after(part.b, from)};
     }
 
     // What goes through a line that only one side of is solid is out of it in the middle, where nothing touches.
@@ -120,10 +133,19 @@ private:
 
     [[nodiscard]] std::optional<double> touch_time(const FramePath& a, const FramePath& b, double length) const
     {
-        const std::optional<Touch> touch =
-            first_touch(leaf_view(m_state, m_contact.shape_a), a, leaf_view(m_state, m_contact.shape_b), b, length,
-                        1e-6 * static_cast<double>(m_ctx.scene.def.length_scale));
+        const Leaf leaf_a = free_standing(m_contact.shape_a);
+        const Leaf leaf_b = free_standing(m_contact.shape_b);
+        const std::optional<Touch> touch = first_touch(view(leaf_a, m_state.vertices), a, view(leaf_b, m_state.vertices), b,
+                                                       length, 1e-6 * static_cast<double>(m_ctx.scene.def.length_scale));
         return touch ? std::optional(touch->time) : std::nullopt;
+    }
+
+    // A chain's leaf leaves some directions at its ends to the next one; what it covers itself is the whole of it.
+    [[nodiscard]] Leaf free_standing(std::int32_t shape) const
+    {
+        Leaf leaf = m_state.shapes[shape].leaf;
+        leaf.has_previous = leaf.has_next = false;
+        return leaf;
     }
 
     [[nodiscard]] std::optional<double> first_touch_on(const Part& part) const { return touch_time(part.a, part.b, part.length); }
@@ -176,75 +198,6 @@ private:
     bool m_inside;
 };
 
-// A chain's leaves are crossed one after the other; its pair comes in with the first and goes out with the last.
-class CrossingTeller
-{
-public:
-    explicit CrossingTeller(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state) {}
-
-    void run()
-    {
-        std::vector<Crossing>& all = m_ctx.scratch.crossings;
-        // In one moment comings before goings: who changes from leaf to leaf stays inside.
-        std::sort(all.begin(), all.end(),
-                  [](const Crossing& x, const Crossing& y)
-                  {
-                      return std::tie(x.trigger, x.visitor, x.time, y.enters, x.order) <
-                             std::tie(y.trigger, y.visitor, y.time, x.enters, y.order);
-                  });
-        for (std::size_t i = 0; i < all.size();)
-        {
-            std::size_t end = i + 1;
-            while (end < all.size() && all[end].trigger == all[i].trigger && all[end].visitor == all[i].visitor)
-                ++end;
-            tell_pair(std::span(all).subspan(i, end - i));
-            i = end;
-        }
-    }
-
-private:
-    void tell_pair(std::span<const Crossing> crossings)
-    {
-        int depth = leaves_inside(crossings[0]);
-        for (const Crossing& c : crossings)
-            depth -= c.enters ? 1 : -1; // as it was when the step began
-        for (const Crossing& c : crossings)
-        {
-            const int before = depth;
-            depth += c.enters ? 1 : -1;
-            if (std::min(before, depth) == 0)
-                tell(c);
-        }
-    }
-
-    // Now, at the end of the step.
-    [[nodiscard]] int leaves_inside(const Crossing& pair) const
-    {
-        // The body without the chain has the shorter list.
-        const int body = m_state.shapes[m_state.shapes[pair.trigger].has_leaf ? pair.trigger : pair.visitor].body;
-        int count = 0;
-        for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = m_state.contacts[edge >> 1];
-            count += (contact.flags & contact_flag::touching) != 0 && m_state.shapes[contact.shape_a].owner == pair.trigger &&
-                     m_state.shapes[contact.shape_b].owner == pair.visitor;
-        }
-        return count;
-    }
-
-    void tell(const Crossing& c)
-    {
-        const float time = std::clamp(static_cast<float>(c.time), 0.0f, m_ctx.dt);
-        (c.enters ? m_ctx.scene.events.enters : m_ctx.scene.events.exits)
-            .push_back({shape_id(m_state, c.trigger), shape_id(m_state, c.visitor),
-                        body_id(m_state, m_state.shapes[c.trigger].body), body_id(m_state, m_state.shapes[c.visitor].body),
-                        time});
-    }
-
-    StepContext& m_ctx;
-    SceneState& m_state;
-};
-
 // What has moved or is new, of sound bodies: the others are about to be put aside.
 bool needs_update(const StepContext& ctx, const Contact& contact)
 {
@@ -278,10 +231,9 @@ void update_triggers(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     std::vector<std::int32_t>& order = ctx.scratch.order;
-    order.assign(state.trigger_contacts.begin(), state.trigger_contacts.end());
-    if (order.empty())
-        return;
     gather_paths(ctx);
+    find_deflected_pairs(ctx);
+    order.assign(state.trigger_contacts.begin(), state.trigger_contacts.end());
     ctx.scratch.crossings.clear();
     for (const std::int32_t index : order)
     {
@@ -292,7 +244,7 @@ void update_triggers(StepContext& ctx)
         if ((contact.flags & contact_flag::touching) == 0 && !boxes_meet(state, contact.shape_a, contact.shape_b))
             destroy_contact(ctx.scene, index, ctx.scene.events, ctx.dt);
     }
-    CrossingTeller(ctx).run();
+    tell_crossings(ctx);
 }
 
 } // namespace carom::internal

@@ -12,6 +12,9 @@ namespace carom::internal {
 /// Gathers what the units recorded into Scratch::paths, body by body.
 void gather_paths(StepContext& ctx);
 
+/// Around all that a body has covered since something first threw it off its way.
+[[nodiscard]] FloatBox deflected_box(const StepContext& ctx, int body);
+
 class BodyPath
 {
 public:
@@ -28,14 +31,15 @@ public:
 
 private:
     void follow_chord(const StepContext& ctx, int body);
+    void lead_to(const PathPiece& first);
     [[nodiscard]] bool ends_there(std::span<const PathPiece> pieces, double tolerance) const;
 
     double m_dt;
     bool m_moves = false;
     BodyPose m_start;
     BodyPose m_end;
+    FramePath m_chord{}; ///< until the first piece
     std::span<const PathPiece> m_pieces;
-    PathPiece m_chord{}; ///< stands for the pieces of what nothing was recorded of
 };
 
 } // namespace carom::internal

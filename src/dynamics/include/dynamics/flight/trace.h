@@ -1,6 +1,7 @@
 #pragma once
 
-// What bodies near triggers do within a step is written down as it happens: triggers.cpp finds there when they came and went.
+// What bodies do within a step is written down as it happens, of those near triggers and of those that flight has thrown off their way:
+// triggers.cpp finds there when they came and went.
 
 #include "dynamics/flight/motion.h"
 
