@@ -5,6 +5,7 @@
 #include "geometry/bounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace carom::internal {
@@ -58,17 +59,32 @@ BodyPath::BodyPath(const StepContext& ctx, int body) : m_dt(static_cast<double>(
     m_chord.local_center = m_start.local_center;
     if (!moved)
         return;
-    m_moves = m_start.center != m_end.center || m_start.rotation != m_end.rotation;
     const std::span<const PathPiece> pieces = recorded(ctx, body);
     if (pieces.empty() || !ends_there(pieces, 0.01 * static_cast<double>(sim.size)))
     {
         follow_chord(ctx, body);
-        return;
     }
-    m_moves = true; // there may be nothing but a way to and fro
-    m_pieces = pieces;
-    if (pieces.front().start > 0)
-        lead_to(pieces.front());
+    else
+    {
+        m_pieces = pieces;
+        if (pieces.front().start > 0)
+            lead_to(pieces.front());
+    }
+    measure(static_cast<double>(sim.extent));
+}
+
+void BodyPath::measure(double extent)
+{
+    const auto way = [&](const FramePath& p, double time)
+    {
+        const double speed = std::hypot(p.center.vx, p.center.vy) + 0.5 * time * std::hypot(p.center.ax, p.center.ay);
+        const double turn = std::fabs(p.w) + 0.5 * time * std::fabs(p.alpha);
+        const double arm = static_cast<double>(length(p.local_center - m_start.local_center));
+        return time * (speed + turn * (extent + arm));
+    };
+    m_reach = way(m_chord, m_pieces.empty() ? m_dt : m_pieces.front().start);
+    for (std::size_t i = 0; i < m_pieces.size(); ++i)
+        m_reach += way(m_pieces[i].path, (i + 1 < m_pieces.size() ? m_pieces[i + 1].start : m_dt) - m_pieces[i].start);
 }
 
 // From pose to pose, straight and evenly turning: the very path of a kinematic body.

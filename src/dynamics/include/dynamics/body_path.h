@@ -23,7 +23,8 @@ public:
     [[nodiscard]] const BodyPose& start() const { return m_start; }
     /// As committed; the last piece ends near it.
     [[nodiscard]] const BodyPose& end() const { return m_end; }
-    [[nodiscard]] bool moves() const { return m_moves; }
+    /// No point of the body comes farther from where it set out, m.
+    [[nodiscard]] double reach() const { return m_reach; }
     /// From a time of the step on, until next_bend; relative to the center at the start.
     [[nodiscard]] FramePath from(double time) const;
     /// The first bend after a time; the end of the step, where none comes.
@@ -32,10 +33,11 @@ public:
 private:
     void follow_chord(const StepContext& ctx, int body);
     void lead_to(const PathPiece& first);
+    void measure(double extent);
     [[nodiscard]] bool ends_there(std::span<const PathPiece> pieces, double tolerance) const;
 
     double m_dt;
-    bool m_moves = false;
+    double m_reach = 0;
     BodyPose m_start;
     BodyPose m_end;
     FramePath m_chord{}; ///< until the first piece
