@@ -95,25 +95,28 @@ private:
             pass(part, *in, out && *out > *in ? *out : out_of_one_sided(part, *in));
     }
 
-    // In and out on one part; by a rounding at its ends, perhaps not at all. At the top of a throw it may be outside between two passages.
+    // In and out on one part; by a rounding at its ends, perhaps not at all.
     void pass(const Part& part, double in, double out)
     {
         if (out <= in)
             return;
-        const double middle = 0.5 * (in + out);
-        if (out - in > 1e-6 * m_dt && !is_inside(part, middle))
-        {
-            follow({part.start, middle, part.a, part.b}, false);
-            follow(rest_of(part, middle), false);
-            return;
-        }
         cross(part.start + in);
+        come_out_half_way(part, 0.5 * (in + out));
         cross(part.start + out);
     }
 
-    [[nodiscard]] static Part rest_of(const Part& part, double from)
+    // At the top of a throw it may be outside between two passages.
+    void come_out_half_way(const Part& part, double middle)
     {
-        return {part.start + from, part.length - from, path_after(part.a, from), path_after(part.b, from)};
+        if (is_inside(part, middle))
+            return;
+        const std::optional<double> out = last_touch_on({part.start, middle, part.a, part.b});
+        const std::optional<double> in =
+            first_touch_on({part.start + middle, part.length - middle, path_after(part.a, middle), path_after(part.b, middle)});
+        if (!in || !out || *out >= middle || *in <= 0)
+            return;
+        cross(part.start + *out);
+        cross(part.start + middle + *in);
     }
 
     // What goes through a line that only one side of is solid is out of it in the middle, where nothing touches.

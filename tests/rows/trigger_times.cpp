@@ -203,6 +203,33 @@ TEST(Row07_TriggerTimes, AChainIsOneTrigger)
     }
 }
 
+// Across the seam of two leaves, at their outer and at their inner corner.
+TEST(Row07_TriggerTimes, AcrossTheCornerOfAChain)
+{
+    for (const float v : {1.0f, 30.0f, 900.0f})
+        for (const double y : {0.0, 0.03, -0.03, 0.049})
+            for (const float side : {1.0f, -1.0f})
+            {
+                SCOPED_TRACE(std::to_string(v) + " at " + std::to_string(y) + " from " + std::to_string(side));
+                Scene scene(weightless());
+                add_static(scene, Chain{.start = {0.5f, 1}, .pieces = {{.end = {0, 0}}, {.end = {0.5f, -1}}}}, {.trigger = true});
+                add_dynamic(scene, {-0.3 * static_cast<double>(side), y}, Circle{.radius = 0.05f}, {}, {side * v, 0});
+                const Passages seen = watch(scene, static_cast<int>(60 / v) + 2);
+                // On the left it meets the corner, or, farther from the middle, the flank x = |y| / 2; on the right always the flank.
+                const double slant = std::sqrt(1.25);
+                const double beside = 0.05 * slant;
+                const bool meets_flank = std::fabs(y) > 0.05 * 0.5 / slant;
+                const double left = meets_flank ? 0.5 * std::fabs(y) - beside : -std::sqrt(0.05 * 0.05 - y * y);
+                const double right = 0.5 * std::fabs(y) + beside;
+                const double far = 0.3;
+                const auto speed = static_cast<double>(v);
+                const double in = side > 0 ? left + far : far - right;
+                const double out = side > 0 ? right + far : far - left;
+                expect_times(seen.enters, {in / speed}, 2e-6, "enter");
+                expect_times(seen.exits, {out / speed}, 2e-6, "exit");
+            }
+}
+
 // The way of a box that is stopped by a kinematic wall and thrown back goes through the trigger twice.
 TEST(Row07_TriggerTimes, ABoxThrownBack)
 {
