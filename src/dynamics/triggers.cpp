@@ -91,8 +91,8 @@ private:
             cross(part.start + (in ? *in : halved(part, 0, length)));
         else if (m_inside)
             cross(part.start + (out ? *out : halved(part, 0, length)));
-        else if (in)
-            pass(part, *in, out && *out > *in ? *out : out_of_one_sided(part, *in));
+        else if (in || out)
+            pass(part, in ? *in : other_moment(part, *out, 0), out ? *out : other_moment(part, *in, length));
     }
 
     // In and out on one part; by a rounding at its ends, perhaps not at all.
@@ -119,11 +119,19 @@ private:
         cross(part.start + middle + *in);
     }
 
-    // What goes through a line that only one side of is solid is out of it in the middle, where nothing touches.
-    [[nodiscard]] double out_of_one_sided(const Part& part, double in) const
+    // What goes through a line that only one side of is solid touches it once; the other moment is when its middle goes through, on the way to
+    // that end of the part.
+    [[nodiscard]] double other_moment(const Part& part, double touch, double end) const
     {
-        const double after = in + 1e-3 * (part.length - in);
-        return is_inside(part, after) ? halved(part, after, part.length) : in;
+        const bool one_sided = m_state.shapes[m_contact.shape_a].leaf.sides != Sides::Both ||
+                               m_state.shapes[m_contact.shape_b].leaf.sides != Sides::Both;
+        for (double share = 1e-6; one_sided && share < 1; share *= 10)
+        {
+            const double inside = touch + share * (end - touch);
+            if (is_inside(part, inside))
+                return halved(part, inside, end);
+        }
+        return touch;
     }
 
     // --- looking --------------------------------------------------------------------------------------------------------------------

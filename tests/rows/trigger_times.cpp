@@ -230,6 +230,23 @@ TEST(Row07_TriggerTimes, AcrossTheCornerOfAChain)
             }
 }
 
+// Of a line with one solid side, the visitor's middle has to be on that side.
+TEST(Row07_TriggerTimes, ALineWithOneSide)
+{
+    for (const float v : {1.0f, 40.0f, 900.0f})
+        for (const float way : {1.0f, -1.0f})
+        {
+            SCOPED_TRACE(std::to_string(v) + " towards " + std::to_string(way));
+            Scene scene(weightless());
+            add_static(scene, Segment{{0, -1}, {0, 1}, 0, Sides::Left}, {.trigger = true}); // left of upwards: x < 0
+            add_dynamic(scene, {-0.3 * static_cast<double>(way), 0}, Circle{.radius = 0.1f}, {}, {way * v, 0});
+            const Passages seen = watch(scene, static_cast<int>(60 / v) + 2);
+            const auto speed = static_cast<double>(v);
+            expect_times(seen.enters, {(way > 0 ? 0.2 : 0.3) / speed}, 2e-6, "enter");
+            expect_times(seen.exits, {(way > 0 ? 0.3 : 0.4) / speed}, 2e-6, "exit");
+        }
+}
+
 // The way of a box that is stopped by a kinematic wall and thrown back goes through the trigger twice.
 TEST(Row07_TriggerTimes, ABoxThrownBack)
 {
