@@ -9,10 +9,13 @@
 #include "dynamics/joint_solver.h"
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
+#include "dynamics/springs.h"
 #include "dynamics/stages.h"
+#include "dynamics/tree_energy.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace carom::internal {
 
@@ -29,6 +32,7 @@ void UnitOutput::clear()
     deferred.clear();
     kicked_shapes.clear();
     path.clear();
+    last_piece.clear();
     poses.clear();
     flight_impacts = 0;
     bulk_impacts = 0;
@@ -36,6 +40,8 @@ void UnitOutput::clear()
 }
 
 namespace {
+
+constexpr int turns = 3;
 
 class UnitSolver
 {
@@ -62,17 +68,48 @@ private:
     {
         raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
+        std::optional<TreeEnergy> energy;
+        if (m_unit.dynamic_count <= TreeEnergy::most_bodies && !m_joints.empty())
+            energy.emplace(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count);
         integrate_velocities();
         warm_start_all();
         predict_bends();
         solve(true);
         integrate_positions();
+        if (is_direct() && m_output.direct->turns_too_far())
+            close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
+        kick_springs_after(m_view, m_ctx.state, m_joints);
         guard_cores();
-        advance_fliers(m_ctx, m_unit, k, m_output);
+        fly(k, energy);
         refresh_round_rows();
+        prepare_direct();
         solve(false);
+        restore(energy);
         bounce(k);
         finish_substep(k);
+    }
+
+    void fly(int k, std::optional<TreeEnergy>& energy)
+    {
+        if (m_unit.flier_count == 0)
+        {
+            trace_paths(m_ctx, m_unit, k, m_output);
+            return;
+        }
+        if (energy)
+            energy->before_impacts();
+        advance_fliers(m_ctx, m_unit, k, m_output);
+        if (energy)
+            energy->after_impacts();
+    }
+
+    void restore(std::optional<TreeEnergy>& energy)
+    {
+        if (!energy)
+            return;
+        energy->note_rows(m_rows);
+        energy->note_rows(late_rows());
+        energy->restore(is_direct());
     }
 
     // What is kept for the next step's warm start is of a whole sub-step.
@@ -126,20 +163,41 @@ private:
 
     void warm_start_all()
     {
-        apply_springs(m_view, m_ctx.state, m_joints);
-        warm_start_joints(m_view, m_ctx.state, m_joints);
+        kick_springs_before(m_view, m_ctx.state, m_joints);
+        prepare_direct();
+        if (!m_joints.empty())
+            warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
 
+    // At the present pose.
+    void prepare_direct()
+    {
+        if (m_joints.empty())
+            return;
+        if (!m_output.direct)
+            m_output.direct = std::make_unique<DirectSolve>();
+        m_output.direct->prepare(m_view, m_ctx.state, m_joints);
+    }
+    [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
+
+    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word.
     void solve(bool use_bias)
     {
-        solve_joints(m_view, m_ctx.state, m_joints, m_ctx.joint_hertz, use_bias);
-        solve_rows(m_view, m_rows, use_bias);
-        solve_rows(m_view, late_rows(), use_bias);
+        const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
+        for (int turn = 0; turn < (alternate ? turns : 1); ++turn)
+        {
+            if (!m_joints.empty())
+                solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
+            solve_rows(m_view, m_rows, use_bias);
+            solve_rows(m_view, late_rows(), use_bias);
+        }
+        if (alternate)
+            m_output.direct->solve(use_bias);
     }
 
-    // x += h v. What no row or joint touches moves along its exact parabola: the mean of the velocities before and after.
+    // x += h v
     void integrate_positions()
     {
         for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
@@ -147,9 +205,7 @@ private:
             BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
             if ((s.flags & body_flag::flier) != 0)
                 continue;
-            s.delta_position += m_ctx.h * s.velocity;
-            if ((s.flags & body_flag::unbound) != 0)
-                s.delta_position -= (0.5f * m_ctx.h * m_ctx.h) * m_scratch.constants[static_cast<std::size_t>(i)].acceleration;
+            s.delta_position += drift(m_view, i);
             if (s.angular_velocity != 0)
                 s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
         }
@@ -293,9 +349,12 @@ private:
 
     void bounce(int k)
     {
+        const int before = m_output.bulk_impacts;
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
+        if (is_direct() && m_output.bulk_impacts != before)
+            m_output.direct->keep_together();
     }
 
     void bounce_row(ContactRow& row, int k)

@@ -76,9 +76,15 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
     }
 }
 
+void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    if (unit.traced)
+        trace_all(FlightSpan(ctx, unit, k, output));
+}
+
 void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
 {
-    if (unit.flier_count == 0 && !unit.traced)
+    if (unit.flier_count == 0)
         return;
     const FlightSpan span(ctx, unit, k, output);
     for (Flier& f : span.fliers())

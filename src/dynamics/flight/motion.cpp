@@ -57,9 +57,17 @@ double turning_acceleration(const FlightSpan& span, const Flier& f, double angle
     return torque * f.inverse_inertia;
 }
 
-namespace {
+void fall_freely(const FlightSpan& span, Flier& f)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
+    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
+    f.alpha = turning_acceleration(span, f, f.angle);
+    f.held_count = 0;
+    f.constrained = false;
+}
 
-constexpr double at_limit = 1e-7; // rad
+namespace {
 
 // A limit that the acceleration presses against and that nothing leaves holds the body still.
 bool leans_on_limit(const Flier& f)
@@ -69,22 +77,13 @@ bool leans_on_limit(const Flier& f)
     return low || high;
 }
 
-} // namespace
-
-namespace {
-
 void clear_substep(const FlightSpan& span, Flier& f)
 {
-    const StateConstants& c = span.constants_of(f.state);
-    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
-    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
-    f.alpha = turning_acceleration(span, f, f.angle);
+    fall_freely(span, f);
     f.impacts = 0;
     f.impulse_x = f.impulse_y = f.turn_impulse = 0;
     f.start_w = f.w;
-    f.held_count = 0;
     f.rests = false;
-    f.constrained = false;
     const CenterMotion center = center_of(f);
     f.start_vx = center.vx;
     f.start_vy = center.vy;
@@ -143,7 +142,8 @@ void follow_parabola(Flier& f, double t)
     f.vy += t * f.ay;
 }
 
-// Only along what does not give way: of two that lean on each other each takes the other's momentum. Slow against what the forces do, a turn of the velocity means nothing.
+// Only along what does not give way: of two that lean on each other each takes the other's momentum. Slow against what the forces do, a turn
+// of the velocity means nothing.
 bool is_led(const Flier& f, double t)
 {
     return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < f.vx * f.vx + f.vy * f.vy;
@@ -214,10 +214,7 @@ void take_off(const FlightSpan& span, Flier& f, double time)
                   .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
     drop_rows(span.output.late_rows);
     if (f.joint != none)
-    {
-        JointRecord& joint = span.state.joints[f.joint];
-        std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f);
-    }
+        forget_impulses(span.state.joints[f.joint]);
     clear_substep(span, f);
     f.time = time;
 }

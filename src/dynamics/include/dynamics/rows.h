@@ -79,17 +79,23 @@ struct ContactRow
     RowPoint points[2];
 };
 
+/// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
+struct SpringKick
+{
+    float stretch = 0;
+    float speed = 0;
+    float acceleration = 0;
+};
+
 /// A joint in the solver: its record and the states of its bodies.
 struct JointWork
 {
     std::int32_t joint = none;
     std::int32_t a = 0;
     std::int32_t b = 0;
-    std::int32_t spring_count = 0; ///< springs on the body that has most, where this is one
-    float spring_speed = 0;        ///< a spring's impulse: mass (these · speed, -stretch, acceleration)
-    float spring_stretch = 0;
-    float spring_acceleration = 0;
-    Vec2 ra0{}; ///< anchors from the centers of mass at the start of the step, world axes
+    SpringKick before{}; ///< of a spring, before the bodies move
+    SpringKick after{};  ///< and after
+    Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};           ///< slider's axis at the start of the step
     Vec2 gap0{};            ///< anchor b - anchor a at the start of the step
