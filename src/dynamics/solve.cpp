@@ -11,7 +11,7 @@
 #include "dynamics/prepare.h"
 #include "dynamics/springs.h"
 #include "dynamics/stages.h"
-#include "dynamics/tree_energy.h"
+#include "dynamics/unit_energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,34 @@ void UnitOutput::clear()
 namespace {
 
 constexpr int turns = 3;
+constexpr float follow_turn = 0.03f; // rad
+
+// Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
+void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
+{
+    RowPoint points[2];
+    bool taken[2] = {};
+    for (int i = 0; i < fresh.count; ++i)
+    {
+        for (int j = 0; j < row.count; ++j)
+        {
+            const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && row.count == 1);
+            if (!same || taken[j])
+                continue;
+            points[i] = row.points[j];
+            taken[j] = true;
+            break;
+        }
+    }
+    for (int j = 0; j < row.count; ++j)
+    {
+        if (taken[j])
+            continue;
+        points[0].total_impulse += row.points[j].total_impulse;
+        points[0].total_tangent += row.points[j].total_tangent;
+    }
+    std::copy(std::begin(points), std::end(points), std::begin(row.points));
+}
 
 class UnitSolver
 {
@@ -68,9 +96,10 @@ private:
     {
         raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
-        std::optional<TreeEnergy> energy;
-        if (m_unit.dynamic_count <= TreeEnergy::most_bodies && !m_joints.empty())
-            energy.emplace(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count);
+        std::optional<UnitEnergy> energy;
+        if (m_unit.precise || (m_unit.dynamic_count <= UnitEnergy::most_bodies && !m_joints.empty()))
+            energy.emplace(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
+                           0.1f * m_ctx.scene.tolerances.slop);
         integrate_velocities();
         warm_start_all();
         predict_bends();
@@ -81,15 +110,18 @@ private:
         kick_springs_after(m_view, m_ctx.state, m_joints);
         guard_cores();
         fly(k, energy);
-        refresh_round_rows();
+        refresh_rows();
         prepare_direct();
         solve(false);
-        restore(energy);
-        bounce(k);
+        if (energy)
+            energy->note_load(m_rows, late_rows());
+        const bool kicked = bounce(k);
+        if (energy && !kicked)
+            energy->restore(is_direct());
         finish_substep(k);
     }
 
-    void fly(int k, std::optional<TreeEnergy>& energy)
+    void fly(int k, std::optional<UnitEnergy>& energy)
     {
         if (m_unit.flier_count == 0)
         {
@@ -101,15 +133,6 @@ private:
         advance_fliers(m_ctx, m_unit, k, m_output);
         if (energy)
             energy->after_impacts();
-    }
-
-    void restore(std::optional<TreeEnergy>& energy)
-    {
-        if (!energy)
-            return;
-        energy->note_rows(m_rows);
-        energy->note_rows(late_rows());
-        energy->restore(is_direct());
     }
 
     // What is kept for the next step's warm start is of a whole sub-step.
@@ -310,12 +333,36 @@ private:
         p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
     }
 
-    void refresh_round_rows()
+    void refresh_rows()
     {
-        for (ContactRow& row : m_rows)
-            refresh_row(row);
-        for (ContactRow& row : late_rows())
-            refresh_row(row);
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (ContactRow& row : rows)
+            {
+                if (row.followed != 0)
+                    follow(row);
+                else
+                    refresh_row(row);
+            }
+        }
+    }
+
+    // Corners and edges that have turned face each other elsewhere. (Rows without points are of bodies that have taken off.)
+    void follow(ContactRow& row)
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        if (row.count == 0 || (!has_turned(row.turn_a, a.delta_rotation) && !has_turned(row.turn_b, b.delta_rotation)))
+            return;
+        Manifold fresh = manifold_of(row.contact, row, 0);
+        carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
+        set_row_geometry(m_scratch, row, fresh);
+        m_ctx.state.contacts[row.contact].manifold = fresh;
+    }
+
+    [[nodiscard]] static bool has_turned(Rotation from, Rotation to)
+    {
+        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > follow_turn;
     }
 
     void refresh_row(ContactRow& row)
@@ -347,14 +394,17 @@ private:
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------
 
-    void bounce(int k)
+    // True where something kicked.
+    bool bounce(int k)
     {
         const int before = m_output.bulk_impacts;
+        const std::size_t kicks = m_output.kicked_shapes.size();
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
             m_output.direct->keep_together();
+        return m_output.kicked_shapes.size() != kicks;
     }
 
     void bounce_row(ContactRow& row, int k)

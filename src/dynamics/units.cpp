@@ -11,7 +11,7 @@
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/stages.h"
-#include "dynamics/tree_energy.h"
+#include "dynamics/unit_energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -248,7 +248,7 @@ struct Builder
         {
             if (state.joints.is_live(j))
                 slice(state.joints[j].body_a, state.joints[j].body_b, swing_rate(state.joints[j]), slice_swing,
-                      TreeEnergy::most_bodies);
+                      UnitEnergy::most_bodies);
         }
     }
 
@@ -608,7 +608,7 @@ struct Builder
         const std::int32_t b = state_for(unit, contact.body_b);
         scratch.rows.push_back(prepare_row(unit_ctx, index, contact.manifold, a, b));
         ContactRow& row = scratch.rows.back();
-        row.refreshed = unit.precise && (contact.flags & contact_flag::round) != 0;
+        follow_closely(contact, unit, row);
         if ((contact.flags & contact_flag::loaded) == 0)
             scratch.impact_rows.push_back(static_cast<std::int32_t>(scratch.rows.size()) - 1);
         scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;

@@ -691,6 +691,9 @@ private:
     {
         const bool firm = m_state.bodies[m_state.shapes[h.other].body].type != BodyType::Dynamic;
         f.led = firm && (f.led || f.held_count == 0);
+        const bool still = m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Static &&
+                           m_state.shapes[h.other].surface_speed == 0 && m_state.shapes[h.own].surface_speed == 0;
+        f.on_still = still && (f.on_still || f.held_count == 0);
         if (f.held_count < Flier::most_held)
             f.held[f.held_count++] = h;
     }

@@ -149,15 +149,48 @@ bool is_led(const Flier& f, double t)
     return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < f.vx * f.vx + f.vy * f.vy;
 }
 
+// Twice the energy of motion, less what the free acceleration gives along the way: what a still surface may only take from.
+double energy_of(const FlightSpan& span, const Flier& f)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    double energy = 0;
+    const auto add = [&](double inverse_mass, double speed, float acceleration, double way)
+    {
+        if (inverse_mass > 0)
+            energy += (speed * speed - 2 * static_cast<double>(acceleration) * way) / inverse_mass;
+    };
+    add(f.inverse_mass_x, f.vx, c.acceleration.x, f.x);
+    add(f.inverse_mass_y, f.vy, c.acceleration.y, f.y);
+    add(f.inverse_inertia, f.w, c.angular_acceleration, f.angle);
+    return energy;
+}
+
+void take_gain(const FlightSpan& span, Flier& f, double before)
+{
+    const double gain = energy_of(span, f) - before;
+    const auto twice = [](double inverse_mass, double speed) { return inverse_mass > 0 ? speed * speed / inverse_mass : 0; };
+    const double moving = twice(f.inverse_mass_x, f.vx) + twice(f.inverse_mass_y, f.vy) + twice(f.inverse_inertia, f.w);
+    if (gain <= 0 || moving <= 0)
+        return;
+    const double by = std::sqrt(std::max(moving - gain, 0.0) / moving);
+    f.vx *= by;
+    f.vy *= by;
+    f.w *= by;
+}
+
 } // namespace
 
 void advance(const FlightSpan& span, Flier& f, double time)
 {
     const double t = time - f.time;
+    const bool is_kept = f.held_count > 0 && f.on_still && f.joint == none;
+    const double before = is_kept ? energy_of(span, f) : 0;
     is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
     f.angle += t * (f.w + 0.5 * t * f.alpha);
     f.w += t * f.alpha;
     f.time = time;
+    if (is_kept)
+        take_gain(span, f, before);
     if (f.joint == none || f.constrained || t == 0)
         return;
     const double there = turning_acceleration(span, f, f.angle);

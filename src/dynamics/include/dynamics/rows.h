@@ -71,8 +71,11 @@ struct ContactRow
     float rolling = 0;  ///< torque limit over normal impulse, m
     float rolling_impulse = 0;
     float rolling_mass = 0;
-    float core = 0;               ///< half the radius of a ball against what does not give way; 0 elsewhere
+    float core = 0;    ///< half the radius of a ball against what does not give way; 0 elsewhere
+    Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
+    Rotation turn_b{};
     std::uint8_t refreshed = 0;   ///< looked at anew in every sub-step
+    std::uint8_t followed = 0;    ///< looked at anew when a body has turned
     std::uint8_t hit = 0;         ///< its impact was reported
     std::uint8_t active_from = 0; ///< first sub-step in which it counts
     Softness softness{};
@@ -161,6 +164,7 @@ struct Flier
     std::int32_t held_count = 0;
     bool rests = false;    ///< against something that gives way
     bool led = false;      ///< what holds it does not give way
+    bool on_still = false; ///< what holds it does not move at all, nor does its surface
     double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 
     // The next event, as last computed.
