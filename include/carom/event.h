@@ -59,7 +59,7 @@ struct ImpactEvent
     float kick_speed = 0;       ///< added separating speed, m/s
 };
 
-/// A shape came into or went out of a trigger shape.
+/// A shape came into or went out of a trigger shape. The time is that of the true path; a pair may come and go several times in a step.
 struct TriggerEvent
 {
     ShapeId trigger{};

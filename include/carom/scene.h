@@ -58,6 +58,9 @@ struct SceneDef
 {
     Vec2 gravity{0, -9.81f}; ///< m/s²
     /// Size of a typical moving object, m, > 0. Sets every tolerance: a tenth to ten times this size simulates well.
+    /// The slop is 0.005 of it, 5 mm at 1: shapes nearer than that touch (and part at twice that), and what flies freely may overlap
+    /// by that much. Overlap of what rests does not come from it but from the load on soft contacts (contact_hertz): with boxes of 1 m,
+    /// 0.04 mm under one and 3 mm under nine. It grows with the load's acceleration, not with length_scale.
     float length_scale = 1;
     int substeps = 4;             ///< per step, 1 to 64
     float fixed_step = 1.0f / 60; ///< what update() steps by, s, > 0

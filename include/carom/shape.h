@@ -28,6 +28,9 @@ enum class Sides : std::uint8_t
     Right,
 };
 
+// Coordinates, radii and the bend of chains are at most 1e8 m; mass and moment of inertia of a shape are 0 or from 1e-35 to 1e35.
+// A scene refuses what goes beyond.
+
 struct Circle
 {
     Vec2 center{};       ///< m
@@ -160,7 +163,7 @@ struct ShapeDef
     bool yields_material = false;
     Filter filter{};
     bool trigger = false; ///< passes through everything and reports enter, inside, exit; gives the body no mass
-    Field field{};        ///< triggers only
+    Field field{};        ///< triggers only: refused on other shapes
     std::uint64_t user_data = 0;
 };
 

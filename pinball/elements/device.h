@@ -61,6 +61,8 @@ public:
 protected:
     /// Notes a hit for counting and drawing, and reports it.
     void report_hit(Playfield& field, GameEvent event);
+    /// As above, for a ball that struck; the speed is what the event tells.
+    void report_strike(Playfield& field, EventKind kind, const Ball& ball, const Strike& strike, float speed);
 
 private:
     Index m_index;

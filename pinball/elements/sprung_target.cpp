@@ -43,12 +43,7 @@ public:
     void on_strike(Playfield& field, Ball& ball, const Strike& strike) override
     {
         if (strike.impulse >= m_min_impulse)
-            report_hit(field, {.kind = EventKind::Hit,
-                               .point = strike.point,
-                               .normal = strike.normal,
-                               .impulse = strike.impulse,
-                               .speed = strike.speed,
-                               .ball = ball.state.serial});
+            report_strike(field, EventKind::Hit, ball, strike, strike.speed);
     }
 
     void after_step(Playfield& field) override

@@ -19,12 +19,7 @@ public:
     void on_strike(Playfield& field, Ball& ball, const Strike& strike) override
     {
         if (strike.speed >= m_min_speed)
-            report_hit(field, {.kind = EventKind::Hit,
-                               .point = strike.point,
-                               .normal = strike.normal,
-                               .impulse = strike.impulse,
-                               .speed = strike.speed,
-                               .ball = ball.state.serial});
+            report_strike(field, EventKind::Hit, ball, strike, strike.speed);
     }
 
 private:
@@ -47,12 +42,7 @@ public:
             return;
         state.down = true;
         field.scene().body(m_body).set_enabled(false);
-        report_hit(field, {.kind = EventKind::Fell,
-                           .point = strike.point,
-                           .normal = strike.normal,
-                           .impulse = strike.impulse,
-                           .speed = strike.speed,
-                           .ball = ball.state.serial});
+        report_strike(field, EventKind::Fell, ball, strike, strike.speed);
     }
 
     void after_step(Playfield& field) override

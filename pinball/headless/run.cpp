@@ -36,8 +36,8 @@ HeadlessRun::HeadlessRun(const Table& table, std::uint64_t seed) : m_table(table
 void HeadlessRun::new_session()
 {
     Random seeds(m_seed + static_cast<std::uint64_t>(m_sessions++));
-    m_game.emplace(m_table, Options{.seed = seeds.next()});
-    m_player.emplace(m_table, seeds.next());
+    m_game.emplace(m_table, Options{.seed = seeds.bits()});
+    m_player.emplace(m_table, seeds.bits());
     m_judge.emplace(m_table);
     m_stats.new_session();
     m_captive_homes.clear();

@@ -337,6 +337,30 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
 
 } // namespace
 
+FramePath path_after(const FramePath& path, double time)
+{
+    FramePath later = path;
+    CenterPath& c = later.center;
+    c.x += time * (c.vx + 0.5 * time * c.ax);
+    c.y += time * (c.vy + 0.5 * time * c.ay);
+    c.vx += time * c.ax;
+    c.vy += time * c.ay;
+    const SinCos q = rotation_at(path, time);
+    later.c = q.cos;
+    later.s = q.sin;
+    later.w += time * path.alpha;
+    return later;
+}
+
+FramePath run_back(const FramePath& path)
+{
+    FramePath back = path;
+    back.center.vx = -path.center.vx;
+    back.center.vy = -path.center.vy;
+    back.w = -path.w;
+    return back;
+}
+
 double probe_size(const LeafView& v)
 {
     const Leaf& leaf = *v.leaf;

@@ -32,6 +32,7 @@ void UnitOutput::clear()
     deferred.clear();
     kicked_shapes.clear();
     path.clear();
+    last_piece.clear();
     poses.clear();
     flight_impacts = 0;
     bulk_impacts = 0;
@@ -123,7 +124,10 @@ private:
     void fly(int k, std::optional<UnitEnergy>& energy)
     {
         if (m_unit.flier_count == 0)
+        {
+            trace_paths(m_ctx, m_unit, k, m_output);
             return;
+        }
         if (energy)
             energy->before_impacts();
         advance_fliers(m_ctx, m_unit, k, m_output);
@@ -602,6 +606,7 @@ void solve_units(StepContext& ctx)
         scratch.outputs.resize(scratch.units.size());
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
         scratch.outputs[i].clear();
+    mark_traced(ctx);
     // Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
     std::vector<std::int32_t>& starts = scratch.order;
     starts.assign(1, 0);

@@ -1,195 +1,275 @@
-// Triggers: what is inside, and when it came and went. The visitor's path over the step is a few straight pieces (a ball's path bends at its
-// impacts); on each piece the first touch of the trigger is found by advancing no farther than the gap allows, so that nothing thin is
-// missed by something fast. Leaving is arriving on the path run backwards.
+// Triggers: what is inside, and when it came and went. Both bodies' ways through the step are pieces on which their paths are known exactly
+// (flight/trace.h); on each piece the visitor comes in when the two first touch (collision/time_of_impact.h), and has gone out when they
+// first touch on the piece run backwards. Whether it is inside at the ends of a piece says the contact manifold there, and that is what
+// counts: where rounding or a one-sided line hides the moment from the search, it is found between the two by halving.
+//
+// What leaves and comes back within one piece, as the corner of something that turns may, has been inside all the time, unless it is outside
+// half way.
 
 #include "collision/time_of_impact.h"
-#include "core/trigonometry.h"
-#include "dynamics/body_store.h"
+#include "dynamics/body_path.h"
 #include "dynamics/contact_store.h"
-#include "dynamics/contact_update.h"
+#include "dynamics/crossings.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
+#include "geometry/bounds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace carom::internal {
 
 namespace {
 
-/// A body's way through a part of the step: from one pose to another, straight and evenly turning.
-struct Piece
+BodyPose pose_on(const FramePath& path, const Position& origin)
 {
-    float start = 0;
-    float end = 0;
-    Position from{};
-    Position to{};
-};
-
-/// Pose at a time of the step, for a body that has no corners in its path.
-BodyPose pose_along(const StepContext& ctx, int body, float time)
-{
-    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    if (ctx.state.bodies[body].type == BodyType::Static || !is_awake(ctx.state, body))
-        return {sim.center, sim.rotation, sim.local_center};
-    const float t = ctx.dt > 0 ? time / ctx.dt : 1;
-    const Rotation turn = sim.rotation * inverse(sim.previous_rotation);
-    const float angle = turn.s != 0 ? static_cast<float>(arc_tangent(turn.s, turn.c)) : 0;
-    return {sim.previous_center + t * (sim.center - sim.previous_center), Rotation::from_angle(t * angle) * sim.previous_rotation,
-            sim.local_center};
+    return {{origin.x + path.center.x, origin.y + path.center.y},
+            {static_cast<float>(path.c), static_cast<float>(path.s)},
+            path.local_center};
 }
+
+/// A part of the step in which neither body's path bends; the paths are relative to where a set out.
+struct Part
+{
+    double start;
+    double length;
+    FramePath a;
+    FramePath b;
+};
 
 class TriggerUpdate
 {
 public:
     TriggerUpdate(StepContext& ctx, int contact)
-        : m_ctx(ctx), m_state(ctx.state), m_index(contact), m_contact(ctx.state.contacts[contact])
+        : m_ctx(ctx), m_state(ctx.state), m_index(contact), m_contact(ctx.state.contacts[contact]), m_a(ctx, m_contact.body_a),
+          m_b(ctx, m_contact.body_b), m_dt(static_cast<double>(ctx.dt)), m_inside((m_contact.flags & contact_flag::touching) != 0)
     {}
 
     void run()
     {
-        const bool was_inside = (m_contact.flags & contact_flag::touching) != 0;
-        const bool is_inside = separation(m_ctx.dt) <= 0;
-        if (!was_inside)
-        {
-            const float enter = is_inside && !may_cross() ? m_ctx.dt : first_touch(false);
-            if (is_inside || enter <= m_ctx.dt)
-                enter_at(std::min(enter, m_ctx.dt));
-        }
-        if (!is_inside && (m_contact.flags & contact_flag::touching) != 0)
-            end_touch(m_ctx.scene, m_index, m_ctx.scene.events, std::clamp(m_ctx.dt - first_touch(true), 0.0f, m_ctx.dt));
         m_contact.flags &= ~contact_flag::fresh;
+        const double reach = m_a.reach() + m_b.reach();
+        const bool far_out = boxes_are_apart(reach);
+        const float separation = far_out ? 1 : separation_of(m_a.start(), m_b.start());
+        expect(separation <= 0, 0); // made, moved or changed between the steps
+        const bool far_in = static_cast<double>(separation) < -2 * reach;
+        if (far_out || far_in || reach == 0)
+            return;
+        follow_paths();
+        expect(is_inside(m_a.end(), m_b.end()), m_dt);
     }
 
 private:
-    void enter_at(float time)
+    void follow_paths()
     {
-        m_contact.flags |= contact_flag::touching;
-        if (touches_elsewhere(m_state, m_index))
+        for (double t = 0; t < m_dt;)
+        {
+            const double next = std::min(m_a.next_bend(t), m_b.next_bend(t));
+            const Part part = part_between(t, next);
+            follow(part, next < m_dt ? is_inside(part, part.length) : is_inside(m_a.end(), m_b.end()));
+            t = next;
+        }
+    }
+
+    [[nodiscard]] Part part_between(double start, double end) const
+    {
+        Part part{start, end - start, m_a.from(start), m_b.from(start)};
+        part.b.center.x += m_b.start().center.x - m_a.start().center.x;
+        part.b.center.y += m_b.start().center.y - m_a.start().center.y;
+        return part;
+    }
+
+    void follow(const Part& part, bool ends_inside)
+    {
+        if (m_inside && ends_inside)
             return;
-        m_ctx.scene.events.enters.push_back({shape_id(m_state, m_contact.shape_a), shape_id(m_state, m_contact.shape_b),
-                                             body_id(m_state, m_contact.body_a), body_id(m_state, m_contact.body_b), time});
+        const double length = part.length;
+        const std::optional<double> in = m_inside ? std::nullopt : first_touch_on(part);
+        const std::optional<double> out = ends_inside ? std::nullopt : last_touch_on(part);
+        if (ends_inside)
+            cross(part.start + (in ? *in : halved(part, 0, length)));
+        else if (m_inside)
+            cross(part.start + (out ? *out : halved(part, 0, length)));
+        else if (in || out)
+            pass(part, in ? *in : other_moment(part, *out, 0), out ? *out : other_moment(part, *in, length));
     }
 
-    [[nodiscard]] float motion() const
+    // In and out on one part; by a rounding at its ends, perhaps not at all.
+    void pass(const Part& part, double in, double out)
     {
-        float sum = 0;
-        for (const int body : {m_contact.body_a, m_contact.body_b})
+        if (out <= in)
+            return;
+        cross(part.start + in);
+        come_out_half_way(part, 0.5 * (in + out));
+        cross(part.start + out);
+    }
+
+    // At the top of a throw it may be outside between two passages.
+    void come_out_half_way(const Part& part, double middle)
+    {
+        if (is_inside(part, middle))
+            return;
+        const std::optional<double> out = last_touch_on({part.start, middle, part.a, part.b});
+        const std::optional<double> in =
+            first_touch_on({part.start + middle, part.length - middle, path_after(part.a, middle), path_after(part.b, middle)});
+        if (!in || !out || *out >= middle || *in <= 0)
+            return;
+        cross(part.start + *out);
+        cross(part.start + middle + *in);
+    }
+
+    // What goes through a line that only one side of is solid touches it once; the other moment is when its middle goes through, on the way to
+    // that end of the part.
+    [[nodiscard]] double other_moment(const Part& part, double touch, double end) const
+    {
+        const bool one_sided = m_state.shapes[m_contact.shape_a].leaf.sides != Sides::Both ||
+                               m_state.shapes[m_contact.shape_b].leaf.sides != Sides::Both;
+        for (double share = 1e-6; one_sided && share < 1; share *= 10)
         {
-            if (!is_awake(m_state, body))
-                continue;
-            const BodySim& sim = m_state.sims[static_cast<std::size_t>(body)];
-            const Rotation turn = sim.rotation * inverse(sim.previous_rotation);
-            sum += length(sim.center - sim.previous_center) +
-                   sim.extent * std::fabs(static_cast<float>(arc_tangent(turn.s, turn.c)));
+            const double inside = touch + share * (end - touch);
+            if (is_inside(part, inside))
+                return halved(part, inside, end);
         }
-        for (const PathPoint& p : path())
-            sum += static_cast<float>(std::fabs(p.x) + std::fabs(p.y));
-        return sum;
+        return touch;
     }
-    [[nodiscard]] bool may_cross() const { return motion() > 0; }
 
-    // Corners of the visitor's path, of a ball that hit something in this step.
-    [[nodiscard]] std::vector<PathPoint> path() const
+    // --- looking --------------------------------------------------------------------------------------------------------------------
+
+    [[nodiscard]] float separation_of(const BodyPose& a, const BodyPose& b) const
     {
-        std::vector<PathPoint> points;
-        const int place = m_state.bodies[m_contact.body_b].awake_index;
-        if (place == none || static_cast<std::size_t>(place) >= m_ctx.scratch.unit_of.size())
-            return points;
-        const std::int32_t unit = m_ctx.scratch.unit_of[static_cast<std::size_t>(place)];
-        if (unit == none)
-            return points;
-        for (const PathPoint& p : m_ctx.scratch.outputs[static_cast<std::size_t>(unit)].path)
+        return least_separation(world_manifold(m_state, m_contact, a, b, 0));
+    }
+    [[nodiscard]] bool is_inside(const BodyPose& a, const BodyPose& b) const { return separation_of(a, b) <= 0; }
+
+    // The leaves' boxes at the start, too far for this step.
+    [[nodiscard]] bool boxes_are_apart(double reach) const
+    {
+        const Box a = leaf_bounds(leaf_view(m_state, m_contact.shape_a), m_a.start().frame());
+        const Box b = leaf_bounds(leaf_view(m_state, m_contact.shape_b), m_b.start().frame());
+        return std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, a.lower.y - b.upper.y, b.lower.y - a.upper.y}) > reach;
+    }
+
+    [[nodiscard]] bool is_inside(const Part& part, double time) const
+    {
+        const Position& origin = m_a.start().center;
+        return is_inside(pose_on(path_after(part.a, time), origin), pose_on(path_after(part.b, time), origin));
+    }
+
+    [[nodiscard]] std::optional<double> touch_time(const FramePath& a, const FramePath& b, double length) const
+    {
+        const Leaf leaf_a = free_standing(m_contact.shape_a);
+        const Leaf leaf_b = free_standing(m_contact.shape_b);
+        const std::optional<Touch> touch = first_touch(view(leaf_a, m_state.vertices), a, view(leaf_b, m_state.vertices), b,
+                                                       length, 1e-6 * static_cast<double>(m_ctx.scene.def.length_scale));
+        return touch ? std::optional(touch->time) : std::nullopt;
+    }
+
+    // A chain's leaf leaves some directions at its ends to the next one; what it covers itself is the whole of it.
+    [[nodiscard]] Leaf free_standing(std::int32_t shape) const
+    {
+        Leaf leaf = m_state.shapes[shape].leaf;
+        leaf.has_previous = leaf.has_next = false;
+        return leaf;
+    }
+
+    [[nodiscard]] std::optional<double> first_touch_on(const Part& part) const { return touch_time(part.a, part.b, part.length); }
+
+    [[nodiscard]] std::optional<double> last_touch_on(const Part& part) const
+    {
+        const std::optional<double> back =
+            touch_time(run_back(path_after(part.a, part.length)), run_back(path_after(part.b, part.length)), part.length);
+        return back ? std::optional(std::max(part.length - *back, 0.0)) : std::nullopt;
+    }
+
+    // The visitor is on the other side at the end than at the start, where `m_inside` counts, whatever rounding says.
+    [[nodiscard]] double halved(const Part& part, double from, double to) const
+    {
+        const bool before = is_inside(part, from);
+        if (before == is_inside(part, to))
+            return before == m_inside ? to : from;
+        for (int i = 0; i < 50; ++i)
         {
-            if (p.body == m_contact.body_b)
-                points.push_back(p);
+            const double middle = 0.5 * (from + to);
+            (is_inside(part, middle) == before ? from : to) = middle;
         }
-        return points;
+        return to;
     }
 
-    [[nodiscard]] BodyPose visitor_at(float time) const
+    // --- telling --------------------------------------------------------------------------------------------------------------------
+
+    void expect(bool inside, double time)
     {
-        BodyPose pose = pose_along(m_ctx, m_contact.body_b, time);
-        const std::vector<PathPoint> corners = path();
-        if (corners.empty())
-            return pose;
-        const BodySim& sim = m_state.sims[static_cast<std::size_t>(m_contact.body_b)];
-        Piece piece{0, m_ctx.dt, sim.previous_center, sim.center};
-        for (const PathPoint& p : corners)
-        {
-            const Position corner{sim.previous_center.x + p.x, sim.previous_center.y + p.y};
-            if (p.time <= time)
-            {
-                piece.start = p.time;
-                piece.from = corner;
-            }
-            else
-            {
-                piece.end = p.time;
-                piece.to = corner;
-                break;
-            }
-        }
-        const float t = piece.end > piece.start ? (time - piece.start) / (piece.end - piece.start) : 0;
-        pose.center = piece.from + t * (piece.to - piece.from);
-        return pose;
+        if (inside != m_inside)
+            cross(time);
     }
 
-    [[nodiscard]] float separation(float time) const
+    void cross(double time)
     {
-        const Manifold m = world_manifold(m_state, m_contact, pose_along(m_ctx, m_contact.body_a, time), visitor_at(time), 3e38f);
-        return least_separation(m);
-    }
-
-    // The first time from the start (or, backwards, from the end) at which the two touch; beyond the step where they do not.
-    // A gap closes no faster than the whole motion of both bodies in the step allows, several corners included.
-    [[nodiscard]] float first_touch(bool backwards) const
-    {
-        const float travelled = motion();
-        const float beyond = 2 * m_ctx.dt;
-        if (!(travelled > 0))
-            return beyond;
-        const float speed = (1 + static_cast<float>(path().size())) * travelled / m_ctx.dt;
-        const float nearest = 1e-3f * m_ctx.scene.tolerances.slop;
-        const float least_step = 1e-4f * m_ctx.dt;
-        float t = 0;
-        for (int i = 0; i < 400 && t <= m_ctx.dt; ++i)
-        {
-            const float gap = separation(backwards ? m_ctx.dt - t : t);
-            // What only touches and moves away has not come in.
-            const float after = std::min(t + least_step, m_ctx.dt);
-            if (gap <= nearest && separation(backwards ? m_ctx.dt - after : after) < std::max(gap, 0.0f))
-                return t;
-            t += std::max(std::min(gap, travelled) / speed, least_step);
-        }
-        return beyond;
+        m_inside = !m_inside;
+        m_contact.flags ^= contact_flag::touching;
+        m_ctx.scratch.crossings.push_back({m_index, m_state.shapes[m_contact.shape_a].owner,
+                                           m_state.shapes[m_contact.shape_b].owner,
+                                           static_cast<std::int32_t>(m_ctx.scratch.crossings.size()), time, m_inside});
     }
 
     StepContext& m_ctx;
     SceneState& m_state;
     int m_index;
     Contact& m_contact;
+    BodyPath m_a;
+    BodyPath m_b;
+    double m_dt;
+    bool m_inside;
 };
 
+// What has moved or is new, of sound bodies: the others are about to be put aside.
+bool needs_update(const StepContext& ctx, const Contact& contact)
+{
+    const bool moves = is_awake(ctx.state, contact.body_a) || is_awake(ctx.state, contact.body_b);
+    const auto is_unsound = [&](int body)
+    { return std::find(ctx.scratch.unsound.begin(), ctx.scratch.unsound.end(), body) != ctx.scratch.unsound.end(); };
+    return (moves || (contact.flags & contact_flag::fresh) != 0) && !is_unsound(contact.body_a) && !is_unsound(contact.body_b);
+}
+
 } // namespace
+
+void mark_traced(StepContext& ctx)
+{
+    const SceneState& state = ctx.state;
+    Scratch& scratch = ctx.scratch;
+    for (const std::int32_t index : state.trigger_contacts)
+    {
+        for (const int body : {state.contacts[index].body_a, state.contacts[index].body_b})
+        {
+            const int place = state.bodies[body].awake_index;
+            if (place == none || state.bodies[body].type != BodyType::Dynamic)
+                continue;
+            scratch.states[static_cast<std::size_t>(scratch.state_of[static_cast<std::size_t>(place)])].flags |=
+                body_flag::traced;
+            scratch.units[static_cast<std::size_t>(scratch.unit_of[static_cast<std::size_t>(place)])].traced = true;
+        }
+    }
+}
 
 void update_triggers(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     std::vector<std::int32_t>& order = ctx.scratch.order;
+    gather_paths(ctx);
+    find_deflected_pairs(ctx);
     order.assign(state.trigger_contacts.begin(), state.trigger_contacts.end());
+    ctx.scratch.crossings.clear();
     for (const std::int32_t index : order)
     {
-        Contact& contact = state.contacts[index];
-        const bool moves = is_awake(state, contact.body_a) || is_awake(state, contact.body_b);
-        if (!moves && (contact.flags & contact_flag::fresh) == 0)
+        const Contact& contact = state.contacts[index];
+        if (!needs_update(ctx, contact))
             continue;
         TriggerUpdate(ctx, index).run();
         if ((contact.flags & contact_flag::touching) == 0 && !boxes_meet(state, contact.shape_a, contact.shape_b))
             destroy_contact(ctx.scene, index, ctx.scene.events, ctx.dt);
     }
+    tell_crossings(ctx);
 }
 
 } // namespace carom::internal

@@ -3,6 +3,7 @@
 #include "carom/scene.h"
 #include "dynamics/body_store.h"
 #include "dynamics/wake.h"
+#include "geometry/limits.h"
 #include "geometry/surface.h"
 #include "scene/access.h"
 
@@ -31,6 +32,8 @@ bool check_curve(const Checker& check, const RestitutionCurve& curve)
     return true;
 }
 
+bool is_field(const Field& field) { return field.force != Vec2{} || field.acceleration != Vec2{} || field.drag != 0; }
+
 bool check_def(const char* function, const ShapeDef& def)
 {
     const Checker check{function};
@@ -40,7 +43,16 @@ bool check_def(const char* function, const ShapeDef& def)
            check.finite("ShapeDef::surface_speed", def.surface_speed) && check.finite("ShapeDef::one_way", def.one_way) &&
            check.not_negative("Kick::speed", def.kick.speed) && check.not_negative("Kick::threshold", def.kick.threshold) &&
            check.not_negative("Kick::cooldown", def.kick.cooldown) && check.finite("Field::force", def.field.force) &&
-           check.finite("Field::acceleration", def.field.acceleration) && check.not_negative("Field::drag", def.field.drag);
+           check.finite("Field::acceleration", def.field.acceleration) && check.not_negative("Field::drag", def.field.drag) &&
+           check.holds(def.trigger || !is_field(def.field), "ShapeDef::field", "set on a shape that is not a trigger",
+                       "acts inside triggers only");
+}
+
+// A shape as a scene takes it; normalizes it.
+bool check_geometry(const char* function, Geometry& geometry, const ShapeDef& def)
+{
+    return normalize_geometry(function, geometry) && check_reach(function, geometry) &&
+           (def.trigger || check_mass(function, geometry, def.density));
 }
 
 // What the body's type allows.
@@ -192,7 +204,7 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     const int body_slot = slot_of(body);
     Geometry normal = geometry;
     if (!check_def(function, def) || !check_placement(*m_data, function, body_slot, geometry) ||
-        !normalize_geometry(function, normal))
+        !check_geometry(function, normal, def))
         return {};
     SceneState& state = m_data->state;
     ShapeRecord record;
@@ -337,10 +349,13 @@ bool ConstShape::contains(Position point) const
 
 void Shape::set_def(const ShapeDef& def)
 {
-    if (!check_live(*m_data, "Shape::set_def", "shape", m_id) || !check_def("Shape::set_def", def))
+    constexpr const char* function = "Shape::set_def";
+    if (!check_live(*m_data, function, "shape", m_id) || !check_def(function, def))
         return;
     SceneState& state = m_data->state;
     const int slot = slot_of(m_id);
+    if (!def.trigger && !check_mass(function, m_data->shape_extras[static_cast<std::size_t>(slot)].geometry, def.density))
+        return;
     const ShapeRecord old = state.shapes[slot];
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
     const bool meets_others = old.filter != def.filter || old.trigger != def.trigger;
@@ -371,7 +386,8 @@ void Shape::set_geometry(const Geometry& geometry)
     const int slot = slot_of(m_id);
     const int body = m_data->state.shapes[slot].body;
     Geometry normal = geometry;
-    if (!check_placement(*m_data, function, body, geometry) || !normalize_geometry(function, normal))
+    if (!check_placement(*m_data, function, body, geometry) ||
+        !check_geometry(function, normal, read_def(m_data->state.shapes[slot], 0)))
         return;
     remove_leaves(*m_data, slot);
     add_leaves(*m_data, slot, normal);

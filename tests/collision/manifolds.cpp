@@ -6,16 +6,16 @@ using namespace carom;
 using namespace carom::test;
 using namespace carom::internal;
 
-TEST(CollisionManifold, CircleCircle) { check_pair(LeafType::Circle, LeafType::Circle); }
-TEST(CollisionManifold, CirclePolygon) { check_pair(LeafType::Circle, LeafType::Polygon); }
-TEST(CollisionManifold, CircleCapsule) { check_pair(LeafType::Circle, LeafType::Capsule); }
-TEST(CollisionManifold, CircleSegment) { check_pair(LeafType::Circle, LeafType::Segment); }
-TEST(CollisionManifold, CircleHalfSpace) { check_pair(LeafType::Circle, LeafType::HalfSpace); }
-TEST(CollisionManifold, PolygonPolygon) { check_pair(LeafType::Polygon, LeafType::Polygon); }
-TEST(CollisionManifold, PolygonSegment) { check_pair(LeafType::Polygon, LeafType::Segment); }
-TEST(CollisionManifold, PolygonHalfSpace) { check_pair(LeafType::Polygon, LeafType::HalfSpace); }
-TEST(CollisionManifold, CapsuleHalfSpace) { check_pair(LeafType::Capsule, LeafType::HalfSpace); }
-TEST(CollisionManifold, SegmentHalfSpace) { check_pair(LeafType::Segment, LeafType::HalfSpace); }
+TEST(CollisionManifold, PairsOfConvexLeaves)
+{
+    using enum LeafType;
+    const std::pair<LeafType, LeafType> pairs[] = {
+        {Circle, Circle},   {Circle, Polygon},    {Circle, Capsule},  {Circle, Segment},    {Circle, HalfSpace},
+        {Polygon, Polygon}, {Polygon, Capsule},   {Polygon, Segment}, {Polygon, HalfSpace}, {Capsule, Capsule},
+        {Capsule, Segment}, {Capsule, HalfSpace}, {Segment, Segment}, {Segment, HalfSpace}};
+    for (const auto& [a, b] : pairs)
+        check_pair(a, b);
+}
 
 // A circle and an arc: the distance to the curve itself, sampled.
 TEST(CollisionManifold, CircleArc)
@@ -45,4 +45,20 @@ TEST(CollisionManifold, CircleArc)
         }
     }
     EXPECT_GT(hits, 1000);
+}
+
+TEST(CollisionManifold, CapsulesInLine)
+{
+    for (const Geometry& other : {Geometry{Capsule{}}, Geometry{Segment{{-0.5f, 0}, {0.5f, 0}, 0.25f}}})
+        for (const float gap : {0.05f, -0.01f})
+        {
+            VertexStore store;
+            const Leaf a = make_leaves(Capsule{}, store)[0];
+            const Leaf b = make_leaves(other, store)[0];
+            const LocalManifold m = collide(view(a, store), view(b, store), {{1.5f + gap, 0}, {}}, 0.1f);
+            ASSERT_EQ(m.count, 1);
+            EXPECT_NEAR(m.points[0].separation, gap, 1e-5);
+            EXPECT_NEAR(m.normal.x, 1, 1e-5);
+            EXPECT_EQ(collide(view(a, store), view(b, store), {{1.7f, 0}, {}}, 0.1f).count, 0);
+        }
 }

@@ -38,3 +38,42 @@ TEST(ContractQuarantine, ABodyMadeNonFiniteIsPutAsideAndTheWorldGoesOn)
     steps(scene, 60);
     EXPECT_NEAR(scene.body(mad.body).position().y, 0.5, 0.01) << "it may come back";
 }
+
+TEST(ContractQuarantine, HugeForcesAndNeighboursInContact)
+{
+    for (const Geometry& geometry : {Geometry{box(0.5f, 0.5f)}, Geometry{Circle{}}})
+    {
+        Scene scene(sleepless());
+        add_static(scene, HalfSpace{});
+        const Thing low = add_dynamic(scene, {0, 0.5}, geometry);
+        const Thing high = add_dynamic(scene, {0, 1.5}, geometry);
+        const Thing aside = add_dynamic(scene, {9, 0.5}, geometry);
+        steps(scene, 30);
+        for (int i = 0; i < 4; ++i)
+        {
+            scene.body(high.body).apply_force({0, -3e38f});
+            scene.body(high.body).apply_torque(3e38f);
+            scene.step(1.0f / 60);
+        }
+        steps(scene, 30);
+        for (const Thing& t : {low, high, aside})
+        {
+            const Position p = scene.body(t.body).position();
+            EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+            EXPECT_TRUE(std::isfinite(scene.body(t.body).velocity().y));
+        }
+        EXPECT_TRUE(scene.body(aside.body).is_enabled());
+        EXPECT_NEAR(scene.body(aside.body).position().y, 0.5, 0.02);
+        // The scene can still be asked and stepped.
+        EXPECT_NO_THROW(static_cast<void>(scene.overlap_point({9, 0.5})));
+    }
+}
+
+TEST(ContractQuarantine, FarAwayIsNotNonFinite)
+{
+    Scene scene(sleepless());
+    const Thing fast = add_dynamic(scene, {0, 0}, Circle{}, {}, {1e18f, 0});
+    for (int i = 0; i < 60; ++i)
+        EXPECT_NO_THROW(scene.step(1.0f / 60));
+    EXPECT_TRUE(std::isfinite(scene.body(fast.body).position().x));
+}

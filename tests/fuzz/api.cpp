@@ -158,7 +158,8 @@ ShapeDef shape_def(Choices& c)
     def.kick = {.speed = c.flag() ? 0 : c.amount(), .threshold = c.amount(), .cooldown = c.amount()};
     def.filter.group = c.below(3) - 1;
     def.trigger = c.below(4) == 0;
-    def.field = {.force = c.flag() ? Vec2{} : c.vec(), .acceleration = {}, .drag = c.flag() ? 0 : c.amount()};
+    if (def.trigger || c.below(8) == 0) // elsewhere it is refused
+        def.field = {.force = c.flag() ? Vec2{} : c.vec(), .acceleration = {}, .drag = c.flag() ? 0 : c.amount()};
     return def;
 }
 

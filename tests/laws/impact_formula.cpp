@@ -82,10 +82,10 @@ enum class Kind
 
 struct Pair
 {
-    BodyId a;
-    BodyId b;
-    ShapeId shape_a;
-    ShapeId shape_b;
+    BodyId a{};
+    BodyId b{};
+    ShapeId shape_a{};
+    ShapeId shape_b{};
     D2 point;
     D2 normal; // from a to b
     double e = 0;
@@ -107,72 +107,71 @@ void give_mass(Scene& scene, BodyId id, Random& random, bool off_center)
         {.mass = m, .center = off_center ? random.vec(0.3) : Vec2{}, .inertia = m * random.rangef(0.05, 0.6)});
 }
 
-// Both shapes touch at `point`, but for a gap of a few roundings; a's surface has the outward normal n there.
-Pair make_pair(Scene& scene, Random& random, Kind kind, Side side_a, Side side_b, double gap)
+// One of the two shapes of a pair: its frame lies where its surface goes through the common point.
+struct Half
 {
-    Pair pair;
-    pair.kind = kind;
-    const double theta = random.range(-3.1, 3.1);
+    Geometry geometry{};
+    D2 at;
+    double angle = 0;
+};
+
+// Turned by theta, with its surface's outward normal there.
+Half lower_half(Random& random, Kind kind, D2 point, double theta)
+{
     const D2 n = turned(theta, {0, 1});
     const D2 t = turned(theta, {1, 0});
-    const D2 point{random.range(-2, 2), random.range(-2, 2)};
-    const double ea = random.range(0, 1);
-    const double eb = random.range(0, 1);
-    pair.e = 0.5 * (static_cast<double>(static_cast<float>(ea)) + static_cast<double>(static_cast<float>(eb)));
+    const auto place = [&](const Geometry& geometry, double height, double reach)
+    {
+        const double offset = reach > 0 ? random.range(-reach, reach) : 0; // along the face
+        return Half{geometry, point + -height * n + -offset * t, theta};
+    };
+    switch (kind)
+    {
+    case Kind::CircleCircle:
+    case Kind::CircleCapsule: return place(Circle{.radius = 0.5f}, 0.5, 0);
+    case Kind::CapsuleCapsule: return place(Capsule{{-0.75f, 0}, {0.75f, 0}, 0.25f, 0.25f}, 0.25, 0.6);
+    default: return place(box(1, 0.5f), 0.5, 0.8);
+    }
+}
 
-    // a: its surface point lies `down` along -n from the frame's origin turned by theta; b: hangs above.
-    double offset_a = 0; // along t, from a's origin to the point
-    double height_a = 0; // along n
-    Geometry ga;
-    if (kind == Kind::CircleCircle || kind == Kind::CircleCapsule)
-    {
-        ga = Circle{.radius = 0.5f};
-        height_a = 0.5;
-    }
-    else if (kind == Kind::CapsuleCapsule)
-    {
-        ga = Capsule{{-0.75f, 0}, {0.75f, 0}, 0.25f, 0.25f};
-        height_a = 0.25;
-        offset_a = random.range(-0.6, 0.6);
-    }
-    else
-    {
-        ga = box(1, 0.5f);
-        height_a = 0.5;
-        offset_a = random.range(-0.8, 0.8);
-    }
-    const D2 at_a = point + -height_a * n + -offset_a * t;
-    Geometry gb;
-    double angle_b = theta;
-    D2 at_b;
+// A circle, a box on its corner, or a capsule with one round end down.
+Half upper_half(Random& random, Kind kind, D2 point, double theta)
+{
+    const D2 n = turned(theta, {0, 1});
     if (kind == Kind::CircleCircle || kind == Kind::CircleFace)
+        return {Circle{.radius = 0.25f}, point + 0.25 * n, theta};
+    if (kind == Kind::CornerFace)
     {
-        gb = Circle{.radius = 0.25f};
-        at_b = point + 0.25 * n;
+        const double angle = theta + 0.7853981633974483 + random.range(-0.5, 0.5);
+        return {box(0.5f, 0.5f), point + -1.0 * turned(angle, {-0.5, -0.5}), angle};
     }
-    else if (kind == Kind::CornerFace)
-    {
-        gb = box(0.5f, 0.5f);
-        angle_b = theta + 0.7853981633974483 + random.range(-0.5, 0.5);
-        at_b = point + -1.0 * turned(angle_b, {-0.5, -0.5});
-    }
-    else
-    { // a capsule, one round end down
-        gb = Capsule{{0, 0}, {0, 1}, 0.25f, 0.125f};
-        angle_b = theta + random.range(-0.9, 0.9);
-        at_b = point + 0.25 * n;
-    }
-    at_b = at_b + gap * n;
-    const auto body = [&](Side side, D2 at, double angle)
-    { return scene.create_body({.type = side.type, .position = {at.x, at.y}, .angle = static_cast<float>(angle)}); };
-    pair.a = body(side_a, at_a, theta);
-    pair.b = body(side_b, at_b, angle_b);
-    pair.shape_a = scene.create_shape(pair.a, ga, {.friction = 0, .restitution = static_cast<float>(ea)});
-    pair.shape_b = scene.create_shape(pair.b, gb, {.friction = 0, .restitution = static_cast<float>(eb)});
+    const double angle = theta + random.range(-0.9, 0.9);
+    return {Capsule{{0, 0}, {0, 1}, 0.25f, 0.125f}, point + 0.25 * n, angle};
+}
+
+BodyId add_half(Scene& scene, const Half& half, Side side)
+{
+    return scene.create_body({.type = side.type, .position = {half.at.x, half.at.y}, .angle = static_cast<float>(half.angle)});
+}
+
+// Both shapes touch at a random point, but for a gap of a few roundings.
+Pair make_pair(Scene& scene, Random& random, Kind kind, Side side_a, Side side_b, double gap)
+{
+    const double theta = random.range(-3.1, 3.1);
+    const D2 point{random.range(-2, 2), random.range(-2, 2)};
+    const float ea = random.rangef(0, 1);
+    const float eb = random.rangef(0, 1);
+    const D2 n = turned(theta, {0, 1});
+    const Half a = lower_half(random, kind, point, theta);
+    Half b = upper_half(random, kind, point, theta);
+    b.at = b.at + gap * n;
+    Pair pair{.point = point, .normal = n, .e = 0.5 * (static_cast<double>(ea) + static_cast<double>(eb)), .kind = kind};
+    pair.a = add_half(scene, a, side_a);
+    pair.b = add_half(scene, b, side_b);
+    pair.shape_a = scene.create_shape(pair.a, a.geometry, {.friction = 0, .restitution = ea});
+    pair.shape_b = scene.create_shape(pair.b, b.geometry, {.friction = 0, .restitution = eb});
     give_mass(scene, pair.a, random, side_a.off_center);
     give_mass(scene, pair.b, random, side_b.off_center);
-    pair.point = point;
-    pair.normal = n;
     return pair;
 }
 

@@ -25,7 +25,7 @@ std::span<const Arrangement> arrangements()
         {"BallAtTurningBar", 4000, ball_at_turning_bar},
         {"Drum", 3000, drum, false},
         {"FlipperChamber", 4000, flipper_chamber, false},
-        {"ThroughTrigger", 4000, ball_through_trigger, false},
+        {"ThroughTrigger", 4000, ball_through_trigger},
         {"Crowd", 4000, crowd, false},
         {"Pile", 3000, pile, false},
         {"PendulumStruck", 3000, pendulum_struck, false},

@@ -109,49 +109,23 @@ void build_pile(Trial& trial, double size, double floor, const std::function<voi
         }
 }
 
+void in_room(Trial& trial, const Piece& piece, Room (*pick)(Random&, double))
+{
+    const double inner = room_for(trial.random, piece);
+    in_room(trial, piece, pick(trial.random, inner));
+}
+
+Piece any_ball(Trial& trial) { return make_ball(pick_size(trial.random)); }
+Piece any_long_piece(Trial& trial) { return pick_long_piece(trial.random, pick_size(trial.random)); }
+
 } // namespace
 
-void ball_in_room(Trial& trial)
-{
-    const Piece ball = make_ball(pick_size(trial.random));
-    const double inner = room_for(trial.random, ball);
-    in_room(trial, ball, pick_polygon_room(trial.random, inner));
-}
-
-void ball_in_round_room(Trial& trial)
-{
-    const Piece ball = make_ball(pick_size(trial.random));
-    const double inner = room_for(trial.random, ball);
-    in_room(trial, ball, pick_round_room(trial.random, inner));
-}
-
-void ball_in_wedge(Trial& trial)
-{
-    const Piece ball = make_ball(pick_size(trial.random));
-    const double inner = room_for(trial.random, ball);
-    in_room(trial, ball, pick_wedge_room(trial.random, inner));
-}
-
-void piece_in_room(Trial& trial)
-{
-    const Piece piece = pick_long_piece(trial.random, pick_size(trial.random));
-    const double inner = room_for(trial.random, piece);
-    in_room(trial, piece, pick_polygon_room(trial.random, inner));
-}
-
-void piece_in_round_room(Trial& trial)
-{
-    const Piece piece = pick_long_piece(trial.random, pick_size(trial.random));
-    const double inner = room_for(trial.random, piece);
-    in_room(trial, piece, pick_round_room(trial.random, inner));
-}
-
-void piece_in_wedge(Trial& trial)
-{
-    const Piece piece = pick_long_piece(trial.random, pick_size(trial.random));
-    const double inner = room_for(trial.random, piece);
-    in_room(trial, piece, pick_wedge_room(trial.random, inner));
-}
+void ball_in_room(Trial& trial) { in_room(trial, any_ball(trial), pick_polygon_room); }
+void ball_in_round_room(Trial& trial) { in_room(trial, any_ball(trial), pick_round_room); }
+void ball_in_wedge(Trial& trial) { in_room(trial, any_ball(trial), pick_wedge_room); }
+void piece_in_room(Trial& trial) { in_room(trial, any_long_piece(trial), pick_polygon_room); }
+void piece_in_round_room(Trial& trial) { in_room(trial, any_long_piece(trial), pick_round_room); }
+void piece_in_wedge(Trial& trial) { in_room(trial, any_long_piece(trial), pick_wedge_room); }
 
 void drum(Trial& trial)
 {

@@ -93,7 +93,7 @@ void pendulum_struck(Trial& trial)
 {
     Random& random = trial.random;
     const double rb = pick_size(random);
-    const double rs = std::clamp(rb * log_uniform(random, 0.4, 2.5), 0.005, 1.0);
+    const double rs = pick_size_near(random, rb);
     const bool weightless = random.chance(0.5);
     Scene& scene = trial.open(std::sqrt(rb * rs), weightless ? Point{} : Point{0, -9.81});
     const double rod = rb * random.range(1.2, 8);

@@ -17,6 +17,27 @@ struct Pair
     Point velocity{}; // of b seen from a
 };
 
+// Two pieces of like size, and how b comes towards a.
+struct Couple
+{
+    Piece a;
+    Piece b;
+    double speed = 0;
+    Point along{};
+};
+
+Couple open_couple(Trial& trial, Piece (*pick)(Random&, double))
+{
+    Random& random = trial.random;
+    const double reach = pick_size(random);
+    Couple c{pick(random, reach), {}};
+    c.b = pick_piece(random, pick_size_near(random, reach));
+    trial.open(std::sqrt(c.a.reach * c.b.reach), {});
+    c.speed = pick_speed(random);
+    c.along = pick_direction(random);
+    return c;
+}
+
 // Places b so that it comes towards a with the velocity; both drift along with something of their own.
 Pair send(Trial& trial, const Piece& a, double angle_a, const Piece& b, double angle_b, Point apart, Point velocity, bool turning)
 {
@@ -78,7 +99,7 @@ void ball_pair(Trial& trial)
 {
     Random& random = trial.random;
     const double ra = pick_size(random);
-    const double rb = std::clamp(ra * log_uniform(random, 0.4, 2.5), 0.005, 1.0);
+    const double rb = pick_size_near(random, ra);
     trial.open(std::sqrt(ra * rb), {});
     const double speed = pick_speed(random);
     const Point along = pick_direction(random);
@@ -93,12 +114,7 @@ void ball_pair(Trial& trial)
 void straight_pair(Trial& trial)
 {
     Random& random = trial.random;
-    const double reach = pick_size(random);
-    const Piece a = pick_piece(random, reach);
-    const Piece b = pick_piece(random, std::clamp(reach * log_uniform(random, 0.4, 2.5), 0.005, 1.0));
-    trial.open(std::sqrt(a.reach * b.reach), {});
-    const double speed = pick_speed(random);
-    const Point along = pick_direction(random);
+    const auto [a, b, speed, along] = open_couple(trial, pick_piece);
     const double angle_a = random.range(-M_PI, M_PI);
     const double angle_b = random.range(-M_PI, M_PI);
     const Point aside = random.range(-0.8, 0.8) * (a.inner + b.inner) * turned_left(along);
@@ -115,12 +131,7 @@ void straight_pair(Trial& trial)
 void spinning_pair(Trial& trial)
 {
     Random& random = trial.random;
-    const double reach = pick_size(random);
-    const Piece a = pick_long_piece(random, reach);
-    const Piece b = pick_piece(random, std::clamp(reach * log_uniform(random, 0.4, 2.5), 0.005, 1.0));
-    trial.open(std::sqrt(a.reach * b.reach), {});
-    const double speed = pick_speed(random);
-    const Point along = pick_direction(random);
+    const auto [a, b, speed, along] = open_couple(trial, pick_long_piece);
     const double inner = a.inner + b.inner;
     const double outer = 1.001 * (a.reach + b.reach);
     const double aside = random.range(-0.5, 0.5) * inner;

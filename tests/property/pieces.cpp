@@ -61,6 +61,7 @@ float fraction(Random& random)
 }
 
 double pick_size(Random& random) { return log_uniform(random, 0.005, 1); }
+double pick_size_near(Random& random, double size) { return std::clamp(size * log_uniform(random, 0.4, 2.5), 0.005, 1.0); }
 double pick_speed(Random& random) { return log_uniform(random, 0.001, 1000); }
 Point pick_direction(Random& random) { return direction(random.range(-M_PI, M_PI)); }
 double pick_sign(Random& random, double positive) { return random.chance(positive) ? 1 : -1; }

@@ -21,6 +21,8 @@ struct Piece
 [[nodiscard]] float fraction(Random& random);
 /// 5 mm to 1 m, each decade as likely.
 [[nodiscard]] double pick_size(Random& random);
+/// Two fifths to two and a half times the size, 5 mm to 1 m.
+[[nodiscard]] double pick_size_near(Random& random, double size);
 /// 0.001 to 1,000 m/s, each decade as likely.
 [[nodiscard]] double pick_speed(Random& random);
 [[nodiscard]] Point pick_direction(Random& random);

@@ -103,7 +103,8 @@ Meeting first_meeting(const Outline& mover, Point v, const Outline& target, doub
     const double speed = norm(v);
     const double radii = mover.radius + target.radius;
     double t = 0;
-    for (int i = 0; i < 400 && t <= time; ++i)
+    // 400 looks are enough but for ways almost along a side: one in 100,000.
+    for (int i = 0; i < 20000 && t <= time; ++i)
     {
         const Nearest nearest = nearest_of_cores(moved(mover, t * v, 0), target);
         const double gap = nearest.distance - radii;

@@ -113,7 +113,8 @@ void ball_through_trigger(Trial& trial)
     const double length = (passage.exit - passage.enter) * speed;
     passage = {gap / speed, (gap + length) / speed, speed, trial.slop()};
     pick_steps(trial, gap + (random.chance(0.7) ? length : 0), speed, 6);
-    shoot(trial, visitor, at, u + speed * along);
+    const BodyId shot = shoot(trial, visitor, at, u + speed * along);
+    trial.scene().body(shot).set_can_sleep(false); // a slow one would stop on its way
     trial.story << "enters at " << passage.enter << " s, exits at " << passage.exit << " s; ";
     expect_passage(trial, passage, is_ball);
 }

@@ -77,7 +77,7 @@ TEST(Row12_Booster, MovesNeitherKinematicNorStaticBodies)
 
 TEST(Row13_Bouncer, KicksAboveTheThresholdOnly)
 {
-    for (const Geometry& geometry : {Geometry{Circle{.radius = 0.25f}}})
+    for (const Geometry& geometry : {Geometry{Circle{.radius = 0.25f}}, Geometry{box(0.25f, 0.25f)}})
         for (const float v : {0.5f, 0.9f, 1.1f, 4.0f})
         {
             SCOPED_TRACE("v " + std::to_string(v) + " shape " + std::to_string(geometry.index()));

@@ -4,38 +4,24 @@
 /// Scenes in a line, random numbers from a fixed seed, and the few numbers that many tests ask for.
 
 #include "carom/scene.h"
+#include "scenes/random.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 namespace carom::test {
 
-/// splitmix64: the same numbers everywhere.
-class Random
+/// The same numbers everywhere.
+class Random : public SplitMix64
 {
 public:
-    explicit Random(std::uint64_t seed) : m_state(seed) {}
-
-    std::uint64_t bits()
-    {
-        std::uint64_t x = m_state += 0x9e3779b97f4a7c15u;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-        return x ^ (x >> 31);
-    }
-    double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+    using SplitMix64::SplitMix64;
     double range(double low, double high) { return low + (high - low) * unit(); }
     float rangef(double low, double high) { return static_cast<float>(range(low, high)); }
-    /// From 0 to n - 1.
-    int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
     bool chance(double p) { return unit() < p; }
     Vec2 vec(double size) { return {rangef(-size, size), rangef(-size, size)}; }
-
-private:
-    std::uint64_t m_state;
 };
 
 struct Thing

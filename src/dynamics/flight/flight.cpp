@@ -8,6 +8,7 @@
 #include "dynamics/flight/impact.h"
 #include "dynamics/flight/landing.h"
 #include "dynamics/flight/next_event.h"
+#include "dynamics/flight/trace.h"
 
 namespace carom::internal {
 
@@ -47,7 +48,10 @@ void process(const FlightSpan& span, Flier& f)
     std::vector<std::int32_t> changed;
     resolve_impact(span, f, changed);
     for (const std::int32_t s : changed)
+    {
         ++span.scratch.versions[static_cast<std::size_t>(s)];
+        trace(span, s, f.time);
+    }
     for (const std::int32_t s : changed)
     {
         if (Flier* flier = span.flier_at(s))
@@ -72,6 +76,12 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
     }
 }
 
+void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    if (unit.traced)
+        trace_all(FlightSpan(ctx, unit, k, output));
+}
+
 void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
 {
     if (unit.flier_count == 0)
@@ -79,6 +89,7 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     const FlightSpan span(ctx, unit, k, output);
     for (Flier& f : span.fliers())
         start_flight(span, f);
+    trace_all(span);
     for (Flier& f : span.fliers())
         find_next_event(span, f);
     while (Flier* next = earliest(span))

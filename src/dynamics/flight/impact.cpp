@@ -430,8 +430,6 @@ private:
         f.crowded |= !m_span.unit.precise || f.impacts >= crowd_limit;
         ++f.impacts;
         m_span.output.capped |= f.impacts >= impact_limit;
-        const CenterMotion center = center_of(f);
-        m_span.output.path.push_back({f.body, static_cast<float>(m_span.time_of_step(m_time)), center.x, center.y});
     }
 
     // Of another unit, or asleep: it takes effect at the end of the step.

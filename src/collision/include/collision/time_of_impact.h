@@ -34,6 +34,11 @@ struct FramePath
     double alpha = 0; ///< rad/s²
 };
 
+/// The same path seen from `time` on.
+[[nodiscard]] FramePath path_after(const FramePath& path, double time);
+/// The same path run backwards from t = 0.
+[[nodiscard]] FramePath run_back(const FramePath& path);
+
 struct Touch
 {
     double time = 0;

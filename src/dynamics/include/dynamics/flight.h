@@ -13,4 +13,7 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
 /// something becomes the solver's from the next sub-step on; its rows go to output.late_rows.
 void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
 
+/// What advance_fliers writes down of the paths near triggers, for a unit where nothing flies.
+void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
+
 } // namespace carom::internal

@@ -15,7 +15,7 @@ namespace carom::internal {
 /// Lengths and speeds below which things count as equal, from SceneDef::length_scale.
 struct Tolerances
 {
-    float slop = 0;        ///< overlap that is left alone; shapes this near touch
+    float slop = 0;        ///< shapes this near touch; what overlaps by no more may fly
     float speculation = 0; ///< gap within which quiet pairs get rows
     float box_margin = 0;  ///< how fat boxes are
     float push_speed = 0;  ///< overlap is removed no faster

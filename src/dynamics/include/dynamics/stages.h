@@ -15,6 +15,9 @@ void sweep_paths(StepContext& ctx);
 /// Contacts for new pairs of overlapping boxes.
 void find_pairs(StepContext& ctx);
 
+/// After the solve: contacts of triggers with what flight threw beyond its box, or with triggers that it carries.
+void find_deflected_pairs(StepContext& ctx);
+
 /// Manifolds of awake contacts; begins and ends of touching; wakes what is touched.
 void update_contacts(StepContext& ctx);
 
@@ -26,6 +29,9 @@ void solve_units(StepContext& ctx);
 
 /// New poses and velocities, deferred impulses, triggers, sleep.
 void commit_and_sleep(StepContext& ctx);
+
+/// Whose paths update_triggers will ask for.
+void mark_traced(StepContext& ctx);
 
 /// Enter, inside and exit of trigger shapes along the paths of this step.
 void update_triggers(StepContext& ctx);

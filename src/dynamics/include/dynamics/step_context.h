@@ -3,6 +3,7 @@
 // What the stages of one step hand to each other. Vectors are cleared, not freed: a settled scene steps without allocating.
 
 #include "carom/event.h"
+#include "collision/time_of_impact.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
 
@@ -35,6 +36,7 @@ struct Unit
     std::int32_t colors = 0;
     std::int32_t slices = 1; ///< of each sub-step
     bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
+    bool traced = false;     ///< paths of some of its bodies are recorded
 };
 
 /// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
@@ -46,13 +48,24 @@ struct DeferredImpulse
     double time; ///< within the step; the unit that gave it sees the body go on from there
 };
 
-/// Where a flier's path bends.
-struct PathPoint
+/// A body's path from a time of the step on, until its next piece.
+struct PathPiece
 {
-    std::int32_t body;
-    float time; ///< within the step
-    double x;   ///< of the center, relative to its place at the start of the step
-    double y;
+    std::int32_t body = none;
+    std::int32_t order = 0; ///< among all of the step
+    double start = 0;
+    FramePath path{}; ///< relative to the center of mass at the start of the step
+};
+
+/// A leaf came into or went out of a leaf of a trigger.
+struct Crossing
+{
+    std::int32_t contact = none;
+    std::int32_t trigger = none; ///< the shapes that own the leaves
+    std::int32_t visitor = none;
+    std::int32_t order = 0; ///< among all of the step
+    double time = 0;
+    bool enters = false;
 };
 
 struct RecordedPose
@@ -70,9 +83,10 @@ struct UnitOutput
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
     std::vector<std::int32_t> kicked_shapes;
-    std::vector<PathPoint> path;         ///< corners of the paths of fliers
-    std::vector<RecordedPose> poses;     ///< after each sub-step, when asked for
-    std::unique_ptr<DirectSolve> direct; ///< of what joints hold, where a unit of this place in the order has had any
+    std::vector<PathPiece> path;          ///< of traced bodies, of each in the order of time
+    std::vector<std::int32_t> last_piece; ///< of each state of the unit; empty before the first
+    std::vector<RecordedPose> poses;      ///< after each sub-step, when asked for
+    std::unique_ptr<DirectSolve> direct;  ///< of what joints hold, where a unit of this place in the order has had any
     int flight_impacts = 0;
     int bulk_impacts = 0;
     bool capped = false;
@@ -109,6 +123,8 @@ struct Scratch
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
     std::vector<UnitOutput> outputs;
+    std::vector<PathPiece> paths; ///< of all units, by body
+    std::vector<Crossing> crossings;
     std::vector<std::uint64_t> color_masks;
     std::vector<std::int32_t> order;
 };

@@ -1,0 +1,26 @@
+#pragma once
+
+/// @file
+/// What kicks the ball that strikes it: bumper and slingshot differ in shape only. The kick itself is data of the shape.
+
+#include "pinball/elements/device.h"
+
+namespace carom::pinball {
+
+class KickingDevice : public Device
+{
+public:
+    void on_strike(Playfield& field, Ball& ball, const Strike& strike) override;
+    void command(Playfield& field, Command command) override;
+
+protected:
+    KickingDevice(Index index, const Kick& kick) : Device(index), m_kick(kick) {}
+    /// The shape that kicks.
+    void add_kicker(Playfield& field, BodyId body, const Geometry& geometry);
+
+private:
+    Kick m_kick;
+    ShapeId m_kicker{};
+};
+
+} // namespace carom::pinball
