@@ -36,8 +36,12 @@ struct SceneEntry
     Box view{{-10, -1}, {10, 12}}; ///< what is worth seeing
 };
 
-/// Every scene, in a fixed order.
+/// Every scene, in a fixed order: the small ones first.
 [[nodiscard]] std::span<const SceneEntry> all_scenes();
+/// Those of at most some hundred bodies.
+[[nodiscard]] std::span<const SceneEntry> small_scenes();
+/// The ten of Box2D's benchmark program, two to twenty-two thousand bodies each, by name.
+[[nodiscard]] std::span<const SceneEntry> benchmark_scenes();
 
 /// Null where there is none of that name.
 [[nodiscard]] const SceneEntry* find_scene(std::string_view name);
