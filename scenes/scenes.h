@@ -34,6 +34,7 @@ struct SceneEntry
     float h = 1.0f / 60;           ///< suggested step, s
     int frames = 600;              ///< suggested number of steps
     Box view{{-10, -1}, {10, 12}}; ///< what is worth seeing
+    bool stands = false;           ///< built at rest: every movement is an error
 };
 
 /// Every scene, in a fixed order: the small ones first.

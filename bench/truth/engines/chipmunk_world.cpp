@@ -102,6 +102,10 @@ public:
     {
         cpBody* a = find(hinge.a);
         cpBody* b = find(hinge.b);
+        if (cpBodyGetType(a) != CP_BODY_TYPE_DYNAMIC && cpBodyGetType(b) != CP_BODY_TYPE_DYNAMIC)
+        {
+            return; // it aborts on a joint that can move nothing
+        }
         cpConstraintSetCollideBodies(own(cpPivotJointNew(a, b, vect(hinge.anchor))), cpFalse);
         if (hinge.limited)
         {
