@@ -58,8 +58,8 @@ BuiltScene smash(const SceneDef& base)
         for (int j = 0; j < rows; ++j)
         {
             const Vec2 at{static_cast<float>(i) * size + 30, static_cast<float>(j - rows / 2) * size};
-            const BodyId brick = built.scene.create_body({.type = BodyType::Dynamic, .position = at, .awake = false});
-            built.scene.create_shape(brick, box(size / 2, size / 2));
+            const BodyId brick = add_dynamic(built.scene, at, box(size / 2, size / 2));
+            built.scene.body(brick).set_awake(false); // after its shape, which wakes it
         }
     return built;
 }
