@@ -111,7 +111,7 @@ int benchmark(const Options& options)
     }
     if (options.json)
         speed::print_json(std::cout, results);
-    else
+    else if (!results.empty())
         speed::print_quality(std::cout, results);
     if (!options.csv.empty())
     {

@@ -88,7 +88,7 @@ nlohmann::ordered_json stages_of(const Result& result)
 void print_times_header(std::ostream& out)
 {
     Line line;
-    for (const char* title : {"scene", "engine", "threads", "bodies", "joints", "contacts", "steps", "ms", "ms/step"})
+    for (const char* title : {"scene", "engine", "threads", "bodies", "joints", "contacts", "steps", "ms", "cpu ms"})
         line.add(title);
     for (const char* stage : stage_names)
         line.add(stage);
@@ -101,7 +101,7 @@ void print_times(std::ostream& out, const Result& r)
     line.add(r.scene).add(r.engine);
     for (const int count : {r.threads, r.bodies, r.joints, r.contacts, r.steps})
         line.add(std::to_string(count));
-    line.add(r.ms, 0).add(r.ms / std::max(1, r.steps - 1), 3);
+    line.add(r.ms, 0).add(r.cpu_ms, 0);
     for (const double stage : r.stages)
         line.add(r.has_stages ? stage : Quality::none, 0);
     line.add(hex(r.hash) + (r.repeats ? "" : " NOT THE SAME EVERY TIME")).print(out);
@@ -145,6 +145,7 @@ void print_json(std::ostream& out, const std::vector<Result>& results)
                         {"joints", r.joints},
                         {"steps", r.steps},
                         {"ms", r.ms},
+                        {"cpu_ms", r.cpu_ms},
                         {"stages", stages_of(r)},
                         {"hash", hex(r.hash)},
                         {"quality", quality}});
@@ -154,7 +155,7 @@ void print_json(std::ostream& out, const std::vector<Result>& results)
 
 void print_csv(std::ostream& out, const std::vector<Result>& results)
 {
-    out << "scene,engine,isa,threads,bodies,contacts,joints,steps,ms";
+    out << "scene,engine,isa,threads,bodies,contacts,joints,steps,ms,cpu_ms";
     for (const char* stage : stage_names)
         out << ',' << stage;
     out << ",hash";
@@ -164,7 +165,7 @@ void print_csv(std::ostream& out, const std::vector<Result>& results)
     for (const Result& r : results)
     {
         out << r.scene << ',' << r.engine << ',' << r.isa << ',' << r.threads << ',' << r.bodies << ',' << r.contacts << ','
-            << r.joints << ',' << r.steps << ',' << r.ms;
+            << r.joints << ',' << r.steps << ',' << r.ms << ',' << r.cpu_ms;
         for (const double stage : r.stages)
             out << ',' << (r.has_stages ? number(stage, 3) : "");
         out << ',' << hex(r.hash);

@@ -3,13 +3,17 @@
 #include "speed/memory.h"
 #include "speed/task_pool.h"
 
+#include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace speed {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int samples = 10;
+
+double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 int step_count(const carom::scenes::SceneEntry& entry, const RunOptions& options)
 {
@@ -24,18 +28,22 @@ public:
     void step(bool counted)
     {
         m_contestant.prepare(m_h);
+        const double processor_start = processor_ms();
         const Clock::time_point start = Clock::now();
         m_contestant.step(m_h);
         const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+        const double processor_took = processor_ms() - processor_start;
         if (!counted)
             return;
         ms += took.count();
+        cpu_ms += processor_took;
         const Stages now = m_contestant.stages();
         for (std::size_t i = 0; i < now.size(); ++i)
             stages[i] += now[i];
     }
 
     double ms = 0;
+    double cpu_ms = 0;
     Stages stages{};
 
 private:
@@ -96,6 +104,7 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
                   .contacts = contestant->contacts(),
                   .steps = steps,
                   .ms = watch.ms,
+                  .cpu_ms = watch.cpu_ms,
                   .stages = watch.stages,
                   .has_stages = watch.stages != Stages{},
                   .hash = contestant->hash(),
@@ -113,6 +122,7 @@ Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, c
     {
         const Result again = run_once(entry, contender, options, false);
         best.repeats = best.repeats && again.hash == best.hash;
+        best.cpu_ms = std::min(best.cpu_ms, again.cpu_ms);
         if (again.ms < best.ms)
         {
             best.ms = again.ms;

@@ -31,8 +31,9 @@ struct Result
     int joints = 0;
     int contacts = 0;
     int steps = 0;
-    double ms = 0;   ///< all steps but the first, the fastest of the repetitions
-    Stages stages{}; ///< of the fastest one, ms
+    double ms = 0;     ///< all steps but the first, the fastest of the repetitions
+    double cpu_ms = 0; ///< processor time of the same steps, all threads: what a busy machine leaves comparable
+    Stages stages{};   ///< of the fastest one, ms
     bool has_stages = false;
     std::uint64_t hash = 0;
     bool repeats = true; ///< every repetition ended in the same state
