@@ -51,7 +51,7 @@ class BenchmarkScene : public testing::TestWithParam<Expected>
 TEST_P(BenchmarkScene, RunsItsFirstStepsWithoutComplaint)
 {
     SceneRun run(GetParam().name);
-    for (int i = 0; i < 10; ++i)
+    for (int i = 0; i < 5; ++i)
     {
         run.steps(1);
         ASSERT_TRUE(run.scene().report().quarantined.empty()) << "step " << i;
