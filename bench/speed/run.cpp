@@ -75,6 +75,24 @@ void weigh(Result& result, Contestant& contestant, int bodies_built, std::size_t
         result.bytes_per_contact = static_cast<double>(bytes - bytes_built) / result.contacts;
 }
 
+Result describe(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options,
+                Contestant& contestant, const Stopwatch& watch)
+{
+    return {.scene = std::string(entry.name),
+            .engine = contender.key,
+            .isa = contender.isa,
+            .threads = options.threads,
+            .bodies = static_cast<int>(contestant.scene().bodies().size()),
+            .joints = static_cast<int>(contestant.scene().joints().size()),
+            .contacts = contestant.contacts(),
+            .steps = step_count(entry, options),
+            .ms = watch.ms,
+            .cpu_ms = watch.cpu_ms,
+            .stages = watch.stages,
+            .has_stages = watch.stages != Stages{},
+            .hash = contestant.hash()};
+}
+
 Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options, bool first)
 {
     forget_peak();
@@ -95,20 +113,8 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
         if (first && is_sample(step, steps))
             meter.sample(*contestant);
     }
-    Result result{.scene = std::string(entry.name),
-                  .engine = contender.key,
-                  .isa = contender.isa,
-                  .threads = options.threads,
-                  .bodies = static_cast<int>(contestant->scene().bodies().size()),
-                  .joints = static_cast<int>(contestant->scene().joints().size()),
-                  .contacts = contestant->contacts(),
-                  .steps = steps,
-                  .ms = watch.ms,
-                  .cpu_ms = watch.cpu_ms,
-                  .stages = watch.stages,
-                  .has_stages = watch.stages != Stages{},
-                  .hash = contestant->hash(),
-                  .quality = meter.result()};
+    Result result = describe(entry, contender, options, *contestant, watch);
+    result.quality = meter.result();
     weigh(result, *contestant, bodies_built, bytes_built);
     return result;
 }
