@@ -53,15 +53,15 @@ BuiltScene mixed_pile(const SceneDef& base)
     return built;
 }
 
-BuiltScene tumbler(const SceneDef& base)
+BuiltScene drum(const SceneDef& base)
 {
     BuiltScene built{Scene(base)};
-    const BodyId drum = built.scene.create_body({.type = BodyType::Kinematic, .position = {0, 0}, .angular_velocity = 0.5f});
+    const BodyId walls = built.scene.create_body({.type = BodyType::Kinematic, .position = {0, 0}, .angular_velocity = 0.5f});
     for (const auto& [half, center] : {std::pair<Vec2, Vec2>{{5.25f, 0.25f}, {0, 5}},
                                        {{5.25f, 0.25f}, {0, -5}},
                                        {{0.25f, 5.25f}, {5, 0}},
                                        {{0.25f, 5.25f}, {-5, 0}}})
-        built.scene.create_shape(drum, box(half.x, half.y, center));
+        built.scene.create_shape(walls, box(half.x, half.y, center));
     for (int i = 0; i < 225; ++i)
     {
         const Position at{-3.5 + 0.5 * (i % 15), -3.5 + 0.5 * (i / 15)};
@@ -105,7 +105,7 @@ constexpr SceneEntry entries[] = {
      .description = "Two hundred things of every shape fall into a trough and come to rest.",
      .create = mixed_pile,
      .view = {{-10, -1}, {10, 14}}},
-    {.name = "tumbler", .description = "A turning drum keeps 225 bodies awake.", .create = tumbler, .view = {{-8, -8}, {8, 8}}},
+    {.name = "drum", .description = "A turning drum keeps 225 bodies awake.", .create = drum, .view = {{-8, -8}, {8, 8}}},
     {.name = "many_sizes",
      .description = "Balls from 5 mm to 5 m in one trough: a factor of a thousand.",
      .create = many_sizes,

@@ -34,10 +34,15 @@ struct SceneEntry
     float h = 1.0f / 60;           ///< suggested step, s
     int frames = 600;              ///< suggested number of steps
     Box view{{-10, -1}, {10, 12}}; ///< what is worth seeing
+    bool stands = false;           ///< built at rest: every movement is an error
 };
 
-/// Every scene, in a fixed order.
+/// Every scene, in a fixed order: the small ones first.
 [[nodiscard]] std::span<const SceneEntry> all_scenes();
+/// Those of at most some hundred bodies.
+[[nodiscard]] std::span<const SceneEntry> small_scenes();
+/// The ten of Box2D's benchmark program, two to twenty-two thousand bodies each, by name.
+[[nodiscard]] std::span<const SceneEntry> benchmark_scenes();
 
 /// Null where there is none of that name.
 [[nodiscard]] const SceneEntry* find_scene(std::string_view name);

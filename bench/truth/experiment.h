@@ -45,7 +45,7 @@ struct Setup
     [[nodiscard]] double dt() const { return 1 / hz; }
     [[nodiscard]] int steps(double seconds) const { return static_cast<int>(std::lround(seconds * hz)); }
     [[nodiscard]] int cases(int count) const { return std::max(1, static_cast<int>(std::lround(count * share))); }
-    [[nodiscard]] std::unique_ptr<World> world(Vec gravity = {}) const { return engine.make_world(gravity); }
+    [[nodiscard]] std::unique_ptr<World> world(Vec gravity = {}) const { return engine.make_world({.gravity = gravity}); }
     void tell(const std::string& what) const
     {
         if (progress)

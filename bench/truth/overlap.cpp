@@ -6,26 +6,27 @@
 namespace truth {
 namespace {
 
-std::vector<Vec> vertices_of(const Polygon& polygon, const Placed& at)
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// A shape's hull in its own frame.
+struct ToHull
 {
-    std::vector<Vec> result;
-    for (const Vec v : polygon.vertices)
-    {
-        result.push_back(at.position + rotate(at.angle, v));
-    }
-    return result;
-}
+    Hull operator()(const Disc& disc) const { return {{disc.center}, disc.radius}; }
+    Hull operator()(const Polygon& polygon) const { return {polygon.vertices, polygon.radius}; }
+    Hull operator()(const Segment& segment) const { return {{segment.a, segment.b}, 0}; }
+    Hull operator()(const Capsule& capsule) const { return {{capsule.a, capsule.b}, capsule.radius}; }
+};
 
 Vec outward(Vec from, Vec to) { return (-1 / length(to - from)) * perp(to - from); }
 
-/// Largest separation of b over the edges of a: separating axes, one polygon's half.
+/// Largest separation of b over the edges of a: separating axes, one hull's half. A segment has an edge on either side.
 double separation(const std::vector<Vec>& a, const std::vector<Vec>& b)
 {
-    double largest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < a.size(); ++i)
+    double largest = -infinite;
+    for (std::size_t i = 0; a.size() > 1 && i < a.size(); ++i)
     {
         const Vec normal = outward(a[i], a[(i + 1) % a.size()]);
-        double nearest = std::numeric_limits<double>::infinity();
+        double nearest = infinite;
         for (const Vec v : b)
         {
             nearest = std::min(nearest, dot(v - a[i], normal));
@@ -38,61 +39,57 @@ double separation(const std::vector<Vec>& a, const std::vector<Vec>& b)
 double distance_to_segment(Vec p, Vec a, Vec b)
 {
     const Vec along = b - a;
-    const double t = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
+    const double square = dot(along, along);
+    const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
     return length(p - (a + t * along));
 }
 
-/// Distance of a point to a polygon's surface, negative inside.
-double signed_distance(Vec p, const std::vector<Vec>& polygon)
+/// Least distance of b's corners to a's edges.
+double corner_distance(const std::vector<Vec>& a, const std::vector<Vec>& b)
 {
-    const double inside = separation(polygon, {p});
-    if (inside <= 0)
+    double least = infinite;
+    for (const Vec corner : b)
     {
-        return inside;
-    }
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-    {
-        least = std::min(least, distance_to_segment(p, polygon[i], polygon[(i + 1) % polygon.size()]));
+        for (std::size_t i = 0; i < a.size(); ++i)
+        {
+            least = std::min(least, distance_to_segment(corner, a[i], a[(i + 1) % a.size()]));
+        }
     }
     return least;
 }
 
+/// Of two hulls without radius; negative where they overlap.
+double signed_distance(const std::vector<Vec>& a, const std::vector<Vec>& b)
+{
+    const double depth = std::max(separation(a, b), separation(b, a));
+    return depth > -infinite && depth <= 0 ? depth : std::min(corner_distance(a, b), corner_distance(b, a));
+}
+
 } // namespace
 
-double overlap(const Placed& a, const Placed& b)
+Hull hull(const Placed& placed)
 {
-    const Disc* disc_a = std::get_if<Disc>(&a.shape);
-    const Disc* disc_b = std::get_if<Disc>(&b.shape);
-    if (disc_a && disc_b)
+    Hull result = std::visit(ToHull{}, placed.shape);
+    for (Vec& corner : result.corners)
     {
-        return disc_a->radius + disc_b->radius - length(b.position - a.position);
+        corner = placed.position + rotate(placed.angle, corner);
     }
-    if (disc_b)
-    {
-        return overlap(b, a);
-    }
-    const std::vector<Vec> polygon_b = vertices_of(std::get<Polygon>(b.shape), b);
-    if (disc_a)
-    {
-        return disc_a->radius - signed_distance(a.position, polygon_b);
-    }
-    const std::vector<Vec> polygon_a = vertices_of(std::get<Polygon>(a.shape), a);
-    return -std::max(separation(polygon_a, polygon_b), separation(polygon_b, polygon_a));
+    return result;
 }
+
+double overlap(const Hull& a, const Hull& b) { return a.radius + b.radius - signed_distance(a.corners, b.corners); }
+
+double overlap(const Placed& a, const Placed& b) { return overlap(hull(a), hull(b)); }
 
 double reach(const Shape& shape)
 {
-    if (const Disc* disc = std::get_if<Disc>(&shape))
-    {
-        return disc->radius;
-    }
+    const Hull whole = std::visit(ToHull{}, shape);
     double largest = 0;
-    for (const Vec v : std::get<Polygon>(shape).vertices)
+    for (const Vec corner : whole.corners)
     {
-        largest = std::max(largest, length(v));
+        largest = std::max(largest, length(corner));
     }
-    return largest;
+    return largest + whole.radius;
 }
 
 } // namespace truth

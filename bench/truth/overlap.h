@@ -7,7 +7,7 @@
 
 namespace truth {
 
-/// A disc or a convex polygon where it stands.
+/// A shape where it stands.
 struct Placed
 {
     Shape shape{};
@@ -15,7 +15,17 @@ struct Placed
     double angle = 0;
 };
 
+/// The same in world coordinates: the convex hull of its corners, counter-clockwise, grown by a radius. A disc has one corner, a
+/// segment or capsule two.
+struct Hull
+{
+    std::vector<Vec> corners{};
+    double radius = 0;
+};
+[[nodiscard]] Hull hull(const Placed& placed);
+
 /// Least distance by which they would have to part, m; negative or 0 where they do not overlap.
+[[nodiscard]] double overlap(const Hull& a, const Hull& b);
 [[nodiscard]] double overlap(const Placed& a, const Placed& b);
 
 /// Radius about the position that holds all of it.

@@ -1,12 +1,14 @@
 #pragma once
 
 /// @file
-/// What an experiment may ask of an engine: written once, run on every engine through a thin adapter. SI units, radians.
+/// What experiments and carom-bench may ask of an engine: written once, run on every engine through a thin adapter. SI units, radians.
 
 #include "truth/vec.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,18 +33,22 @@ struct BodyDef
     double angle = 0;
     Vec velocity{};
     double spin = 0;
+    double damping = 0; ///< 1/s, of the linear velocity
+    bool awake = true;
+    bool can_sleep = true;
 };
 
-/// Centered at its body's origin, so that a dynamic body's origin is its centre of mass.
 struct Disc
 {
     double radius = 1;
+    Vec center{};
 };
 
-/// Convex, counter-clockwise.
+/// Convex, counter-clockwise; with a radius its corners are rounded outwards.
 struct Polygon
 {
     std::vector<Vec> vertices{};
+    double radius = 0;
 };
 
 struct Segment
@@ -51,10 +57,25 @@ struct Segment
     Vec b{};
 };
 
-using Shape = std::variant<Disc, Polygon, Segment>;
+struct Capsule
+{
+    Vec a{};
+    Vec b{};
+    double radius = 1;
+};
+
+using Shape = std::variant<Disc, Polygon, Segment, Capsule>;
 
 /// A rectangle of the given full size.
 [[nodiscard]] Polygon box(double width, double height, Vec center = {});
+
+/// Shapes of one group other than 0 do not touch; others do where each one's category is in the other one's mask.
+struct Filter
+{
+    std::uint32_t category = 1;
+    std::uint32_t mask = ~std::uint32_t{0};
+    int group = 0;
+};
 
 /// Values of the pair: adapters set both shapes so that every engine's mixing rule gives these when both are equal.
 struct Material
@@ -63,7 +84,26 @@ struct Material
     double restitution = 0;
     double friction = 0;
     bool sensor = false;
-    bool collides = true; ///< false: with nothing that does not collide either
+    Filter filter{};
+};
+/// The filter of what touches nothing of its own kind.
+inline constexpr Filter passes_its_own{.group = -1};
+
+/// The two bodies do not collide with each other. The anchor is a point of the world; angles are of b against a.
+struct Hinge
+{
+    Body a = ground;
+    Body b = ground;
+    Vec anchor{};
+    double reference = 0; ///< what b's angle less a's is counted from
+    bool limited = false;
+    double lower = 0;
+    double upper = 0;
+    bool driven = false;
+    double motor_speed = 0;
+    double motor_torque = 0; ///< the most it gives
+    double hertz = 0;        ///< of a spring towards the reference; 0: none
+    double damping_ratio = 0;
 };
 
 struct State
@@ -72,6 +112,7 @@ struct State
     double angle = 0;
     Vec velocity{};
     double spin = 0;
+    bool awake = true;
 };
 
 struct Impact
@@ -89,20 +130,43 @@ struct Crossing
     double time = 0; ///< within the step; only where World::crossing_times holds
 };
 
+struct WorldDef
+{
+    Vec gravity{};
+    bool sleeping = false;
+    bool continuous = true; ///< where an engine has it
+    int substeps = 4;       ///< where an engine has sub-steps
+    int threads = 1;        ///< where an engine has threads
+};
+
+/// What an engine has not got.
+class Missing : public std::runtime_error
+{
+public:
+    using std::runtime_error::runtime_error;
+};
+
 class World
 {
 public:
     virtual ~World() = default;
     virtual Body add_body(const BodyDef& def) = 0;
     virtual void add_shape(Body body, const Shape& shape, const Material& material) = 0;
-    /// The two bodies do not collide with each other.
-    virtual void add_hinge(Body a, Body b, Vec anchor) = 0;
+    virtual void add_hinge(const Hinge& hinge) = 0;
+    void add_hinge(Body a, Body b, Vec anchor) { add_hinge(Hinge{.a = a, .b = b, .anchor = anchor}); }
     /// Force stiffness · (distance − length) − damping · (its rate) between two centers.
     virtual void add_spring(Body a, Body b, double length, double stiffness, double damping) = 0;
     /// Of a kinematic body, kept through the following steps.
     virtual void set_motion(Body body, Vec velocity, double spin) = 0;
     virtual void step(double dt) = 0;
     [[nodiscard]] virtual State state(Body body) const = 0;
+
+    /// Optional: a closed row of straight walls on a static body, counter-clockwise, solid to what is inside.
+    virtual void add_ring(Body, const std::vector<Vec>&, const Material&) { throw Missing("rings"); }
+    /// Optional: the body goes, with its shapes and joints; its index is not used again.
+    virtual void remove_body(Body) { throw Missing("bodies that go"); }
+    /// Optional: pairs of shapes that the engine keeps as contacts, as it counts them itself.
+    [[nodiscard]] virtual int contacts() const { return 0; }
 
     /// Optional: impacts of the last step, in order.
     [[nodiscard]] virtual bool reports_impacts() const { return false; }
@@ -116,8 +180,10 @@ public:
 struct Engine
 {
     std::string name{};
-    std::function<std::unique_ptr<World>(Vec gravity)> make_world{};
-    bool peer = false; ///< another engine than ours: fewer seeds where there are many
+    std::function<std::unique_ptr<World>(const WorldDef&)> make_world{};
+    bool peer = false;    ///< another engine than ours: fewer seeds where there are many
+    std::string key{};    ///< how a command line names it
+    int most_threads = 1; ///< that one world can use
 };
 
 [[nodiscard]] Engine carom_engine();

@@ -51,7 +51,7 @@ void run_backwards(void*, int count, void (*task)(void*, int), void* context)
 
 TEST(DeterminismRestore, EverySceneContinuesFromACopyOfItsState)
 {
-    for (const scenes::SceneEntry& entry : scenes::all_scenes())
+    for (const scenes::SceneEntry& entry : scenes::small_scenes())
         for (const int when : {1, 40, 150})
         {
             SCOPED_TRACE(std::string(entry.name) + " at step " + std::to_string(when));
@@ -85,7 +85,7 @@ TEST(DeterminismRestore, AlsoAfterManyMoreSteps)
 
 TEST(DeterminismTwice, EverySceneGivesTheSameHashesTwice)
 {
-    for (const scenes::SceneEntry& entry : scenes::all_scenes())
+    for (const scenes::SceneEntry& entry : scenes::small_scenes())
     {
         SCOPED_TRACE(entry.name);
         scenes::BuiltScene a = entry.create({});
@@ -97,7 +97,7 @@ TEST(DeterminismTwice, EverySceneGivesTheSameHashesTwice)
 
 TEST(DeterminismThreads, HooksChangeNothing)
 {
-    for (const scenes::SceneEntry& entry : scenes::all_scenes())
+    for (const scenes::SceneEntry& entry : scenes::small_scenes())
     {
         SCOPED_TRACE(entry.name);
         SceneDef threaded;

@@ -88,9 +88,9 @@ TEST(MixedPile, ComesToRestInsideTheTrough)
     EXPECT_LE(fast, 4);
 }
 
-TEST(Tumbler, KeepsEverythingInsideTheDrum)
+TEST(Drum, KeepsEverythingInsideTheDrum)
 {
-    SceneRun run("tumbler");
+    SceneRun run("drum");
     for (int i = 0; i < 900; ++i)
     {
         run.steps(1);

@@ -23,7 +23,9 @@ struct Wrong
 class WrongWorld final : public World
 {
 public:
-    WrongWorld(Vec gravity, Wrong wrong) : m_world(carom_engine().make_world(wrong.gravity * gravity)), m_wrong(wrong) {}
+    WrongWorld(Vec gravity, Wrong wrong)
+        : m_world(carom_engine().make_world({.gravity = wrong.gravity * gravity})), m_wrong(wrong)
+    {}
     Body add_body(const BodyDef& def) override { return m_world->add_body(def); }
     void add_shape(Body body, const Shape& shape, const Material& material) override
     {
@@ -32,7 +34,7 @@ public:
         const Disc* disc = std::get_if<Disc>(&shape);
         m_world->add_shape(body, disc ? Shape(Disc{disc->radius * m_wrong.radius}) : shape, changed);
     }
-    void add_hinge(Body a, Body b, Vec anchor) override { m_world->add_hinge(a, b, anchor); }
+    void add_hinge(const Hinge& hinge) override { m_world->add_hinge(hinge); }
     void add_spring(Body a, Body b, double length, double stiffness, double damping) override
     {
         m_world->add_spring(a, b, length, stiffness, damping);
@@ -48,7 +50,7 @@ private:
 
 Engine wrong_engine(Wrong wrong)
 {
-    return {"wrong", [=](Vec gravity) { return std::make_unique<WrongWorld>(gravity, wrong); }};
+    return {"wrong", [=](const WorldDef& def) { return std::make_unique<WrongWorld>(def.gravity, wrong); }};
 }
 
 int misses(int number, const Engine& engine)
@@ -135,6 +137,14 @@ TEST(Harness, OverlapsOfShapesInEachOther)
     EXPECT_NEAR(overlap({Disc{0.2}, {0.3, 0}, 0}, square), 0.4, 1e-12);
     EXPECT_NEAR(overlap(square, {Disc{0.2}, {0.6, 0.6}, 0}), 0.2 - std::sqrt(0.02), 1e-12);
     EXPECT_NEAR(overlap({Disc{1}, {0, 0}, 0}, {Disc{2}, {2.5, 0}, 0}), 0.5, 1e-12);
+    const Capsule capsule{{-1, 0}, {1, 0}, 0.25};
+    EXPECT_NEAR(overlap(square, {capsule, {0, 0.7}, 0}), 0.05, 1e-12);
+    EXPECT_NEAR(overlap(square, {capsule, {0.6, 1.6}, pi / 2}), 0.25 - std::hypot(0.1, 0.1), 1e-12);
+    EXPECT_NEAR(overlap({capsule, {0, 0}, 0}, {capsule, {1.5, 0.4}, pi / 2}), 0, 1e-12);
+    EXPECT_NEAR(overlap({capsule, {0, 0.2}, 0}, {Segment{{-5, 0}, {5, 0}}, {0, 0}, 0}), 0.05, 1e-12);
+    Polygon rounded = box(1, 1);
+    rounded.radius = 0.1;
+    EXPECT_NEAR(overlap({rounded, {0, 0}, 0}, {box(1, 1), {0.5 + 0.5 + 0.03, 1.04}, 0}), 0.1 - std::hypot(0.03, 0.04), 1e-12);
 }
 
 // One impact at the bar's rest position, in closed form: 1.5 times the speed of the bar there, at a right angle to it.

@@ -1,4 +1,5 @@
 #include "truth/engines/engines.h"
+#include "truth/engines/facets.h"
 
 #include <box2d/box2d.h>
 
@@ -37,12 +38,14 @@ struct Fixtures
     {
         b2CircleShape circle;
         circle.m_radius = static_cast<float>(disc.radius);
+        circle.m_p = narrow(disc.center);
         add(circle);
     }
     void operator()(const Polygon& polygon) const
     {
         std::vector<b2Vec2> vertices;
-        std::transform(polygon.vertices.begin(), polygon.vertices.end(), std::back_inserter(vertices), narrow);
+        const std::vector<Vec> outline = polygon.radius > 0 ? grown(polygon) : polygon.vertices;
+        std::transform(outline.begin(), outline.end(), std::back_inserter(vertices), narrow);
         b2PolygonShape shape;
         shape.Set(vertices.data(), static_cast<int32>(vertices.size()));
         add(shape);
@@ -53,6 +56,8 @@ struct Fixtures
         edge.SetTwoSided(narrow(segment.a), narrow(segment.b));
         add(edge);
     }
+    // It has no capsules.
+    void operator()(const Capsule& capsule) const { (*this)(facets(capsule)); }
 };
 
 /// Counts what comes into and goes out of sensors.
@@ -76,12 +81,13 @@ private:
 class Box2dWorld final : public World
 {
 public:
-    explicit Box2dWorld(Vec gravity) : m_world(narrow(gravity))
+    explicit Box2dWorld(const WorldDef& def) : m_world(narrow(def.gravity))
     {
-        m_world.SetAllowSleeping(false);
+        m_world.SetAllowSleeping(def.sleeping);
+        m_world.SetContinuousPhysics(def.continuous);
         m_world.SetContactListener(&m_sensors);
-        const b2BodyDef def;
-        m_ground = m_world.CreateBody(&def);
+        const b2BodyDef ground_def;
+        m_ground = m_world.CreateBody(&ground_def);
     }
 
     Body add_body(const BodyDef& def) override
@@ -92,25 +98,40 @@ public:
         made.angle = static_cast<float>(def.angle);
         made.linearVelocity = narrow(def.velocity);
         made.angularVelocity = static_cast<float>(def.spin);
+        made.linearDamping = static_cast<float>(def.damping);
+        made.awake = def.awake;
+        made.allowSleep = def.can_sleep;
         m_bodies.push_back(m_world.CreateBody(&made));
         return static_cast<Body>(m_bodies.size()) - 1;
     }
 
     void add_shape(Body body, const Shape& shape, const Material& material) override
     {
-        b2FixtureDef def;
-        def.density = static_cast<float>(material.density);
-        def.friction = static_cast<float>(material.friction);
-        def.restitution = static_cast<float>(material.restitution);
-        def.isSensor = material.sensor;
-        def.filter.groupIndex = static_cast<int16>(material.collides ? 0 : -1);
-        std::visit(Fixtures{find(body), def}, shape);
+        std::visit(Fixtures{find(body), fixture_def(material)}, shape);
     }
 
-    void add_hinge(Body a, Body b, Vec anchor) override
+    // Its chains are solid on their right.
+    void add_ring(Body body, const std::vector<Vec>& corners, const Material& material) override
+    {
+        std::vector<b2Vec2> vertices;
+        std::transform(corners.rbegin(), corners.rend(), std::back_inserter(vertices), narrow);
+        b2ChainShape chain;
+        chain.CreateLoop(vertices.data(), static_cast<int32>(vertices.size()));
+        Fixtures{find(body), fixture_def(material)}.add(chain);
+    }
+
+    // It has no spring in a hinge.
+    void add_hinge(const Hinge& hinge) override
     {
         b2RevoluteJointDef def;
-        def.Initialize(find(a), find(b), narrow(anchor));
+        def.Initialize(find(hinge.a), find(hinge.b), narrow(hinge.anchor));
+        def.referenceAngle = static_cast<float>(hinge.reference);
+        def.enableLimit = hinge.limited;
+        def.lowerAngle = static_cast<float>(hinge.lower);
+        def.upperAngle = static_cast<float>(hinge.upper);
+        def.enableMotor = hinge.driven;
+        def.motorSpeed = static_cast<float>(hinge.motor_speed);
+        def.maxMotorTorque = static_cast<float>(hinge.motor_torque);
         m_world.CreateJoint(&def);
     }
 
@@ -126,6 +147,14 @@ public:
         def.collideConnected = true;
         m_world.CreateJoint(&def);
     }
+
+    void remove_body(Body body) override
+    {
+        m_world.DestroyBody(find(body));
+        m_bodies[static_cast<std::size_t>(body)] = nullptr;
+    }
+
+    int contacts() const override { return m_world.GetContactCount(); }
 
     void set_motion(Body body, Vec velocity, double spin) override
     {
@@ -145,12 +174,24 @@ public:
         const b2Body* b = find(body);
         const b2Vec2 at = b->GetPosition();
         const b2Vec2 velocity = b->GetLinearVelocity();
-        return {{at.x, at.y}, b->GetAngle(), {velocity.x, velocity.y}, b->GetAngularVelocity()};
+        return {{at.x, at.y}, b->GetAngle(), {velocity.x, velocity.y}, b->GetAngularVelocity(), b->IsAwake()};
     }
 
     std::vector<Crossing> crossings() const override { return m_sensors.crossings; }
 
 private:
+    static b2FixtureDef fixture_def(const Material& material)
+    {
+        b2FixtureDef def;
+        def.density = static_cast<float>(material.density);
+        def.friction = static_cast<float>(material.friction);
+        def.restitution = static_cast<float>(material.restitution);
+        def.isSensor = material.sensor;
+        def.filter.categoryBits = static_cast<uint16>(material.filter.category);
+        def.filter.maskBits = static_cast<uint16>(material.filter.mask);
+        def.filter.groupIndex = static_cast<int16>(material.filter.group);
+        return def;
+    }
     b2Body* find(Body body) const { return body == ground ? m_ground : m_bodies[static_cast<std::size_t>(body)]; }
 
     SensorListener m_sensors{};
@@ -164,7 +205,10 @@ private:
 // The library's own b2_version of 2.4.1 says 2.4.0: the name comes from the package.
 Engine box2d_engine()
 {
-    return {"Box2D " TRUTH_HAS_BOX2D, [](Vec gravity) { return std::make_unique<Box2dWorld>(gravity); }, true};
+    return {.name = "Box2D " TRUTH_HAS_BOX2D,
+            .make_world = [](const WorldDef& def) { return std::make_unique<Box2dWorld>(def); },
+            .peer = true,
+            .key = "box2d24"};
 }
 
 } // namespace truth

@@ -24,16 +24,24 @@ carom::BodyType body_type(Motion motion)
 
 struct ToGeometry
 {
-    carom::Geometry operator()(const Disc& disc) const { return carom::Circle{.radius = static_cast<float>(disc.radius)}; }
+    carom::Geometry operator()(const Disc& disc) const
+    {
+        return carom::Circle{.center = narrow(disc.center), .radius = static_cast<float>(disc.radius)};
+    }
     carom::Geometry operator()(const Polygon& polygon) const
     {
-        carom::Polygon result;
+        carom::Polygon result{.radius = static_cast<float>(polygon.radius)};
         std::transform(polygon.vertices.begin(), polygon.vertices.end(), std::back_inserter(result.vertices), narrow);
         return result;
     }
     carom::Geometry operator()(const Segment& segment) const
     {
         return carom::Segment{.a = narrow(segment.a), .b = narrow(segment.b)};
+    }
+    carom::Geometry operator()(const Capsule& capsule) const
+    {
+        const auto radius = static_cast<float>(capsule.radius);
+        return carom::Capsule{narrow(capsule.a), narrow(capsule.b), radius, radius};
     }
 };
 
@@ -42,15 +50,18 @@ carom::ShapeDef shape_def(const Material& material)
     return {.density = static_cast<float>(material.density),
             .friction = static_cast<float>(material.friction),
             .restitution = static_cast<float>(material.restitution),
-            .filter = {.group = material.collides ? 0 : -1},
+            .filter = {.category = material.filter.category, .mask = material.filter.mask, .group = material.filter.group},
             .trigger = material.sensor};
 }
 
-// Every setting is the default but gravity; sleeping is off for every engine, so that nothing stops by decree.
+// Every setting is the default but those that every engine is given.
 class CaromWorld final : public World
 {
 public:
-    explicit CaromWorld(Vec gravity) : m_scene({.gravity = narrow(gravity), .sleeping = false}) {}
+    explicit CaromWorld(const WorldDef& def)
+        : m_scene(
+              {.gravity = narrow(def.gravity), .substeps = def.substeps, .sleeping = def.sleeping, .continuous = def.continuous})
+    {}
 
     Body add_body(const BodyDef& def) override
     {
@@ -59,6 +70,9 @@ public:
                                                 .angle = static_cast<float>(def.angle),
                                                 .velocity = narrow(def.velocity),
                                                 .angular_velocity = static_cast<float>(def.spin),
+                                                .linear_damping = static_cast<float>(def.damping),
+                                                .awake = def.awake,
+                                                .can_sleep = def.can_sleep,
                                                 .user_data = m_bodies.size()}));
         return static_cast<Body>(m_bodies.size()) - 1;
     }
@@ -68,10 +82,21 @@ public:
         m_scene.create_shape(id(body), std::visit(ToGeometry{}, shape), shape_def(material));
     }
 
-    void add_hinge(Body a, Body b, Vec anchor) override
+    void add_hinge(const Hinge& hinge) override
     {
-        m_scene.create_joint(
-            carom::RevoluteDef{.body_a = id(a), .body_b = id(b), .anchor_a = local(a, anchor), .anchor_b = local(b, anchor)});
+        m_scene.create_joint(carom::RevoluteDef{.body_a = id(hinge.a),
+                                                .body_b = id(hinge.b),
+                                                .anchor_a = local(hinge.a, hinge.anchor),
+                                                .anchor_b = local(hinge.b, hinge.anchor),
+                                                .reference_angle = static_cast<float>(hinge.reference),
+                                                .enable_limit = hinge.limited,
+                                                .lower_angle = static_cast<float>(hinge.lower),
+                                                .upper_angle = static_cast<float>(hinge.upper),
+                                                .enable_motor = hinge.driven,
+                                                .motor_speed = static_cast<float>(hinge.motor_speed),
+                                                .max_motor_torque = static_cast<float>(hinge.motor_torque),
+                                                .spring_hertz = static_cast<float>(hinge.hertz),
+                                                .spring_damping_ratio = static_cast<float>(hinge.damping_ratio)});
     }
 
     void add_spring(Body a, Body b, double length, double stiffness, double damping) override
@@ -95,7 +120,7 @@ public:
     {
         const carom::ConstBody reference = m_scene.body(id(body));
         const carom::Position at = reference.position();
-        return {{at.x, at.y}, reference.angle(), widen(reference.velocity()), reference.angular_velocity()};
+        return {{at.x, at.y}, reference.angle(), widen(reference.velocity()), reference.angular_velocity(), reference.is_awake()};
     }
 
     bool reports_impacts() const override { return true; }
@@ -140,7 +165,7 @@ private:
 
 Engine carom_engine()
 {
-    return {"Carom", [](Vec gravity) { return std::make_unique<CaromWorld>(gravity); }};
+    return {.name = "Carom", .make_world = [](const WorldDef& def) { return std::make_unique<CaromWorld>(def); }, .key = "carom"};
 }
 
 } // namespace truth

@@ -8,6 +8,7 @@
 namespace truth {
 
 [[nodiscard]] Engine box2d_engine();
+[[nodiscard]] Engine box2d3_engine();
 [[nodiscard]] Engine chipmunk_engine();
 
 } // namespace truth

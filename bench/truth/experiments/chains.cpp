@@ -23,7 +23,7 @@ struct Chain
 Chain build(const Setup& setup, double angle, double weight)
 {
     Chain chain{.world = setup.world(earth), .along = direction(angle)};
-    const Material iron{.density = 1 / (link_length * link_width), .friction = 0.6, .collides = false};
+    const Material iron{.density = 1 / (link_length * link_width), .friction = 0.6, .filter = passes_its_own};
     Body before = ground;
     for (int i = 0; i < links; ++i)
     {
@@ -36,7 +36,7 @@ Chain build(const Setup& setup, double angle, double weight)
     const Vec end = links * link_length * chain.along;
     chain.bodies.push_back(chain.world->add_body({.position = end}));
     chain.world->add_shape(chain.bodies.back(), Disc{weight_radius},
-                           {.density = weight / (pi * weight_radius * weight_radius), .friction = 0.6, .collides = false});
+                           {.density = weight / (pi * weight_radius * weight_radius), .friction = 0.6, .filter = passes_its_own});
     chain.world->add_hinge(before, chain.bodies.back(), end);
     return chain;
 }

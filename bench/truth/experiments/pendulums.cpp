@@ -18,7 +18,7 @@ constexpr double disc_inertia = mass * radius * radius / 2;
 Body add_disc(World& world, Vec at)
 {
     const Body disc = world.add_body({.position = at});
-    world.add_shape(disc, Disc{radius}, {.density = mass / (pi * radius * radius), .collides = false});
+    world.add_shape(disc, Disc{radius}, {.density = mass / (pi * radius * radius), .filter = passes_its_own});
     return disc;
 }
 

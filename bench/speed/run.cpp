@@ -1,0 +1,160 @@
+#include "speed/run.h"
+
+#include "speed/memory.h"
+#include "speed/task_pool.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+namespace speed {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int samples = 10;
+
+double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+int step_count(const carom::scenes::SceneEntry& entry, const RunOptions& options)
+{
+    return options.steps > 0 ? options.steps : entry.frames;
+}
+
+/// Steps a contestant and adds up what that takes.
+class Stopwatch
+{
+public:
+    explicit Stopwatch(Contestant& contestant, float h) : m_contestant(contestant), m_h(h) {}
+    void step(bool counted)
+    {
+        m_contestant.prepare(m_h);
+        const double processor_start = processor_ms();
+        const Clock::time_point start = Clock::now();
+        m_contestant.step(m_h);
+        const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+        const double processor_took = processor_ms() - processor_start;
+        if (!counted)
+            return;
+        ms += took.count();
+        cpu_ms += processor_took;
+        const Stages now = m_contestant.stages();
+        for (std::size_t i = 0; i < now.size(); ++i)
+            stages[i] += now[i];
+    }
+
+    double ms = 0;
+    double cpu_ms = 0;
+    Stages stages{};
+
+private:
+    Contestant& m_contestant;
+    float m_h;
+};
+
+/// Ten times in the second half of the steps.
+bool is_sample(int step, int steps)
+{
+    const int spacing = std::max(1, steps / (2 * samples));
+    return step >= steps / 2 && (steps - 1 - step) % spacing == 0;
+}
+
+std::string position(const Contender& contender, const carom::scenes::SceneEntry& entry, int step, int steps)
+{
+    return std::string(entry.name) + ", " + contender.name + ": step " + std::to_string(step) + " of " + std::to_string(steps);
+}
+
+void weigh(Result& result, Contestant& contestant, int bodies_built, std::size_t bytes_built)
+{
+    result.peak_mb = static_cast<double>(peak_bytes()) / 1e6;
+    // A scene that makes bodies on its way has no weight of its own at the start.
+    if (result.bodies != bodies_built)
+        return;
+    result.bytes_per_body = static_cast<double>(bytes_built) / bodies_built;
+    const std::size_t bytes = contestant.bytes();
+    if (result.contacts > 0 && bytes >= bytes_built)
+        result.bytes_per_contact = static_cast<double>(bytes - bytes_built) / result.contacts;
+}
+
+Result describe(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options,
+                Contestant& contestant, const Stopwatch& watch)
+{
+    return {.scene = std::string(entry.name),
+            .engine = contender.key,
+            .isa = contender.isa,
+            .threads = options.threads,
+            .bodies = static_cast<int>(contestant.scene().bodies().size()),
+            .joints = static_cast<int>(contestant.scene().joints().size()),
+            .contacts = contestant.contacts(),
+            .steps = step_count(entry, options),
+            .ms = watch.ms,
+            .cpu_ms = watch.cpu_ms,
+            .stages = watch.stages,
+            .has_stages = watch.stages != Stages{},
+            .hash = contestant.hash()};
+}
+
+Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options, bool first)
+{
+    forget_peak();
+    TaskPool pool(contender.key == "carom" ? options.threads : 1);
+    carom::SceneDef def;
+    def.tasks = pool.hooks();
+    def.tasks.worker_count = options.threads;
+    const std::unique_ptr<Contestant> contestant = contender.enter(entry, def);
+    const int steps = step_count(entry, options);
+    const int bodies_built = static_cast<int>(contestant->scene().bodies().size());
+    const std::size_t bytes_built = contestant->bytes();
+    QualityMeter meter(*contestant, entry.stands);
+    Stopwatch watch(*contestant, entry.h);
+    for (int step = 0; step < steps; ++step)
+    {
+        options.progress(position(contender, entry, step, steps));
+        watch.step(step > 0);
+        if (first && is_sample(step, steps))
+            meter.sample(*contestant);
+    }
+    Result result = describe(entry, contender, options, *contestant, watch);
+    result.quality = meter.result();
+    weigh(result, *contestant, bodies_built, bytes_built);
+    return result;
+}
+
+} // namespace
+
+Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
+{
+    Result best = run_once(entry, contender, options, true);
+    for (int i = 1; i < options.repeat; ++i)
+    {
+        const Result again = run_once(entry, contender, options, false);
+        best.repeats = best.repeats && again.hash == best.hash;
+        best.cpu_ms = std::min(best.cpu_ms, again.cpu_ms);
+        if (again.ms < best.ms)
+        {
+            best.ms = again.ms;
+            best.stages = again.stages;
+        }
+    }
+    return best;
+}
+
+std::vector<std::uint64_t> hashes(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
+{
+    TaskPool pool(options.threads);
+    carom::SceneDef def;
+    def.tasks = pool.hooks();
+    const std::unique_ptr<Contestant> contestant = contender.enter(entry, def);
+    const int steps = step_count(entry, options);
+    std::vector<std::uint64_t> list;
+    for (int step = 0; step < steps; ++step)
+    {
+        options.progress(position(contender, entry, step, steps) + ", " + std::to_string(options.threads) + " threads");
+        contestant->prepare(entry.h);
+        contestant->step(entry.h);
+        if ((step + 1) % hash_interval == 0 || step + 1 == steps)
+            list.push_back(contestant->hash());
+    }
+    return list;
+}
+
+} // namespace speed

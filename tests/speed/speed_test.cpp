@@ -1,0 +1,194 @@
+// The benchmark measures what it says: the translation for peers, its schedule, the quality, the threads.
+
+#include "speed/memory.h"
+#include "speed/plan.h"
+#include "speed/run.h"
+#include "speed/task_pool.h"
+
+#include <gtest/gtest.h>
+
+namespace speed {
+namespace {
+
+using carom::BodyType;
+using carom::Scene;
+using carom::scenes::SceneEntry;
+
+/// Stands still, wherever its bodies were put.
+class StillContestant final : public Contestant
+{
+public:
+    void step(float) override {}
+    Scene& scene() override { return m_scene; }
+    std::vector<truth::State> states() override { return placed; }
+    int contacts() override { return 0; }
+    std::uint64_t hash() override { return 0; }
+    std::size_t bytes() const override { return 0; }
+
+    carom::BodyId add(BodyType type, truth::Vec at, const carom::Geometry& geometry)
+    {
+        const carom::BodyId body = m_scene.create_body({.type = type, .position = {at.x, at.y}});
+        m_scene.create_shape(body, geometry);
+        placed.push_back({.position = at});
+        return body;
+    }
+    std::vector<truth::State> placed;
+
+private:
+    Scene m_scene;
+};
+
+TEST(TaskPool, RunsEveryTaskOnceInEveryRound)
+{
+    for (const int threads : {1, 2, 3, 8})
+    {
+        TaskPool pool(threads);
+        const carom::TaskHooks hooks = pool.hooks();
+        ASSERT_EQ(hooks.run != nullptr, threads > 1);
+        std::vector<int> runs(50);
+        for (int round = 0; hooks.run != nullptr && round < 200; ++round)
+            hooks.run(
+                hooks.user, static_cast<int>(runs.size()),
+                [](void* list, int i) { ++(*static_cast<std::vector<int>*>(list))[static_cast<std::size_t>(i)]; }, &runs);
+        for (const int times : runs)
+            EXPECT_EQ(times, threads > 1 ? 200 : 0);
+    }
+}
+
+TEST(Plan, HasEveryBodyShapeAndHingeOfTheTen)
+{
+    for (const SceneEntry& entry : carom::scenes::benchmark_scenes())
+    {
+        SCOPED_TRACE(entry.name);
+        carom::scenes::BuiltScene built = entry.create({});
+        built.step(entry.h);
+        Translator translator;
+        const Changes all = translator.look(built.scene);
+        std::size_t shapes = 0;
+        for (const BodyPlan& body : all.bodies)
+            shapes += body.shapes.size() + body.rings.size();
+        EXPECT_EQ(all.bodies.size(), built.scene.bodies().size());
+        EXPECT_EQ(all.hinges.size(), built.scene.joints().size());
+        std::size_t want = 0;
+        for (const carom::BodyId body : built.scene.bodies())
+            want += built.scene.body(body).shapes().size();
+        EXPECT_EQ(shapes, want);
+        const Changes nothing = translator.look(built.scene);
+        EXPECT_TRUE(nothing.bodies.empty() && nothing.hinges.empty() && nothing.gone.empty());
+    }
+}
+
+TEST(Plan, SaysWhatPeersHaveNot)
+{
+    Scene scene;
+    const carom::BodyId body = scene.create_body({});
+    scene.create_shape(body, carom::HalfSpace{});
+    EXPECT_THROW((void)Translator().look(scene), truth::Missing);
+}
+
+TEST(Plan, FollowsBodiesThatComeAndGo)
+{
+    Scene scene;
+    const carom::BodyId first = scene.create_body({.type = BodyType::Dynamic});
+    const carom::BodyId second = scene.create_body({.type = BodyType::Dynamic});
+    Translator translator;
+    EXPECT_EQ(translator.look(scene).bodies.size(), 2u);
+    scene.destroy(first);
+    const carom::BodyId third = scene.create_body({.type = BodyType::Dynamic}); // in the slot of the first
+    const Changes changes = translator.look(scene);
+    EXPECT_EQ(changes.gone, std::vector<truth::Body>{0});
+    EXPECT_EQ(changes.bodies.size(), 1u);
+    EXPECT_EQ(translator.number(second), 1);
+    EXPECT_EQ(translator.number(third), 2);
+}
+
+TEST(Quality, MeasuresOverlapsOfPairsThatMayTouch)
+{
+    StillContestant still;
+    still.add(BodyType::Static, {0, -1}, carom::box(10, 1));
+    still.add(BodyType::Dynamic, {0, 0.49}, carom::box(0.5f, 0.5f)); // 1 cm deep
+    still.add(BodyType::Dynamic, {3, 0.27}, carom::Circle{.radius = 0.3f});
+    still.add(BodyType::Dynamic, {6, 0.31}, carom::Circle{.radius = 0.3f}); // 1 cm above
+    still.add(BodyType::Dynamic, {9, 0.4}, carom::Circle{.radius = 0.3f});
+    still.add(BodyType::Static, {0, -1}, carom::box(10, 1)); // as deep as can be in the other, and static
+    QualityMeter meter(still, false);
+    meter.sample(still);
+    const Quality quality = meter.result();
+    EXPECT_EQ(quality.near_pairs, 6); // three bodies over two floors
+    EXPECT_NEAR(quality.worst_overlap, 0.03, 1e-6);
+    EXPECT_NEAR(quality.mean_overlap, 0.02, 1e-6);
+    EXPECT_TRUE(std::isnan(quality.drift));
+    EXPECT_TRUE(std::isnan(quality.worst_joint));
+}
+
+TEST(Quality, MeasuresJointsDriftAndSpeed)
+{
+    StillContestant still;
+    const carom::BodyId a = still.add(BodyType::Dynamic, {0, 0}, carom::box(0.5f, 0.5f));
+    const carom::BodyId b = still.add(BodyType::Dynamic, {1, 0}, carom::box(0.5f, 0.5f));
+    still.scene().create_joint(carom::RevoluteDef{.body_a = a, .body_b = b, .anchor_a = {0.5f, 0}, .anchor_b = {-0.5f, 0}});
+    QualityMeter meter(still, true);
+    still.placed[1].position = {0.9, 0.2};
+    still.placed[1].velocity = {0.3, 0.4};
+    meter.sample(still);
+    const Quality quality = meter.result();
+    EXPECT_NEAR(quality.worst_joint, std::hypot(0.1, 0.2), 1e-9);
+    EXPECT_NEAR(quality.drift, std::hypot(0.1, 0.2), 1e-9);
+    EXPECT_NEAR(quality.residual_speed, 0.25, 1e-9);
+    EXPECT_EQ(quality.near_pairs, 0); // they are joined
+}
+
+TEST(Run, EveryEngineTakesTheJunkyardsPusherWithIt)
+{
+    const SceneEntry* entry = carom::scenes::find_scene("junkyard");
+    ASSERT_NE(entry, nullptr);
+    for (const Contender& contender : contenders())
+    {
+        SCOPED_TRACE(contender.name);
+        const std::unique_ptr<Contestant> contestant = contender.enter(*entry, {});
+        for (int i = 0; i < 30; ++i)
+        {
+            contestant->prepare(entry->h);
+            contestant->step(entry->h);
+        }
+        EXPECT_NEAR(contestant->states().back().position.x, 60 * std::sin(0.2 * 29 / 60), 1e-3);
+    }
+}
+
+TEST(Run, EveryEngineHasAsManyFiguresInTheRain)
+{
+    const SceneEntry* entry = carom::scenes::find_scene("rain");
+    ASSERT_NE(entry, nullptr);
+    for (const Contender& contender : contenders())
+    {
+        const Result result = run(*entry, contender, {.steps = 17});
+        EXPECT_EQ(result.bodies, 1 + 3 * 25 * 11) << contender.name;
+        EXPECT_EQ(result.joints, 3 * 25 * 10) << contender.name;
+        EXPECT_LT(result.quality.worst_joint, 0.1) << contender.name; // hung on the right places
+    }
+}
+
+TEST(Run, RepeatsAndThreadsEndInTheSameState)
+{
+    const SceneEntry* entry = carom::scenes::find_scene("mixed_pile");
+    ASSERT_NE(entry, nullptr);
+    const Contender carom = contenders().front();
+    const Result one = run(*entry, carom, {.steps = 40, .repeat = 2});
+    EXPECT_TRUE(one.repeats);
+    EXPECT_EQ(one.hash, run(*entry, carom, {.steps = 40, .threads = 3}).hash);
+    EXPECT_EQ(one.hash, hashes(*entry, carom, {.steps = 40}).back());
+    EXPECT_NE(one.hash, run(*entry, carom, {.steps = 41}).hash);
+}
+
+TEST(Memory, TheHeapGrowsByWhatIsAllocated)
+{
+    const std::size_t before = heap_bytes();
+    if (before == 0)
+        GTEST_SKIP() << "this allocator does not tell";
+    const std::vector<char> block(10'000'000);
+    EXPECT_NEAR(static_cast<double>(heap_bytes() - before), 1e7, 1e4) << block.size();
+    EXPECT_GT(peak_bytes(), 10'000'000u);
+}
+
+} // namespace
+} // namespace speed
