@@ -398,6 +398,16 @@ TEST_F(Contract, StaleAndNullBodies)
         refused([&] { scene.ignore_pair(bad, ball.body); }, {"Scene::ignore_pair"});
         refused([&] { scene.ignore_pair(ball.body, bad); }, {"Scene::ignore_pair"});
         refused([&] { scene.restore_pair(ball.body, bad); }, {"Scene::restore_pair"});
+        refused([&] { scene.set_force_law(bad, {}); }, {"Scene::set_force_law", "body"});
+    }
+}
+
+TEST_F(Contract, ForceLaws)
+{
+    for (const float bad : {-1.0f, not_a_number, infinite})
+    {
+        refused([&] { scene.set_force_law(ball.body, {.greatest_force = bad}); }, {"Scene::set_force_law", "greatest_force"});
+        refused([&] { scene.set_force_law(ball.body, {.greatest_torque = bad}); }, {"Scene::set_force_law", "greatest_torque"});
     }
 }
 

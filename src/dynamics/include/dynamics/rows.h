@@ -40,6 +40,14 @@ struct StateConstants
     float angular_decay = 1;
 };
 
+/// A state whose body has a force law, and the accelerations that it has without.
+struct LawWork
+{
+    std::int32_t state = none;
+    float angular_acceleration = 0;
+    Vec2 acceleration{};
+};
+
 struct RowPoint
 {
     Vec2 ra{}; ///< lever arms of the Jacobian

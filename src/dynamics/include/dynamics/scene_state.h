@@ -66,6 +66,7 @@ inline constexpr std::uint32_t flier = 2;     ///< in flight: moved by flight, n
 inline constexpr std::uint32_t unbound = 4;   ///< no rows and no joints: its path is an exact parabola
 inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
+inline constexpr std::uint32_t unsound = 32;  ///< its force law gave what is no force: it is put aside after the step
 } // namespace body_flag
 
 /// What every solver pass touches. Pose changes count from the start of the step.
