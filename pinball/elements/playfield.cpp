@@ -1,5 +1,6 @@
 #include "pinball/elements/playfield.h"
 
+#include "pinball/elements/change_times.h"
 #include "pinball/elements/make.h"
 #include "pinball/elements/rolling.h"
 
@@ -115,6 +116,7 @@ void Playfield::step(const Buttons& buttons)
 
 void Playfield::step_through(std::span<const ButtonChange> changes)
 {
+    check_times("Playfield::step_through", "ButtonChange::time", changes, h());
     m_events.clear();
     m_changes = {{.buttons = m_changes.back().buttons}};
     m_changes.insert(m_changes.end(), changes.begin(), changes.end());

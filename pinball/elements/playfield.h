@@ -68,7 +68,7 @@ public:
     /// One step with the buttons as they are held all through it.
     void step(const Buttons& buttons);
     /// One step in which the buttons change, in the order of time; up to the first change they stay as they were. Coils and
-    /// rods feel a change within the step, however long that is; see `buttons_at`.
+    /// rods feel a change within the step, however long that is. Refuses times (carom::Error) that go back or lie outside of the step.
     void step_through(std::span<const ButtonChange> changes);
 
     /// Puts a ball before the plunger and reports it; nothing while another one is in the way.
