@@ -95,7 +95,7 @@ private:
     static Load law(void* user, const BodyMotion& motion)
     {
         auto& flipper = *static_cast<FlipperDevice*>(user);
-        const float angle = motion.pose.rotation.angle();
+        const float angle = flipper.angle_of(motion.pose.rotation);
         flipper.watch_stops(angle, motion.angular_velocity);
         const double begin = flipper.m_step_began + motion.time;
         const float torque = flipper.m_coil.mean_torque(
@@ -106,6 +106,15 @@ private:
                 return flipper.target_torque(flipper.is_on(flipper.m_field.buttons_at(time - flipper.m_step_began)), then);
             });
         return {.torque = flipper.m_stroke > 0 ? torque : -torque};
+    }
+
+    // A bat mostly rests, and the arc tangent is what its law costs.
+    float angle_of(Rotation rotation)
+    {
+        if (rotation != m_seen_rotation)
+            m_seen_angle = rotation.angle();
+        m_seen_rotation = rotation;
+        return m_seen_angle;
     }
 
     // Positive towards the upper stop; `angle` is that of the body.
@@ -142,7 +151,9 @@ private:
     Coil m_coil;
     double m_step_began = 0;
     float m_seen_speed = 0; ///< at the last look
-    int m_at_stop = -1;     ///< -1 lower, 1 upper, 0 between
+    Rotation m_seen_rotation{};
+    float m_seen_angle = 0;
+    int m_at_stop = -1; ///< -1 lower, 1 upper, 0 between
     std::vector<StopHit> m_stop_hits{};
     bool m_enabled;
 };

@@ -71,12 +71,12 @@ BodyMotion motion_at(const StepContext& ctx, const BodySim& sim, const BodyState
 // Finite, and not such that it leads out of all numbers in this step: the bound of the sweep.
 bool is_sound(const StepContext& ctx, Vec2 acceleration, float angular_acceleration)
 {
-    return ctx.dt * (length(acceleration) + std::fabs(angular_acceleration)) < 1e15f;
+    return ctx.dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y) + std::fabs(angular_acceleration)) < 1e15f;
 }
 
 bool exceeds(const ForceLaw& law, const Load& load)
 {
-    return length(load.force) > law.greatest_force || std::fabs(load.torque) > law.greatest_torque;
+    return dot(load.force, load.force) > law.greatest_force * law.greatest_force || std::fabs(load.torque) > law.greatest_torque;
 }
 
 void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOutput& output)
