@@ -299,6 +299,12 @@ double patience_at(const Sight& sight, double least_approach, double duration)
     return std::max({slack / sight.bend, std::min(soon, 5e-3 * duration), 1e-6 * duration});
 }
 
+// What presses for so long, and no deeper than that.
+double pressed_speed(double acceleration, double wait, double depth)
+{
+    return acceleration > 0 ? std::min(acceleration * wait, std::sqrt(2 * acceleration * depth)) : 0;
+}
+
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
                                           double least_approach, double wait)
 {
@@ -312,7 +318,7 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
             continue;
         }
         const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
-        const double least = std::max(least_approach, -sight.acceleration * wait);
+        const double least = std::max(least_approach, pressed_speed(-sight.acceleration, wait, nearly_touch * length));
         if (near && sight.rate < -least)
             return touch_of(sight, t, probe_on_a);
         if (near && sight.end_of_arc)
@@ -344,6 +350,67 @@ double probe_size(const LeafView& v)
     case LeafType::Arc: return static_cast<double>(leaf.arc_radius) + static_cast<double>(leaf.r0);
     }
     return 1;
+}
+
+namespace {
+
+/// How far a leaf reaches from the center that it turns about: along a direction, and at all.
+struct Reach
+{
+    double along = -1e300;
+    double most = 0;
+};
+
+Reach reach_of(const LeafView& v, const FramePath& path, Vector direction)
+{
+    const Vector d = turned_back({path.s, path.c}, direction);
+    Reach reach;
+    const auto add = [&](Vec2 point, float radius)
+    {
+        const Vector p = {static_cast<double>(point.x) - static_cast<double>(path.local_center.x),
+                          static_cast<double>(point.y) - static_cast<double>(path.local_center.y)};
+        reach.along = std::max(reach.along, dot(p, d) + static_cast<double>(radius));
+        reach.most = std::max(reach.most, size(p) + static_cast<double>(radius));
+    };
+    const Leaf& leaf = *v.leaf;
+    switch (leaf.type)
+    {
+    case LeafType::Circle: add(leaf.p0, leaf.r0); break;
+    case LeafType::Segment:
+        add(leaf.p0, leaf.r0);
+        add(leaf.p1, leaf.r0);
+        break;
+    case LeafType::Capsule:
+        add(leaf.p0, leaf.r0);
+        add(leaf.p1, leaf.r1);
+        break;
+    case LeafType::Polygon:
+        for (int i = 0; i < leaf.count; ++i)
+            add(v.points[i], leaf.r0);
+        break;
+    case LeafType::Arc: add(leaf.p0, leaf.arc_radius + leaf.r0); break;
+    case LeafType::HalfSpace: reach.along = reach.most = 1e300; break;
+    }
+    return reach;
+}
+
+} // namespace
+
+bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double axis_x,
+                double axis_y, double duration)
+{
+    const Vector axis = {axis_x, axis_y};
+    const Reach ra = reach_of(a, path_a, axis);
+    const Reach rb = reach_of(b, path_b, {-axis.x, -axis.y});
+    const CenterPath& ca = path_a.center;
+    const CenterPath& cb = path_b.center;
+    const double gap = dot({cb.x - ca.x, cb.y - ca.y}, axis) - ra.along - rb.along;
+    const double speed = -dot({cb.vx - ca.vx, cb.vy - ca.vy}, axis);
+    const double acceleration = -dot({cb.ax - ca.ax, cb.ay - ca.ay}, axis);
+    const auto turn = [duration](const FramePath& path)
+    { return std::min(2.0, duration * (std::fabs(path.w) + 0.5 * duration * std::fabs(path.alpha))); };
+    const double closed = duration * (std::max(speed, 0.0) + 0.5 * duration * std::max(acceleration, 0.0));
+    return gap > closed + ra.most * turn(path_a) + rb.most * turn(path_b) + nearly_touch * std::min(ra.most, rb.most);
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,

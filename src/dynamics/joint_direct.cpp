@@ -1,282 +1,363 @@
-// Hinges of a small unit, all at once. One after the other they never agree: a double pendulum loses 6 % of its energy in a minute.
+// What the joints of a small unit hold, all at once. One row after the other they never agree: a double pendulum loses 6 % of its energy in
+// a minute.
 //
-//   C_i = gap of hinge i at the pose that the present velocities lead to
+//   C_i = error of row i at the pose that the present velocities lead to
 //   sum over j of J_i M^-1 J_j^T lambda_j = -C_i / h,  two Newton passes; in the relaxation J v = 0 at the pose reached
 //
-// Not for all: loops make the system singular, and a load that stretches a body between its hinges makes it swing like a taut string, with
-// omega² = f · r / I for the pull f at the arm r, which a sub-step can follow only while omega h is below 1. Soft rows take those.
+// With the drift along parabolas that is the RATTLE integrator, which neither gains nor loses energy.
+//
+// A load that stretches a body between its joints makes it swing like a taut string, with omega² = f · r / I for the pull f at the arm r. A
+// sub-step can follow that only while omega h is below 1: beyond it the body counts as harder to turn, just so far. Loops make the system
+// singular: soft rows take those.
 
 #include "dynamics/joint_direct.h"
 
 #include "dynamics/scene_data.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
 namespace {
 
-constexpr int most_hinges = 8;
-constexpr int most_rows = 2 * most_hinges;
 constexpr float most_stretch = 1; // (omega h)²
 
-struct Hinge
-{
-    std::int32_t joint = none;
-    std::int32_t a = 0;
-    std::int32_t b = 0;
-    Vec2 ra{}; ///< now
-    Vec2 rb{};
-    double residual[2] = {};
-};
-
-/// A body that the hinges hold; all that do not move are one.
-struct Node
-{
-    std::int32_t state = none;
-    int tree = 0;      ///< the node that stands for what is connected with it
-    float stretch = 0; ///< (omega h)²
-};
-
-class System
-{
-public:
-    System(const SolverView& view, SceneState& state, std::span<const JointWork> joints)
-        : m_view(view), m_state(state), m_joints(joints)
-    {}
-
-    /// False where there are no hinges, too many, loops, or too much load.
-    bool prepare()
-    {
-        for (const JointWork& work : m_joints)
-        {
-            if (!is_hinge(work))
-                continue;
-            if (m_count == most_hinges)
-                return false;
-            const Hinge h = hinge(work);
-            if (!connect(h))
-                return false;
-            m_hinges[static_cast<std::size_t>(m_count++)] = h;
-        }
-        for (int i = 0; i < m_nodes; ++i)
-        {
-            if (node(i).stretch > most_stretch)
-                return false;
-        }
-        fill_matrix();
-        return m_count > 0 && factor();
-    }
-
-    void solve(bool use_bias)
-    {
-        for (int pass = 0; pass < (use_bias ? 2 : 1); ++pass)
-        {
-            note_residuals(use_bias);
-            substitute();
-            apply();
-        }
-    }
-
-private:
-    [[nodiscard]] bool is_hinge(const JointWork& work) const
-    {
-        const std::uint32_t flags = m_view.states[work.a].flags | m_view.states[work.b].flags;
-        return m_state.joints[work.joint].kind == JointType::Revolute && (flags & body_flag::flier) == 0;
-    }
-
-    [[nodiscard]] Hinge hinge(const JointWork& work) const
-    {
-        return {work.joint, work.a, work.b, rotate(m_view.states[work.a].delta_rotation, work.ra0),
-                rotate(m_view.states[work.b].delta_rotation, work.rb0)};
-    }
-
-    // False where the two were connected already: a loop.
-    bool connect(const Hinge& h)
-    {
-        const JointRecord& joint = m_state.joints[h.joint];
-        const Vec2 pull{joint.impulses[slot_x], joint.impulses[slot_y]}; // on b, over a sub-step
-        const int a = node_of(h.a);
-        const int b = node_of(h.b);
-        node(a).stretch -= m_view.h * m_view.constants[h.a].inverse_inertia * dot(pull, h.ra);
-        node(b).stretch += m_view.h * m_view.constants[h.b].inverse_inertia * dot(pull, h.rb);
-        const int old = node(a).tree;
-        const int joined = node(b).tree;
-        for (int i = 0; i < m_nodes; ++i)
-        {
-            if (node(i).tree == old)
-                node(i).tree = joined;
-        }
-        return old != joined;
-    }
-
-    Node& node(int i) { return m_bodies[static_cast<std::size_t>(i)]; }
-
-    int node_of(std::int32_t state)
-    {
-        const bool moves = (m_view.states[state].flags & body_flag::dynamic) != 0;
-        const std::int32_t key = moves ? state : none;
-        int i = 0;
-        while (i < m_nodes && node(i).state != key)
-            ++i;
-        if (i == m_nodes)
-            m_bodies[static_cast<std::size_t>(m_nodes++)] = {key, i, 0};
-        return i;
-    }
-
-    // --- the matrix -----------------------------------------------------------------------------------------------------------------
-
-    double& at(int row, int column) { return m_matrix[static_cast<std::size_t>(row * most_rows + column)]; }
-
-    void fill_matrix()
-    {
-        for (int i = 0; i < m_count; ++i)
-        {
-            for (int j = 0; j <= i; ++j)
-                fill_block(i, j);
-        }
-    }
-
-    void fill_block(int i, int j)
-    {
-        const Hinge& p = m_hinges[static_cast<std::size_t>(i)];
-        const Hinge& q = m_hinges[static_cast<std::size_t>(j)];
-        at(2 * i, 2 * j) = at(2 * i, 2 * j + 1) = at(2 * i + 1, 2 * j) = at(2 * i + 1, 2 * j + 1) = 0;
-        if (p.a == q.a)
-            add_body(i, j, p.a, p.ra, q.ra, 1);
-        if (p.b == q.b)
-            add_body(i, j, p.b, p.rb, q.rb, 1);
-        if (p.a == q.b)
-            add_body(i, j, p.a, p.ra, q.rb, -1);
-        if (p.b == q.a)
-            add_body(i, j, p.b, p.rb, q.ra, -1);
-    }
-
-    void add_body(int i, int j, std::int32_t body, Vec2 ri, Vec2 rj, double sign)
-    {
-        const Vec2 m = m_view.constants[body].inverse_mass;
-        const auto w = static_cast<double>(m_view.constants[body].inverse_inertia);
-        const auto times = [](float x, float y) { return static_cast<double>(x) * static_cast<double>(y); };
-        at(2 * i, 2 * j) += sign * (static_cast<double>(m.x) + w * times(ri.y, rj.y));
-        at(2 * i, 2 * j + 1) -= sign * w * times(ri.y, rj.x);
-        at(2 * i + 1, 2 * j) -= sign * w * times(ri.x, rj.y);
-        at(2 * i + 1, 2 * j + 1) += sign * (static_cast<double>(m.y) + w * times(ri.x, rj.x));
-    }
-
-    // Cholesky in place; false where hinges say the same thing twice (loops).
-    bool factor()
-    {
-        for (int i = 0; i < 2 * m_count; ++i)
-        {
-            for (int j = 0; j < i; ++j)
-                at(i, j) = reduced(i, j) / at(j, j);
-            const double diagonal = at(i, i);
-            const double rest = reduced(i, i);
-            if (!(rest > 1e-7 * diagonal))
-                return false;
-            at(i, i) = std::sqrt(rest);
-        }
-        return true;
-    }
-
-    double reduced(int i, int j)
-    {
-        double sum = at(i, j);
-        for (int m = 0; m < j; ++m)
-            sum -= at(i, m) * at(j, m);
-        return sum;
-    }
-
-    void substitute()
-    {
-        const int n = 2 * m_count;
-        for (int i = 0; i < n; ++i)
-        {
-            double sum = -m_hinges[static_cast<std::size_t>(i / 2)].residual[i % 2];
-            for (int m = 0; m < i; ++m)
-                sum -= at(i, m) * m_impulse[static_cast<std::size_t>(m)];
-            m_impulse[static_cast<std::size_t>(i)] = sum / at(i, i);
-        }
-        for (int i = n - 1; i >= 0; --i)
-        {
-            double sum = m_impulse[static_cast<std::size_t>(i)];
-            for (int m = i + 1; m < n; ++m)
-                sum -= at(m, i) * m_impulse[static_cast<std::size_t>(m)];
-            m_impulse[static_cast<std::size_t>(i)] = sum / at(i, i);
-        }
-    }
-
-    // --- errors and impulses ----------------------------------------------------------------------------------------------------------
-
-    void note_residuals(bool use_bias)
-    {
-        int i = 0;
-        for (const JointWork& work : m_joints)
-        {
-            if (!is_hinge(work))
-                continue;
-            Hinge& h = m_hinges[static_cast<std::size_t>(i++)];
-            const Vec2 r = use_bias ? m_view.inverse_h * gap_ahead(work) : speed_of_gap(h);
-            h.residual[0] = static_cast<double>(r.x);
-            h.residual[1] = static_cast<double>(r.y);
-        }
-    }
-
-    [[nodiscard]] Vec2 speed_of_gap(const Hinge& h) const
-    {
-        const BodyState& a = m_view.states[h.a];
-        const BodyState& b = m_view.states[h.b];
-        return b.velocity + cross(b.angular_velocity, h.rb) - a.velocity - cross(a.angular_velocity, h.ra);
-    }
-
-    [[nodiscard]] Vec2 gap_ahead(const JointWork& work) const
-    {
-        const auto anchor_shift = [&](std::int32_t state, Vec2 arm)
-        {
-            const BodyState& s = m_view.states[state];
-            const Rotation q = Rotation::from_angle(m_view.h * s.angular_velocity) * s.delta_rotation;
-            return s.delta_position + m_view.h * s.velocity + (rotate(q, arm) - arm);
-        };
-        return work.gap0 + anchor_shift(work.b, work.rb0) - anchor_shift(work.a, work.ra0);
-    }
-
-    void apply()
-    {
-        for (int i = 0; i < m_count; ++i)
-        {
-            const Hinge& h = m_hinges[static_cast<std::size_t>(i)];
-            const Vec2 impulse{static_cast<float>(m_impulse[static_cast<std::size_t>(2 * i)]),
-                               static_cast<float>(m_impulse[static_cast<std::size_t>(2 * i + 1)])};
-            apply_impulse(m_view.states[h.b], m_view.constants[h.b], h.rb, impulse);
-            apply_impulse(m_view.states[h.a], m_view.constants[h.a], h.ra, -impulse);
-            m_state.joints[h.joint].impulses[slot_x] += impulse.x;
-            m_state.joints[h.joint].impulses[slot_y] += impulse.y;
-        }
-    }
-
-    const SolverView& m_view;
-    SceneState& m_state;
-    std::span<const JointWork> m_joints;
-    int m_count = 0;
-    int m_nodes = 0;
-    std::array<Hinge, most_hinges> m_hinges;
-    std::array<Node, most_rows> m_bodies;
-    std::array<double, most_rows * most_rows> m_matrix;
-    std::array<double, most_rows> m_impulse;
-};
+double as_double(float x) { return static_cast<double>(x); }
 
 } // namespace
 
-bool solve_hinges(const SolverView& view, SceneState& state, std::span<const JointWork> joints, bool use_bias)
+void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints)
 {
-    if (joints.empty())
-        return false;
-    System system(view, state, joints);
-    if (!system.prepare())
-        return false;
-    system.solve(use_bias);
+    m_view = view;
+    m_state = &state;
+    m_joints = joints;
+    m_turns_too_far = false;
+    m_ready = collect() && m_count > 0;
+    if (!m_ready)
+        return;
+    m_residual.resize(m_rows.size());
+    m_impulse.resize(m_rows.size());
+    fill_matrix();
+    m_ready = factor();
+}
+
+bool DirectSolve::collect()
+{
+    m_rows.clear();
+    m_nodes.clear();
+    m_longest_arm = 0;
+    for (std::size_t i = 0; i < m_joints.size(); ++i)
+    {
+        const JointWork& work = m_joints[i];
+        if (is_in_flight(m_view, work))
+            continue;
+        const JointPose pose = present_pose(m_view, work);
+        const JointRows rows = holding_rows(m_state->joints[work.joint], pose);
+        if (rows.count == 0)
+            continue;
+        if (m_rows.size() + static_cast<std::size_t>(rows.count) > most_rows || !connect(work, pose, rows))
+            return false;
+        for (int r = 0; r < rows.count; ++r)
+            m_rows.push_back({static_cast<int>(i), node_of(work.a), node_of(work.b), rows.rows[r]});
+    }
+    m_count = static_cast<int>(m_rows.size());
+    for (Node& n : m_nodes)
+        set_masses(n);
     return true;
+}
+
+void DirectSolve::set_masses(Node& node) const
+{
+    if (node.state == none)
+        return;
+    const StateConstants& c = m_view.constants[node.state];
+    node.inverse_mass = c.inverse_mass;
+    node.inverse_inertia = c.inverse_inertia * std::min(most_stretch / std::max(node.stretch, most_stretch), 1.0f);
+}
+
+// False where the two were connected already: a loop.
+bool DirectSolve::connect(const JointWork& work, const JointPose& pose, const JointRows& rows)
+{
+    const JointRecord& joint = m_state->joints[work.joint];
+    Vec2 pull{}; // on b, over a sub-step
+    for (int r = 0; r < rows.count; ++r)
+        pull += joint.impulses[rows.rows[r].slot] * rows.rows[r].d;
+    const int a = node_of(work.a);
+    const int b = node_of(work.b);
+    m_longest_arm = std::max({m_longest_arm, length(pose.ra), length(pose.rb)});
+    node(a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, pose.ra);
+    node(b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, pose.rb);
+    const int old = node(a).tree;
+    const int joined = node(b).tree;
+    for (Node& n : m_nodes)
+    {
+        if (n.tree == old)
+            n.tree = joined;
+    }
+    return old != joined;
+}
+
+// All that do not move are one.
+int DirectSolve::node_of(std::int32_t state)
+{
+    const bool moves = (m_view.states[state].flags & body_flag::dynamic) != 0;
+    const std::int32_t key = moves ? state : none;
+    const auto found = std::find_if(m_nodes.begin(), m_nodes.end(), [&](const Node& n) { return n.state == key; });
+    const auto index = static_cast<int>(found - m_nodes.begin());
+    if (found == m_nodes.end())
+        m_nodes.push_back({.state = key, .tree = index});
+    return index;
+}
+
+// --- the matrix ---------------------------------------------------------------------------------------------------------------------
+
+void DirectSolve::fill_matrix()
+{
+    m_first.resize(m_rows.size());
+    m_matrix.resize(m_rows.size() * m_rows.size());
+    for (int i = 0; i < m_count; ++i)
+    {
+        int& first = m_first[static_cast<std::size_t>(i)];
+        first = i;
+        for (int j = i; j >= 0; --j)
+        {
+            at(i, j) = couple(row(i), row(j));
+            if (at(i, j) != 0)
+                first = j;
+        }
+    }
+}
+
+// J_i M^-1 J_j^T
+double DirectSolve::couple(const Row& i, const Row& j)
+{
+    double sum = 0;
+    const auto add = [&](const Node& body, float arm_i, float arm_j, double sign)
+    {
+        sum += sign * (as_double(i.row.d.x) * as_double(j.row.d.x) * as_double(body.inverse_mass.x) +
+                       as_double(i.row.d.y) * as_double(j.row.d.y) * as_double(body.inverse_mass.y) +
+                       as_double(arm_i) * as_double(arm_j) * as_double(body.inverse_inertia));
+    };
+    if (i.a == j.a)
+        add(node(i.a), i.row.arm_a, j.row.arm_a, 1);
+    if (i.b == j.b)
+        add(node(i.b), i.row.arm_b, j.row.arm_b, 1);
+    if (i.a == j.b)
+        add(node(i.a), i.row.arm_a, j.row.arm_b, -1);
+    if (i.b == j.a)
+        add(node(i.b), i.row.arm_b, j.row.arm_a, -1);
+    return sum;
+}
+
+// Cholesky in place, from the first entry of each row on: along a chain it costs no more than the chain is long. False where rows say the same
+// thing twice (loops).
+bool DirectSolve::factor()
+{
+    for (int i = 0; i < m_count; ++i)
+    {
+        for (int j = m_first[static_cast<std::size_t>(i)]; j < i; ++j)
+            at(i, j) = reduced(i, j) / at(j, j);
+        const double diagonal = at(i, i);
+        const double rest = reduced(i, i);
+        if (!(rest > 1e-10 * diagonal))
+            return false;
+        at(i, i) = std::sqrt(rest);
+    }
+    return true;
+}
+
+double DirectSolve::reduced(int i, int j)
+{
+    double sum = at(i, j);
+    for (int m = std::max(m_first[static_cast<std::size_t>(i)], m_first[static_cast<std::size_t>(j)]); m < j; ++m)
+        sum -= at(i, m) * at(j, m);
+    return sum;
+}
+
+void DirectSolve::substitute()
+{
+    for (int i = 0; i < m_count; ++i)
+    {
+        double sum = -m_residual[static_cast<std::size_t>(i)];
+        for (int m = m_first[static_cast<std::size_t>(i)]; m < i; ++m)
+            sum -= at(i, m) * m_impulse[static_cast<std::size_t>(m)];
+        m_impulse[static_cast<std::size_t>(i)] = sum / at(i, i);
+    }
+    for (int i = m_count - 1; i >= 0; --i)
+    {
+        const double x = m_impulse[static_cast<std::size_t>(i)] / at(i, i);
+        m_impulse[static_cast<std::size_t>(i)] = x;
+        for (int m = m_first[static_cast<std::size_t>(i)]; m < i; ++m)
+            m_impulse[static_cast<std::size_t>(m)] -= at(i, m) * x;
+    }
+}
+
+// --- errors and impulses --------------------------------------------------------------------------------------------------------------
+
+void DirectSolve::solve(bool use_bias)
+{
+    if (!use_bias || !find_pose_ahead())
+        keep_together();
+}
+
+void DirectSolve::keep_together()
+{
+    note_speeds();
+    substitute();
+    apply();
+}
+
+// Newton's steps lead nowhere where a sub-step turns a body so far that no straight way ends in the right place.
+bool DirectSolve::find_pose_ahead()
+{
+    note_errors_ahead();
+    if (largest_error() > 1)
+    { // what held in the sub-step before leads astray now
+        start_anew();
+        note_errors_ahead();
+    }
+    const double before = largest_error();
+    m_turns_too_far = before > 1;
+    if (m_turns_too_far)
+        return false;
+    substitute();
+    apply();
+    note_errors_ahead();
+    const double after = largest_error();
+    m_turns_too_far = after > 0.5 * before && after > 1e-3;
+    if (m_turns_too_far)
+    {
+        take_back();
+        return false;
+    }
+    substitute();
+    apply();
+    return true;
+}
+
+// In units of the longest arm, or rad.
+double DirectSolve::largest_error() const
+{
+    double largest = 0;
+    for (int i = 0; i < m_count; ++i)
+    {
+        const double size = row(i).row.d == Vec2{} ? 1 : as_double(m_longest_arm);
+        largest = std::max(largest, std::fabs(m_residual[static_cast<std::size_t>(i)]) / size);
+    }
+    return as_double(m_view.h) * largest;
+}
+
+void DirectSolve::take_back()
+{
+    for (int i = 0; i < m_count; ++i)
+    {
+        const auto impulse = static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
+        push(row(i), -impulse);
+        impulse_of(row(i)) -= impulse;
+    }
+}
+
+void DirectSolve::close_gaps()
+{
+    for (int i = 0; i < m_count; ++i)
+        m_residual[static_cast<std::size_t>(i)] = as_double(row(i).row.error);
+    substitute();
+    for (int i = 0; i < m_count; ++i)
+    {
+        const Row& r = row(i);
+        const auto impulse = static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
+        note_shift(node(r.a), r.row, r.row.arm_a, -impulse);
+        note_shift(node(r.b), r.row, r.row.arm_b, impulse);
+    }
+    // A step that would turn a body far is taken in part.
+    float most = 0.5f;
+    for (const Node& n : m_nodes)
+        most = std::max(most, std::fabs(n.turn));
+    for (const Node& n : m_nodes)
+        shift(n, 0.5f / most);
+}
+
+void DirectSolve::note_shift(Node& node, const JointRow& row, float arm, float impulse)
+{
+    node.shift += Vec2{impulse * node.inverse_mass.x * row.d.x, impulse * node.inverse_mass.y * row.d.y};
+    node.turn += impulse * node.inverse_inertia * arm;
+}
+
+void DirectSolve::shift(const Node& node, float share)
+{
+    if (node.state == none)
+        return;
+    BodyState& s = m_view.states[node.state];
+    s.delta_position += share * node.shift;
+    s.delta_rotation = Rotation::from_angle(share * node.turn) * s.delta_rotation;
+}
+
+void DirectSolve::warm_start()
+{
+    for (int i = 0; i < m_count; ++i)
+        push(row(i), impulse_of(row(i)));
+}
+
+void DirectSolve::start_anew()
+{
+    for (int i = 0; i < m_count; ++i)
+        push(row(i), -std::exchange(impulse_of(row(i)), 0.0f));
+}
+
+void DirectSolve::note_speeds()
+{
+    for (int i = 0; i < m_count; ++i)
+        m_residual[static_cast<std::size_t>(i)] = as_double(JointBodies(m_view, work(row(i))).speed(row(i).row));
+}
+
+void DirectSolve::note_errors_ahead()
+{
+    int i = 0;
+    while (i < m_count)
+    {
+        const JointWork& joint = work(row(i));
+        const JointRows ahead = holding_rows(m_state->joints[joint.joint], pose_ahead(m_view, joint));
+        for (int r = 0; r < ahead.count; ++r)
+            m_residual[static_cast<std::size_t>(i++)] = as_double(m_view.inverse_h) * as_double(ahead.rows[r].error);
+    }
+}
+
+void DirectSolve::apply()
+{
+    for (int i = 0; i < m_count; ++i)
+    {
+        const auto impulse = static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
+        push(row(i), impulse);
+        impulse_of(row(i)) += impulse;
+    }
+}
+
+void DirectSolve::push(const Row& r, float impulse)
+{
+    const auto turn = [&](int body, float arm, float by)
+    {
+        const Node& n = node(body);
+        if (n.state == none)
+            return;
+        BodyState& s = m_view.states[n.state];
+        s.velocity.x += by * n.inverse_mass.x * r.row.d.x;
+        s.velocity.y += by * n.inverse_mass.y * r.row.d.y;
+        s.angular_velocity += by * n.inverse_inertia * arm;
+    };
+    turn(r.a, r.row.arm_a, -impulse);
+    turn(r.b, r.row.arm_b, impulse);
+}
+
+void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<const JointWork> joints)
+{
+    for (int i = 0; i < 4; ++i)
+    {
+        direct.prepare(view, state, joints);
+        if (direct.is_ready())
+            direct.close_gaps();
+    }
 }
 
 } // namespace carom::internal

@@ -5,9 +5,7 @@
 #include "dynamics/joint_solver.h"
 
 #include "core/trigonometry.h"
-#include "dynamics/joint_direct.h"
-#include "dynamics/joint_rows.h"
-#include "dynamics/scene_data.h"
+#include "dynamics/springs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,85 +13,6 @@
 namespace carom::internal {
 
 namespace {
-
-struct Bodies
-{
-    BodyState& sa;
-    BodyState& sb;
-    const StateConstants& ca;
-    const StateConstants& cb;
-
-    Bodies(const SolverView& view, const JointWork& work)
-        : sa(view.states[work.a]), sb(view.states[work.b]), ca(view.constants[work.a]), cb(view.constants[work.b])
-    {}
-
-    [[nodiscard]] float speed(const JointRow& r) const
-    {
-        return dot(r.d, sb.velocity - sa.velocity) + r.arm_b * sb.angular_velocity - r.arm_a * sa.angular_velocity;
-    }
-
-    // J M^-1 J'^T of two rows.
-    [[nodiscard]] float couple(const JointRow& r, const JointRow& q) const
-    {
-        return r.d.x * q.d.x * (ca.inverse_mass.x + cb.inverse_mass.x) + r.d.y * q.d.y * (ca.inverse_mass.y + cb.inverse_mass.y) +
-               r.arm_a * q.arm_a * ca.inverse_inertia + r.arm_b * q.arm_b * cb.inverse_inertia;
-    }
-
-    [[nodiscard]] float mass(const JointRow& r) const
-    {
-        const float k = couple(r, r);
-        return k > 0 ? 1 / k : 0;
-    }
-
-    void apply(const JointRow& r, float impulse) const
-    {
-        sa.velocity.x -= ca.inverse_mass.x * impulse * r.d.x;
-        sa.velocity.y -= ca.inverse_mass.y * impulse * r.d.y;
-        sa.angular_velocity -= ca.inverse_inertia * impulse * r.arm_a;
-        sb.velocity.x += cb.inverse_mass.x * impulse * r.d.x;
-        sb.velocity.y += cb.inverse_mass.y * impulse * r.d.y;
-        sb.angular_velocity += cb.inverse_inertia * impulse * r.arm_b;
-    }
-};
-
-// Within a step bodies turn little: the arc sine's series is exact to a float's rounding there.
-float angle_of(Rotation turn)
-{
-    const float s = turn.s;
-    if (turn.c > 0 && std::fabs(s) < 0.15f)
-    {
-        const float z = s * s;
-        return s * (1 + z * (1.0f / 6 + z * (3.0f / 40 + z * (15.0f / 336))));
-    }
-    return static_cast<float>(arc_tangent(turn.s, turn.c));
-}
-
-JointPose present_pose(const SolverView& view, const JointWork& work)
-{
-    const BodyState& a = view.states[work.a];
-    const BodyState& b = view.states[work.b];
-    JointPose pose;
-    pose.ra = rotate(a.delta_rotation, work.ra0);
-    pose.rb = rotate(b.delta_rotation, work.rb0);
-    pose.axis = rotate(a.delta_rotation, work.axis0);
-    pose.gap = work.gap0 + (b.delta_position - a.delta_position) + (pose.rb - work.rb0) - (pose.ra - work.ra0);
-    const Rotation turn = b.delta_rotation * inverse(a.delta_rotation);
-    pose.angle = work.angle0 + angle_of(turn);
-    return pose;
-}
-
-JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
-{
-    JointRows rows;
-    switch (joint.kind)
-    {
-    case JointType::Spring: break;
-    case JointType::Distance: distance_rows(joint, pose, rows); break;
-    case JointType::Revolute: revolute_rows(joint, pose, h, rows); break;
-    case JointType::Prismatic: prismatic_rows(joint, pose, h, rows); break;
-    }
-    return rows;
-}
 
 // --- solving -----------------------------------------------------------------------------------------------------------------------
 
@@ -103,7 +22,7 @@ Softness softness_of(const JointRow& row, float joint_hertz, float h)
 }
 
 // Two Hold rows as one: K (2x2) solved exactly; a direction in which nothing can move gets no impulse.
-void solve_block(const Bodies& bodies, JointRecord& joint, const JointRows& rows, const Softness& s, bool use_bias)
+void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows& rows, const Softness& s, bool use_bias)
 {
     const JointRow& x = rows.rows[0];
     const JointRow& y = rows.rows[1];
@@ -131,12 +50,12 @@ void solve_block(const Bodies& bodies, JointRecord& joint, const JointRows& rows
     bodies.apply(y, jy);
 }
 
-float soft_impulse(const Bodies& bodies, const JointRow& row, float accumulated, const Softness& s, float bias)
+float soft_impulse(const JointBodies& bodies, const JointRow& row, float accumulated, const Softness& s, float bias)
 {
     return -bodies.mass(row) * s.mass_scale * (bodies.speed(row) + bias) - s.impulse_scale * accumulated;
 }
 
-void solve_row(const Bodies& bodies, JointRecord& joint, const JointRow& row, const SolverView& view, float joint_hertz,
+void solve_row(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const SolverView& view, float joint_hertz,
                bool use_bias)
 {
     float& accumulated = joint.impulses[row.slot];
@@ -172,124 +91,7 @@ void solve_row(const Bodies& bodies, JointRecord& joint, const JointRow& row, co
     bodies.apply(row, change);
 }
 
-// --- springs -----------------------------------------------------------------------------------------------------------------------
-
-// One step of x'' = -w² x - 2 z w x' + a as v' = p v - q x + g a, x' = x + h v' with coefficients fitted to the exact solution: frequency,
-// decay and rest position come out right at any step below the limit. p is the product of the two roots exp(s h), 1 + p - q h their sum, and
-// g = q / w² holds the mass at a / w². (a reaches the velocity as h a before the spring acts; p h a of that is taken back.)
-
-struct SpringStep
-{
-    double p;
-    double q;
-    double g;
-};
-
-SpringStep fitted_spring(double stiffness, double damping, double mass, double h)
-{
-    const double decay = damping / (2 * mass);
-    const double d2 = stiffness / mass - decay * decay;
-    const double fade = exponential(-decay * h);
-    double sum;
-    if (d2 >= 0)
-    {
-        sum = 2 * fade * sin_cos(std::sqrt(d2) * h).cos;
-    }
-    else
-    {
-        const double r = std::sqrt(-d2);
-        sum = exponential((r - decay) * h) + exponential((-r - decay) * h);
-    }
-    const double p = fade * fade;
-    const double q = (1 + p - sum) / h;
-    // Without stiffness it is a damper: (1 - p) / (c / m), or h where there is not even that.
-    const double g = stiffness > 0 ? q * mass / stiffness : (damping > 0 ? (1 - p) * mass / damping : h);
-    return {p, q, g};
-}
-
-// Too stiff for the fitted step: the implicit one, stable at any stiffness.
-SpringStep implicit_spring(double stiffness, double damping, double mass, double h)
-{
-    const double denominator = 1 + (h * damping + h * h * stiffness) / mass;
-    const double p = 1 / denominator;
-    return {p, h * stiffness / mass / denominator, h * p};
-}
-
-struct SpringRow
-{
-    JointRow row;
-    float mass = 0;
-};
-
-SpringRow spring_row(const SolverView& view, const JointRecord& joint, const JointWork& work)
-{
-    const JointPose pose = present_pose(view, work);
-    const float l = length(pose.gap);
-    if (!(l > 0))
-        return {};
-    const JointRow row = line_row((1 / l) * pose.gap, pose, l - joint.upper, RowKind::Spring, slot_spring);
-    return {row, Bodies(view, work).mass(row)};
-}
-
-// Once a step: the effective mass changes little within it.
-void fit_spring(const SolverView& view, const JointRecord& joint, JointWork& work)
-{
-    const float m = spring_row(view, joint, work).mass;
-    if (!(m > 0))
-        return;
-    // h q, about h² k / m, summed over the springs of a body must stay below 1.
-    const bool soft = view.h * view.h * joint.stiffness * static_cast<float>(work.spring_count) <= 0.9f * m;
-    const SpringStep s = soft ? fitted_spring(joint.stiffness, joint.damping, m, view.h)
-                              : implicit_spring(joint.stiffness, joint.damping, m, view.h);
-    work.spring_speed = static_cast<float>(s.p - 1);
-    work.spring_stretch = static_cast<float>(s.q);
-    work.spring_acceleration = static_cast<float>(s.g - s.p * static_cast<double>(view.h));
-}
-
-void apply_spring(const SolverView& view, JointRecord& joint, const JointWork& work)
-{
-    const SpringRow spring = spring_row(view, joint, work);
-    const Bodies bodies(view, work);
-    const JointRow& row = spring.row;
-    const float acceleration = dot(row.d, bodies.cb.acceleration - bodies.ca.acceleration) +
-                               row.arm_b * bodies.cb.angular_acceleration - row.arm_a * bodies.ca.angular_acceleration;
-    joint.impulses[slot_spring] = spring.mass * (work.spring_speed * bodies.speed(row) - work.spring_stretch * row.error +
-                                                 work.spring_acceleration * acceleration);
-    bodies.apply(row, joint.impulses[slot_spring]);
-}
-
-int count_springs(const SceneState& state, int body)
-{
-    int count = 0;
-    for (int edge = body == none ? none : state.bodies[body].first_joint; edge != none;
-         edge = state.joints[edge >> 1].next[edge & 1])
-        count += state.joints[edge >> 1].kind == JointType::Spring ? 1 : 0;
-    return count;
-}
-
 } // namespace
-
-namespace {
-
-// A hinge to the world whose body flies about it: flight keeps it.
-bool is_in_flight(const SolverView& view, const JointWork& work)
-{
-    return ((view.states[work.a].flags | view.states[work.b].flags) & body_flag::flier) != 0;
-}
-
-} // namespace
-
-JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
-{
-    const JointRows all = rows_of(joint, pose, 0);
-    JointRows holding;
-    for (int i = 0; i < all.count; ++i)
-    {
-        if (all.rows[i].kind == RowKind::Hold && all.rows[i].hertz == 0)
-            holding.add(all.rows[i]);
-    }
-    return holding;
-}
 
 float hinge_angle(const SceneState& state, const JointRecord& joint)
 {
@@ -312,8 +114,6 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
         for (float& impulse : ctx.state.joints[index].impulses)
             impulse /= static_cast<float>(ctx.slices);
     }
-    if (joint.kind == JointType::Spring)
-        work.spring_count = std::max(count_springs(ctx.state, joint.body_a), count_springs(ctx.state, joint.body_b));
     const auto place = [&](int body, Vec2 anchor, Vec2& arm, Rotation& q)
     {
         if (body == none)
@@ -335,60 +135,66 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     work.axis0 = rotate(qa, joint.axis_a);
     work.angle0 = hinge_angle(ctx.state, joint);
     if (joint.kind == JointType::Spring)
-        fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, joint, work);
+        fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, ctx.state, work);
     return work;
 }
 
-void apply_springs(const SolverView& view, SceneState& state, std::span<JointWork> joints)
+void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct)
 {
-    for (const JointWork& work : joints)
-    {
-        JointRecord& joint = state.joints[work.joint];
-        if (joint.kind == JointType::Spring)
-            apply_spring(view, joint, work);
-    }
-}
-
-void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints)
-{
+    if (direct.is_ready())
+        direct.warm_start();
     for (const JointWork& work : joints)
     {
         if (is_in_flight(view, work))
             continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
-        const Bodies bodies(view, work);
+        const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
-            bodies.apply(rows.rows[i], joint.impulses[rows.rows[i].slot]);
+        {
+            if (!direct.is_ready() || !is_rigid(rows.rows[i]))
+                bodies.apply(rows.rows[i], joint.impulses[rows.rows[i].slot]);
+        }
     }
 }
 
-void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, float joint_hertz, bool use_bias)
+void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct, float joint_hertz,
+                  bool use_bias)
 {
     const Softness soft = make_softness(joint_hertz, 0, view.h);
+    // Motors, springs and limits first: what is held matters most and has the last word.
     for (const JointWork& work : joints)
     {
         if (is_in_flight(view, work))
             continue;
         JointRecord& joint = state.joints[work.joint];
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
-        const Bodies bodies(view, work);
-        // Motors, springs and limits first: the point and the locks matter most and have the last word.
-        const int held = rows.block ? 2 : (joint.kind == JointType::Prismatic ? 2 : 0);
-        for (int i = held; i < rows.count; ++i)
-            solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
-        for (int i = rows.block ? held : 0; i < held; ++i)
-            solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
+        const JointBodies bodies(view, work);
+        for (int i = 0; i < rows.count; ++i)
+        {
+            if (!is_rigid(rows.rows[i]))
+                solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
+        }
+        if (direct.is_ready() || rows.block)
+            continue;
+        for (int i = 0; i < rows.count; ++i)
+        {
+            if (is_rigid(rows.rows[i]))
+                solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
+        }
     }
-    if (solve_hinges(view, state, joints, use_bias))
+    if (direct.is_ready())
+    {
+        direct.solve(use_bias);
         return;
+    }
     for (const JointWork& work : joints)
     {
         JointRecord& joint = state.joints[work.joint];
         if (joint.kind != JointType::Revolute || is_in_flight(view, work))
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
-        solve_block(Bodies(view, work), joint, rows, soft, use_bias);
+        solve_block(JointBodies(view, work), joint, rows, soft, use_bias);
     }
 }
 
@@ -400,7 +206,7 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
-        const Bodies bodies(view, work);
+        const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
         {
             if (rows.rows[i].kind == RowKind::Limit)
@@ -418,7 +224,7 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
         const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
-        const Bodies bodies(view, work);
+        const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
         {
             const JointRow& row = rows.rows[i];

@@ -126,6 +126,8 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
     const StateConstants& cb = scratch.constants[static_cast<std::size_t>(row.b)];
     row.n = m.normal;
     row.count = m.count;
+    row.turn_a = sa.delta_rotation;
+    row.turn_b = sb.delta_rotation;
     for (int i = 0; i < m.count; ++i)
     {
         RowPoint& p = row.points[i];

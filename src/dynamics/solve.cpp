@@ -10,10 +10,13 @@
 #include "dynamics/joint_solver.h"
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
+#include "dynamics/springs.h"
 #include "dynamics/stages.h"
+#include "dynamics/unit_energy.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace carom::internal {
 
@@ -38,6 +41,36 @@ void UnitOutput::clear()
 }
 
 namespace {
+
+constexpr int turns = 3;
+constexpr float follow_turn = 0.03f; // rad
+
+// Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
+void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
+{
+    RowPoint points[2];
+    bool taken[2] = {};
+    for (int i = 0; i < fresh.count; ++i)
+    {
+        for (int j = 0; j < row.count; ++j)
+        {
+            const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && row.count == 1);
+            if (!same || taken[j])
+                continue;
+            points[i] = row.points[j];
+            taken[j] = true;
+            break;
+        }
+    }
+    for (int j = 0; j < row.count; ++j)
+    {
+        if (taken[j])
+            continue;
+        points[0].total_impulse += row.points[j].total_impulse;
+        points[0].total_tangent += row.points[j].total_tangent;
+    }
+    std::copy(std::begin(points), std::end(points), std::begin(row.points));
+}
 
 class UnitSolver
 {
@@ -65,17 +98,40 @@ private:
         apply_force_laws(m_ctx, m_unit, k, m_output);
         raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
+        std::optional<UnitEnergy> energy;
+        if (m_unit.precise || (m_unit.dynamic_count <= UnitEnergy::most_bodies && !m_joints.empty()))
+            energy.emplace(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
+                           0.1f * m_ctx.scene.tolerances.slop);
         integrate_velocities();
         warm_start_all();
         predict_bends();
         solve(true);
         integrate_positions();
+        if (is_direct() && m_output.direct->turns_too_far())
+            close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
+        kick_springs_after(m_view, m_ctx.state, m_joints);
         guard_cores();
-        advance_fliers(m_ctx, m_unit, k, m_output);
-        refresh_round_rows();
+        fly(k, energy);
+        refresh_rows();
+        prepare_direct();
         solve(false);
-        bounce(k);
+        if (energy)
+            energy->note_load(m_rows, late_rows());
+        const bool kicked = bounce(k);
+        if (energy && !kicked)
+            energy->restore(is_direct());
         finish_substep(k);
+    }
+
+    void fly(int k, std::optional<UnitEnergy>& energy)
+    {
+        if (m_unit.flier_count == 0)
+            return;
+        if (energy)
+            energy->before_impacts();
+        advance_fliers(m_ctx, m_unit, k, m_output);
+        if (energy)
+            energy->after_impacts();
     }
 
     // What is kept for the next step's warm start is of a whole sub-step.
@@ -129,20 +185,41 @@ private:
 
     void warm_start_all()
     {
-        apply_springs(m_view, m_ctx.state, m_joints);
-        warm_start_joints(m_view, m_ctx.state, m_joints);
+        kick_springs_before(m_view, m_ctx.state, m_joints);
+        prepare_direct();
+        if (!m_joints.empty())
+            warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
 
+    // At the present pose.
+    void prepare_direct()
+    {
+        if (m_joints.empty())
+            return;
+        if (!m_output.direct)
+            m_output.direct = std::make_unique<DirectSolve>();
+        m_output.direct->prepare(m_view, m_ctx.state, m_joints);
+    }
+    [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
+
+    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word.
     void solve(bool use_bias)
     {
-        solve_joints(m_view, m_ctx.state, m_joints, m_ctx.joint_hertz, use_bias);
-        solve_rows(m_view, m_rows, use_bias);
-        solve_rows(m_view, late_rows(), use_bias);
+        const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
+        for (int turn = 0; turn < (alternate ? turns : 1); ++turn)
+        {
+            if (!m_joints.empty())
+                solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
+            solve_rows(m_view, m_rows, use_bias);
+            solve_rows(m_view, late_rows(), use_bias);
+        }
+        if (alternate)
+            m_output.direct->solve(use_bias);
     }
 
-    // x += h v. What no row or joint touches moves along its exact parabola: the mean of the velocities before and after.
+    // x += h v
     void integrate_positions()
     {
         for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
@@ -150,9 +227,7 @@ private:
             BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
             if ((s.flags & body_flag::flier) != 0)
                 continue;
-            s.delta_position += m_ctx.h * s.velocity;
-            if ((s.flags & body_flag::unbound) != 0)
-                s.delta_position -= (0.5f * m_ctx.h * m_ctx.h) * m_scratch.constants[static_cast<std::size_t>(i)].acceleration;
+            s.delta_position += drift(m_view, i);
             if (s.angular_velocity != 0)
                 s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
         }
@@ -257,12 +332,36 @@ private:
         p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
     }
 
-    void refresh_round_rows()
+    void refresh_rows()
     {
-        for (ContactRow& row : m_rows)
-            refresh_row(row);
-        for (ContactRow& row : late_rows())
-            refresh_row(row);
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (ContactRow& row : rows)
+            {
+                if (row.followed != 0)
+                    follow(row);
+                else
+                    refresh_row(row);
+            }
+        }
+    }
+
+    // Corners and edges that have turned face each other elsewhere. (Rows without points are of bodies that have taken off.)
+    void follow(ContactRow& row)
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        if (row.count == 0 || (!has_turned(row.turn_a, a.delta_rotation) && !has_turned(row.turn_b, b.delta_rotation)))
+            return;
+        Manifold fresh = manifold_of(row.contact, row, 0);
+        carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
+        set_row_geometry(m_scratch, row, fresh);
+        m_ctx.state.contacts[row.contact].manifold = fresh;
+    }
+
+    [[nodiscard]] static bool has_turned(Rotation from, Rotation to)
+    {
+        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > follow_turn;
     }
 
     void refresh_row(ContactRow& row)
@@ -294,11 +393,17 @@ private:
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------
 
-    void bounce(int k)
+    // True where something kicked.
+    bool bounce(int k)
     {
+        const int before = m_output.bulk_impacts;
+        const std::size_t kicks = m_output.kicked_shapes.size();
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
+        if (is_direct() && m_output.bulk_impacts != before)
+            m_output.direct->keep_together();
+        return m_output.kicked_shapes.size() != kicks;
     }
 
     void bounce_row(ContactRow& row, int k)

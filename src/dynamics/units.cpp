@@ -12,6 +12,7 @@
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/stages.h"
+#include "dynamics/unit_energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +23,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int precise_limit = 32;   // bodies: beyond it a contact more or less does not decide where a ball goes
-constexpr float slice_turn = 0.02f; // rad
+constexpr int precise_limit = 32;    // bodies: beyond it a contact more or less does not decide where a ball goes
+constexpr float slice_turn = 0.02f;  // rad
+constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
 constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
 
@@ -125,8 +127,6 @@ std::int32_t flight_of(const SceneState& state, int body)
     return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
 }
 
-void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }
-
 // The hinge's two points must be in one place; flight does not pull them together.
 bool is_closed(const StepContext& ctx, int index, int body)
 {
@@ -221,26 +221,50 @@ struct Builder
         return shoots;
     }
 
-    // A contact whose normal turns with a bar or a bat is followed in slices of at most this turn.
+    // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
     void choose_slices()
     {
-        for (const std::int32_t index : state.awake_contacts)
-        {
-            const Contact& contact = state.contacts[index];
-            const std::int32_t u = unit_of_pair(contact.body_a, contact.body_b);
-            if (u == none || !gets_rows(state, contact))
-                continue;
-            const float turn = ctx.h * turn_rate(contact);
-            Unit& unit = scratch.units[static_cast<std::size_t>(u)];
-            const int slices = std::min(static_cast<int>(std::ceil(turn / slice_turn)), slice_limit);
-            unit.slices = std::max(unit.slices, slices);
-        }
         std::vector<std::int32_t> bodies(scratch.units.size(), 0);
         for (const std::int32_t u : scratch.unit_of)
         {
-            if (u != none && ++bodies[static_cast<std::size_t>(u)] > precise_limit)
-                scratch.units[static_cast<std::size_t>(u)].slices = 1;
+            if (u != none)
+                ++bodies[static_cast<std::size_t>(u)];
         }
+        const auto slice = [&](int a, int b, float rate, float most_turn, int most_bodies)
+        {
+            const std::int32_t u = unit_of_pair(a, b);
+            if (u == none || bodies[static_cast<std::size_t>(u)] > most_bodies)
+                return;
+            const auto wanted = static_cast<int>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(slice_limit))));
+            std::int32_t& slices = scratch.units[static_cast<std::size_t>(u)].slices;
+            slices = std::max(slices, wanted);
+        };
+        for (const std::int32_t index : state.awake_contacts)
+        {
+            const Contact& c = state.contacts[index];
+            if (gets_rows(state, c))
+                slice(c.body_a, c.body_b, turn_rate(c), slice_turn, precise_limit);
+        }
+        for (int j = 0; j < state.joints.capacity(); ++j)
+        {
+            if (state.joints.is_live(j))
+                slice(state.joints[j].body_a, state.joints[j].body_b, swing_rate(state.joints[j]), slice_swing,
+                      UnitEnergy::most_bodies);
+        }
+    }
+
+    // How fast a joint's arms turn, in rad/s.
+    [[nodiscard]] float swing_rate(const JointRecord& joint) const
+    {
+        if (joint.kind == JointType::Spring)
+            return 0;
+        const auto spin = [&](int body, Vec2 anchor)
+        {
+            const bool turns = body != none && (anchor != state.sims[static_cast<std::size_t>(body)].local_center ||
+                                                joint.kind == JointType::Prismatic);
+            return turns ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
+        };
+        return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
     }
 
     // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
@@ -468,6 +492,7 @@ struct Builder
             unit.first_flier = static_cast<std::int32_t>(scratch.fliers.size());
             unit.first_law = static_cast<std::int32_t>(scratch.laws.size());
             unit.precise = unit.state_count <= precise_limit;
+            unit.dynamic_count = unit.state_count;
             add_fixed_state(none); // stands for every body that does not move, so that units share nothing
             for (int i = first; i < first + unit.state_count; ++i)
                 add_dynamic_state(unit_ctx, sorted[static_cast<std::size_t>(i)]);
@@ -590,7 +615,7 @@ struct Builder
         const std::int32_t b = state_for(unit, contact.body_b);
         scratch.rows.push_back(prepare_row(unit_ctx, index, contact.manifold, a, b));
         ContactRow& row = scratch.rows.back();
-        row.refreshed = unit.precise && (contact.flags & contact_flag::round) != 0;
+        follow_closely(contact, unit, row);
         if ((contact.flags & contact_flag::loaded) == 0)
             scratch.impact_rows.push_back(static_cast<std::int32_t>(scratch.rows.size()) - 1);
         scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
@@ -603,6 +628,8 @@ struct Builder
         const std::int32_t a = state_for(unit, record.body_a);
         const std::int32_t b = state_for(unit, record.body_b);
         scratch.joints.push_back(prepare_joint(unit_ctx, joint, a, b));
+        if (only_holds(record) || record.kind == JointType::Spring)
+            return;
         scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
         scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
     }

@@ -41,12 +41,7 @@ void release_holds(const FlightSpan& span, Flier& f, double time)
 {
     for (int i = 0; i < f.held_count; ++i)
         push_back(span, f.held[i], time);
-    f.held_count = 0;
-    f.constrained = false;
-    const StateConstants& c = span.constants_of(f.state);
-    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
-    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
-    f.alpha = turning_acceleration(span, f, f.angle);
+    fall_freely(span, f);
 }
 
 } // namespace carom::internal

@@ -27,7 +27,6 @@ constexpr double touching = 1e-6; // of the size: contacts this near take part
 constexpr double still_held = 1e-3;
 constexpr double hold_turn = 0.05; // rad: so far a hold is followed before it is looked at again
 constexpr int crowd_limit = 8;     // impacts of a body in a sub-step
-constexpr double at_limit = 1e-7;  // rad
 
 class ImpactSet
 {
@@ -57,7 +56,6 @@ private:
         FramePath path{};
         ImpactBody before{};
         bool changed = false;
-        bool expanded = false;
     };
 
     /// Where a row comes from; none of the shapes: a limit of a hinge.
@@ -522,8 +520,8 @@ private:
         e.kick_speed = static_cast<float>(row.kick);
         const float speed_other = sign * static_cast<float>(s.speed_other);
         const float speed_own = sign * static_cast<float>(s.speed_other - row.approach);
-        const float mass_other = point_mass(row.a, row, row.arm_a_x, row.arm_a_y);
-        const float mass_own = point_mass(row.b, row, row.arm_b_x, row.arm_b_y);
+        const float mass_other = point_mass(row.a, row, row.turn_a);
+        const float mass_own = point_mass(row.b, row, row.turn_b);
         e.speed_a = own_is_a ? speed_own : speed_other;
         e.speed_b = own_is_a ? speed_other : speed_own;
         e.effective_mass_a = own_is_a ? mass_own : mass_other;
@@ -531,10 +529,9 @@ private:
         return e;
     }
 
-    [[nodiscard]] float point_mass(int member, const ImpactRow& row, double arm_x, double arm_y) const
+    [[nodiscard]] float point_mass(int member, const ImpactRow& row, double turn) const
     {
         const ImpactBody& b = m_bodies[static_cast<std::size_t>(member)];
-        const double turn = arm_x * row.ny - arm_y * row.nx;
         const double k =
             row.nx * row.nx * b.inverse_mass_x + row.ny * row.ny * b.inverse_mass_y + turn * turn * b.inverse_inertia;
         return k > 0 ? static_cast<float>(1 / k) : 0;
@@ -548,7 +545,7 @@ private:
         std::vector<ImpactBody> accelerations(m_bodies.size());
         for (std::size_t i = 0; i < m_members.size(); ++i)
         {
-            if (m_members[i].state == none)
+            if (m_members[i].flier == nullptr)
                 continue;
             accelerations[i] = m_bodies[i];
             accelerations[i].vx = accelerations[i].vy = accelerations[i].w = 0;
@@ -564,11 +561,6 @@ private:
                 pressing.push_back({static_cast<int>(i), gap_acceleration(i), slip_acceleration(i)});
         }
         press(accelerations, m_rows, pressing);
-        for (const Pressing& p : pressing)
-        {
-            if (p.force > 0)
-                hold(p);
-        }
         for (Member& m : m_members)
         {
             if (m.flier != nullptr)
@@ -576,8 +568,10 @@ private:
         }
         for (const Pressing& p : pressing)
         {
-            if (p.force > 0)
-                set_hold_time(static_cast<std::size_t>(p.row));
+            if (p.force <= 0)
+                continue;
+            hold(p);
+            set_hold_time(static_cast<std::size_t>(p.row));
         }
         for (std::size_t i = 0; i < m_members.size(); ++i)
             accelerate(m_members[i], accelerations[i], changed);
@@ -700,6 +694,9 @@ private:
     {
         const bool firm = m_state.bodies[m_state.shapes[h.other].body].type != BodyType::Dynamic;
         f.led = firm && (f.led || f.held_count == 0);
+        const bool still = m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Static &&
+                           m_state.shapes[h.other].surface_speed == 0 && m_state.shapes[h.own].surface_speed == 0;
+        f.on_still = still && (f.on_still || f.held_count == 0);
         if (f.held_count < Flier::most_held)
             f.held[f.held_count++] = h;
     }

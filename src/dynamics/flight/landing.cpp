@@ -40,15 +40,16 @@ private:
         const std::int32_t other = state_of_other(body);
         if (other == none || m_span.flier_at(other) != nullptr || has_row(index))
             return; // another unit's, or still in flight: the next step links them
-        const Manifold manifold =
-            world_manifold(m_span.state, contact, pose_now(contact.body_a, other), pose_now(contact.body_b, other), margin);
+        const Manifold manifold = world_manifold(m_span.state, contact, pose_now(contact.body_a, other),
+                                                 pose_now(contact.body_b, other), margin + motion_of(m_span.ctx, body));
         if (manifold.count == 0)
             return;
+        m_span.state.contacts[index].manifold = manifold; // the row's points are these
         const bool flier_is_a = contact.body_a == m_flier.body;
         ContactRow row =
             prepare_row(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other, flier_is_a ? other : m_flier.state);
         hand_over(contact, row);
-        row.refreshed = m_span.unit.precise && (contact.flags & contact_flag::round) != 0;
+        follow_closely(contact, m_span.unit, row);
         m_span.state_of(other).flags &= ~body_flag::unbound;
         m_span.output.late_rows.push_back(row);
     }

@@ -57,9 +57,17 @@ double turning_acceleration(const FlightSpan& span, const Flier& f, double angle
     return torque * f.inverse_inertia;
 }
 
-namespace {
+void fall_freely(const FlightSpan& span, Flier& f)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
+    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
+    f.alpha = turning_acceleration(span, f, f.angle);
+    f.held_count = 0;
+    f.constrained = false;
+}
 
-constexpr double at_limit = 1e-7; // rad
+namespace {
 
 // A limit that the acceleration presses against and that nothing leaves holds the body still.
 bool leans_on_limit(const Flier& f)
@@ -69,22 +77,13 @@ bool leans_on_limit(const Flier& f)
     return low || high;
 }
 
-} // namespace
-
-namespace {
-
 void clear_substep(const FlightSpan& span, Flier& f)
 {
-    const StateConstants& c = span.constants_of(f.state);
-    f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
-    f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
-    f.alpha = turning_acceleration(span, f, f.angle);
+    fall_freely(span, f);
     f.impacts = 0;
     f.impulse_x = f.impulse_y = f.turn_impulse = 0;
     f.start_w = f.w;
-    f.held_count = 0;
     f.rests = false;
-    f.constrained = false;
     const CenterMotion center = center_of(f);
     f.start_vx = center.vx;
     f.start_vy = center.vy;
@@ -143,10 +142,40 @@ void follow_parabola(Flier& f, double t)
     f.vy += t * f.ay;
 }
 
-// Only along what does not give way: of two that lean on each other each takes the other's momentum. Slow against what the forces do, a turn of the velocity means nothing.
+// Only along what does not give way: of two that lean on each other each takes the other's momentum. Slow against what the forces do, a turn
+// of the velocity means nothing.
 bool is_led(const Flier& f, double t)
 {
     return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < f.vx * f.vx + f.vy * f.vy;
+}
+
+// Twice the energy of motion, less what the free acceleration gives along the way: what a still surface may only take from.
+double energy_of(const FlightSpan& span, const Flier& f)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    double energy = 0;
+    const auto add = [&](double inverse_mass, double speed, float acceleration, double way)
+    {
+        if (inverse_mass > 0)
+            energy += (speed * speed - 2 * static_cast<double>(acceleration) * way) / inverse_mass;
+    };
+    add(f.inverse_mass_x, f.vx, c.acceleration.x, f.x);
+    add(f.inverse_mass_y, f.vy, c.acceleration.y, f.y);
+    add(f.inverse_inertia, f.w, c.angular_acceleration, f.angle);
+    return energy;
+}
+
+void take_gain(const FlightSpan& span, Flier& f, double before)
+{
+    const double gain = energy_of(span, f) - before;
+    const auto twice = [](double inverse_mass, double speed) { return inverse_mass > 0 ? speed * speed / inverse_mass : 0; };
+    const double moving = twice(f.inverse_mass_x, f.vx) + twice(f.inverse_mass_y, f.vy) + twice(f.inverse_inertia, f.w);
+    if (gain <= 0 || moving <= 0)
+        return;
+    const double by = std::sqrt(std::max(moving - gain, 0.0) / moving);
+    f.vx *= by;
+    f.vy *= by;
+    f.w *= by;
 }
 
 } // namespace
@@ -154,10 +183,14 @@ bool is_led(const Flier& f, double t)
 void advance(const FlightSpan& span, Flier& f, double time)
 {
     const double t = time - f.time;
+    const bool is_kept = f.held_count > 0 && f.on_still && f.joint == none;
+    const double before = is_kept ? energy_of(span, f) : 0;
     is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
     f.angle += t * (f.w + 0.5 * t * f.alpha);
     f.w += t * f.alpha;
     f.time = time;
+    if (is_kept)
+        take_gain(span, f, before);
     if (f.joint == none || f.constrained || t == 0)
         return;
     const double there = turning_acceleration(span, f, f.angle);
@@ -214,10 +247,7 @@ void take_off(const FlightSpan& span, Flier& f, double time)
                   .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
     drop_rows(span.output.late_rows);
     if (f.joint != none)
-    {
-        JointRecord& joint = span.state.joints[f.joint];
-        std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f);
-    }
+        forget_impulses(span.state.joints[f.joint]);
     clear_substep(span, f);
     f.time = time;
 }

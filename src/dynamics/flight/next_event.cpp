@@ -95,6 +95,30 @@ private:
         const FloatBox path = round_outwards(m_origin.x + std::min(from.x, to.x) - r, m_origin.y + std::min(from.y, to.y) - r,
                                              m_origin.x + std::max(from.x, to.x) + r, m_origin.y + std::max(from.y, to.y) + r);
         for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_beyond_box(own, path); });
+        for (const Flier& other : m_span.fliers())
+        { // neither is in the box that it had
+            if (other.deflected && other.body != m_flier.body && !is_out_of_reach(other.body))
+                for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_at(own, other); });
+        }
+    }
+
+    void look_at(int own, const Flier& other)
+    {
+        const SceneState& state = m_span.state;
+        if (state.shapes[own].trigger)
+            return;
+        for_each_leaf(state, other.body,
+                      [&](int shape)
+                      {
+                          if (is_new(own, shape))
+                              consider(own, shape, none);
+                      });
+    }
+
+    [[nodiscard]] bool is_new(int own, int shape) const
+    {
+        const SceneState& state = m_span.state;
+        return !state.shapes[shape].trigger && !state.pairs.contains(pair_key(own, shape)) && may_collide(state, own, shape);
     }
 
     void look_beyond_box(int own, const FloatBox& path)
@@ -104,8 +128,7 @@ private:
             return;
         const auto visit = [&](int shape)
         {
-            if (state.shapes[shape].body != m_flier.body && !state.pairs.contains(pair_key(own, shape)) &&
-                !state.shapes[shape].trigger && may_collide(state, own, shape))
+            if (state.shapes[shape].body != m_flier.body && is_new(own, shape))
                 consider(own, shape, none);
             return true;
         };
@@ -128,6 +151,8 @@ private:
             return;
         const FramePath target = path_from(m_span, body, m_flier.time, m_origin);
         const double left = std::min(m_span.h, m_flier.event_time) - m_flier.time;
+        if (stays_away(own, shape, target, contact, left))
+            return;
         const std::optional<Touch> hit =
             first_touch(leaf_view(state, shape), target, leaf_view(state, own), m_own_path, left, m_span.least_approach,
                         state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0);
@@ -145,6 +170,25 @@ private:
         m_flier.event_shape = shape;
         m_flier.event_state = m_span.state_in_unit(body);
         m_flier.event_version = version_of(m_span, m_flier.event_state);
+    }
+
+    // Along the line of their centers, or the normal at the start of the step: a look at every corner is dear.
+    [[nodiscard]] bool stays_away(int own, int shape, const FramePath& target, int contact, double left) const
+    {
+        const SceneState& state = m_span.state;
+        const LeafView a = leaf_view(state, shape);
+        const LeafView b = leaf_view(state, own);
+        if (contact != none && state.contacts[contact].manifold.count > 0)
+        {
+            const double sign = state.contacts[contact].shape_a == shape ? 1 : -1;
+            const Vec2 n = state.contacts[contact].manifold.normal;
+            if (stay_apart(a, target, b, m_own_path, sign * static_cast<double>(n.x), sign * static_cast<double>(n.y), left))
+                return true;
+        }
+        const double dx = m_own_path.center.x - target.center.x;
+        const double dy = m_own_path.center.y - target.center.y;
+        const double l = std::sqrt(dx * dx + dy * dy);
+        return l > 0 && stay_apart(a, target, b, m_own_path, dx / l, dy / l, left);
     }
 
     // Two moving bodies that stay apart whatever they turn: most of a crowd.

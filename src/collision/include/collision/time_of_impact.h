@@ -53,6 +53,10 @@ struct Touch
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach, double wait = 0);
 
+/// True where nothing of the two can meet in that time: along an axis (from a to b, unit length) they stay apart. False says nothing.
+[[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
+                              double axis_x, double axis_y, double duration);
+
 /// All points at which the leaves are nearer than `tolerance` at t = 0.
 struct Touches
 {

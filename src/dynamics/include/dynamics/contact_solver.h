@@ -17,6 +17,17 @@ struct SolverView
     float push_speed;
 };
 
+/// How far a body's center goes in the sub-step. Along its exact parabola where no force is found only within the sub-step: the mean of the
+/// velocities before and after.
+[[nodiscard]] inline Vec2 drift(const SolverView& view, std::int32_t state)
+{
+    const BodyState& s = view.states[state];
+    const Vec2 straight = view.h * s.velocity;
+    if ((s.flags & body_flag::unbound) == 0)
+        return straight;
+    return straight - (0.5f * view.h * view.h) * view.constants[state].acceleration;
+}
+
 void warm_start(const SolverView& view, std::span<ContactRow> rows);
 
 /// One pass of sequential impulses: rolling, friction, then the normal direction. With bias the soft constraint also removes overlap;

@@ -30,6 +30,9 @@ struct JointRow
     float damping_ratio = 0;
 };
 
+/// Held without softness of its own.
+[[nodiscard]] inline bool is_rigid(const JointRow& row) { return row.kind == RowKind::Hold && row.hertz == 0; }
+
 struct JointRows
 {
     JointRow rows[6];

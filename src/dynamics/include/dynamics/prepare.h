@@ -16,6 +16,14 @@ namespace carom::internal {
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the row.
 void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& manifold);
 
+/// In small units rows are looked at anew within the step.
+inline void follow_closely(const Contact& contact, const Unit& unit, ContactRow& row)
+{
+    const bool round = (contact.flags & contact_flag::round) != 0;
+    row.refreshed = unit.precise && round;
+    row.followed = unit.precise && !round;
+}
+
 /// All impulses of the last sub-step, for a sub-step of another length.
 void scale_row(ContactRow& row, float by);
 

@@ -79,12 +79,24 @@ struct ContactRow
     float rolling = 0;  ///< torque limit over normal impulse, m
     float rolling_impulse = 0;
     float rolling_mass = 0;
-    float core = 0;               ///< half the radius of a ball against what does not give way; 0 elsewhere
+    float core = 0;    ///< half the radius of a ball against what does not give way; 0 elsewhere
+    Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
+    Rotation turn_b{};
     std::uint8_t refreshed = 0;   ///< looked at anew in every sub-step
+    std::uint8_t followed = 0;    ///< looked at anew when a body has turned
     std::uint8_t hit = 0;         ///< its impact was reported
     std::uint8_t active_from = 0; ///< first sub-step in which it counts
     Softness softness{};
     RowPoint points[2];
+};
+
+/// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
+struct SpringKick
+{
+    float stretch = 0;
+    float speed = 0;
+    float acceleration = 0;
+    float straight = 0; ///< by the acceleration of a body that does not drift along a parabola, beside that
 };
 
 /// A joint in the solver: its record and the states of its bodies.
@@ -93,11 +105,9 @@ struct JointWork
     std::int32_t joint = none;
     std::int32_t a = 0;
     std::int32_t b = 0;
-    std::int32_t spring_count = 0; ///< springs on the body that has most, where this is one
-    float spring_speed = 0;        ///< a spring's impulse: mass (these · speed, -stretch, acceleration)
-    float spring_stretch = 0;
-    float spring_acceleration = 0;
-    Vec2 ra0{}; ///< anchors from the centers of mass at the start of the step, world axes
+    SpringKick before{}; ///< of a spring, before the bodies move
+    SpringKick after{};  ///< and after
+    Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};           ///< slider's axis at the start of the step
     Vec2 gap0{};            ///< anchor b - anchor a at the start of the step
@@ -163,6 +173,7 @@ struct Flier
     std::int32_t held_count = 0;
     bool rests = false;    ///< against something that gives way
     bool led = false;      ///< what holds it does not give way
+    bool on_still = false; ///< what holds it does not move at all, nor does its surface
     double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 
     // The next event, as last computed.

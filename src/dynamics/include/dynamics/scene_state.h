@@ -10,7 +10,9 @@
 #include "core/pool.h"
 #include "geometry/leaf.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace carom::internal {
@@ -63,7 +65,7 @@ struct BodySim
 namespace body_flag {
 inline constexpr std::uint32_t dynamic = 1;
 inline constexpr std::uint32_t flier = 2;     ///< in flight: moved by flight, not by the solver
-inline constexpr std::uint32_t unbound = 4;   ///< no rows and no joints: its path is an exact parabola
+inline constexpr std::uint32_t unbound = 4;   ///< no contact rows, no limits, no motors: it drifts along exact parabolas
 inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
 inline constexpr std::uint32_t unsound = 32;  ///< its force law gave what is no force: it is put aside after the step
@@ -202,6 +204,8 @@ struct JointRecord
     Vec2 force{};
     float torque = 0;
 };
+
+inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }
 
 struct SceneState
 {

@@ -7,6 +7,7 @@
 #include "dynamics/scene_state.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace carom::internal {
 
 struct SceneData;
 struct RawImpact;
+class DirectSolve;
 struct RawTouch;
 
 /// Bodies, rows and joints that are solved together through all sub-steps: an island, or islands whose paths may meet.
@@ -21,7 +23,8 @@ struct Unit
 {
     std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
     std::int32_t state_count = 0;
-    std::int32_t first_row = 0; ///< contact rows, sorted by color
+    std::int32_t dynamic_count = 0; ///< of these, after the first one
+    std::int32_t first_row = 0;     ///< contact rows, sorted by color
     std::int32_t row_count = 0;
     std::int32_t first_joint = 0;
     std::int32_t joint_count = 0;
@@ -71,8 +74,9 @@ struct UnitOutput
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
     std::vector<std::int32_t> kicked_shapes;
-    std::vector<PathPoint> path;     ///< corners of the paths of fliers
-    std::vector<RecordedPose> poses; ///< after each sub-step, when asked for
+    std::vector<PathPoint> path;         ///< corners of the paths of fliers
+    std::vector<RecordedPose> poses;     ///< after each sub-step, when asked for
+    std::unique_ptr<DirectSolve> direct; ///< of what joints hold, where a unit of this place in the order has had any
     int flight_impacts = 0;
     int bulk_impacts = 0;
     bool capped = false;

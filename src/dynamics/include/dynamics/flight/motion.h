@@ -38,6 +38,11 @@ struct FlightSpan
     [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }
 };
 
+inline constexpr double at_limit = 1e-7; ///< rad: an angle this near is at the limit of its hinge
+
+/// Held by nothing: gravity and forces alone.
+void fall_freely(const FlightSpan& span, Flier& f);
+
 /// Forces of the sub-step; a body that leans on its hinge's limit stays there.
 void start_flight(const FlightSpan& span, Flier& f);
 

@@ -1,0 +1,72 @@
+#pragma once
+
+// The two bodies of a joint in the solver: where they are, how fast they approach along a row, and what an impulse does to them.
+
+#include "dynamics/contact_solver.h"
+#include "dynamics/joint_rows.h"
+#include "dynamics/rows.h"
+#include "dynamics/scene_data.h"
+
+namespace carom::internal {
+
+struct JointBodies
+{
+    BodyState& sa;
+    BodyState& sb;
+    const StateConstants& ca;
+    const StateConstants& cb;
+
+    JointBodies(const SolverView& view, const JointWork& work)
+        : sa(view.states[work.a]), sb(view.states[work.b]), ca(view.constants[work.a]), cb(view.constants[work.b])
+    {}
+
+    [[nodiscard]] float speed(const JointRow& r) const
+    {
+        return dot(r.d, sb.velocity - sa.velocity) + r.arm_b * sb.angular_velocity - r.arm_a * sa.angular_velocity;
+    }
+
+    // J M^-1 J'^T of two rows.
+    [[nodiscard]] float couple(const JointRow& r, const JointRow& q) const
+    {
+        return r.d.x * q.d.x * (ca.inverse_mass.x + cb.inverse_mass.x) + r.d.y * q.d.y * (ca.inverse_mass.y + cb.inverse_mass.y) +
+               r.arm_a * q.arm_a * ca.inverse_inertia + r.arm_b * q.arm_b * cb.inverse_inertia;
+    }
+
+    [[nodiscard]] float mass(const JointRow& r) const
+    {
+        const float k = couple(r, r);
+        return k > 0 ? 1 / k : 0;
+    }
+
+    void apply(const JointRow& r, float impulse) const
+    {
+        sa.velocity.x -= ca.inverse_mass.x * impulse * r.d.x;
+        sa.velocity.y -= ca.inverse_mass.y * impulse * r.d.y;
+        sa.angular_velocity -= ca.inverse_inertia * impulse * r.arm_a;
+        sb.velocity.x += cb.inverse_mass.x * impulse * r.d.x;
+        sb.velocity.y += cb.inverse_mass.y * impulse * r.d.y;
+        sb.angular_velocity += cb.inverse_inertia * impulse * r.arm_b;
+    }
+};
+
+/// A hinge to the world whose body flies about it: flight keeps it.
+[[nodiscard]] inline bool is_in_flight(const SolverView& view, const JointWork& work)
+{
+    return ((view.states[work.a].flags | view.states[work.b].flags) & body_flag::flier) != 0;
+}
+
+[[nodiscard]] JointPose present_pose(const SolverView& view, const JointWork& work);
+
+/// Where the present velocities lead to by the end of the sub-step.
+[[nodiscard]] JointPose pose_ahead(const SolverView& view, const JointWork& work);
+
+/// All rows of a joint; a spring has none.
+[[nodiscard]] JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h);
+
+/// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
+[[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
+
+/// It holds and does nothing else.
+[[nodiscard]] bool only_holds(const JointRecord& joint);
+
+} // namespace carom::internal

@@ -1,0 +1,92 @@
+#include "dynamics/joint_bodies.h"
+
+#include "core/trigonometry.h"
+
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+// Within a step bodies turn little: the arc sine's series is exact to a float's rounding there.
+float angle_of(Rotation turn)
+{
+    const float s = turn.s;
+    if (turn.c > 0 && std::fabs(s) < 0.15f)
+    {
+        const float z = s * s;
+        return s * (1 + z * (1.0f / 6 + z * (3.0f / 40 + z * (15.0f / 336))));
+    }
+    return static_cast<float>(arc_tangent(turn.s, turn.c));
+}
+
+struct Placed
+{
+    Vec2 shift{};
+    Rotation turn{};
+};
+
+JointPose joint_pose(const JointWork& work, const Placed& a, const Placed& b)
+{
+    JointPose pose;
+    pose.ra = rotate(a.turn, work.ra0);
+    pose.rb = rotate(b.turn, work.rb0);
+    pose.axis = rotate(a.turn, work.axis0);
+    pose.gap = work.gap0 + (b.shift - a.shift) + (pose.rb - work.rb0) - (pose.ra - work.ra0);
+    pose.angle = work.angle0 + angle_of(b.turn * inverse(a.turn));
+    return pose;
+}
+
+Placed placed_ahead(const SolverView& view, std::int32_t state)
+{
+    const BodyState& s = view.states[state];
+    return {s.delta_position + drift(view, state), Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation};
+}
+
+} // namespace
+
+JointPose present_pose(const SolverView& view, const JointWork& work)
+{
+    const BodyState& a = view.states[work.a];
+    const BodyState& b = view.states[work.b];
+    return joint_pose(work, {a.delta_position, a.delta_rotation}, {b.delta_position, b.delta_rotation});
+}
+
+JointPose pose_ahead(const SolverView& view, const JointWork& work)
+{
+    return joint_pose(work, placed_ahead(view, work.a), placed_ahead(view, work.b));
+}
+
+JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
+{
+    JointRows rows;
+    switch (joint.kind)
+    {
+    case JointType::Spring: break;
+    case JointType::Distance: distance_rows(joint, pose, rows); break;
+    case JointType::Revolute: revolute_rows(joint, pose, h, rows); break;
+    case JointType::Prismatic: prismatic_rows(joint, pose, h, rows); break;
+    }
+    return rows;
+}
+
+JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
+{
+    const JointRows all = rows_of(joint, pose, 0);
+    JointRows holding;
+    for (int i = 0; i < all.count; ++i)
+    {
+        if (is_rigid(all.rows[i]))
+            holding.add(all.rows[i]);
+    }
+    return holding;
+}
+
+bool only_holds(const JointRecord& joint)
+{
+    if (joint.kind == JointType::Distance)
+        return joint.lower == joint.upper && joint.hertz == 0;
+    return joint.kind != JointType::Spring && joint.hertz == 0 && !joint.enable_motor && !joint.enable_limit;
+}
+
+} // namespace carom::internal
