@@ -8,6 +8,7 @@
 #include "carom/debug_draw.h"
 #include "carom/error.h"
 #include "carom/event.h"
+#include "carom/force_law.h"
 #include "carom/id.h"
 #include "carom/joint.h"
 #include "carom/math.h"

@@ -56,6 +56,7 @@ struct ImpactEvent
     float effective_mass_a = 0; ///< kg; 0 means infinite
     float effective_mass_b = 0; ///< kg; 0 means infinite
     float restitution = 0;      ///< as mixed, at this approach speed
+    float friction = 0;         ///< as mixed; friction_impulse is at most this times the impulse
     float kick_speed = 0;       ///< added separating speed, m/s
 };
 

@@ -7,6 +7,7 @@
 #include "carom/debug_draw.h"
 #include "carom/error.h"
 #include "carom/event.h"
+#include "carom/force_law.h"
 #include "carom/id.h"
 #include "carom/joint.h"
 #include "carom/math.h"
@@ -125,6 +126,10 @@ public:
 
     /// Callbacks live beside the state: they are not in the hash. Default-constructed ones remove them.
     void set_callbacks(ShapeId shape, ShapeCallbacks callbacks);
+
+    /// Gives a body a force law, in place of the one it had; a default-constructed one removes it. Force laws live beside the
+    /// state: they are not in the hash.
+    void set_force_law(BodyId body, const ForceLaw& law);
 
     /// Bodies that never touch each other, whatever their filters say.
     void ignore_pair(BodyId a, BodyId b);

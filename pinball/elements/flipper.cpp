@@ -1,11 +1,13 @@
-// A flipper: a rigid bat with its centre of mass on the pivot, moved by torque alone. Coil and return spring set a
-// target; the torque follows it linearly (the coil's rise). Near the upper stop a switch cuts the coil to its hold share.
+// A flipper: a rigid bat with its centre of mass on the pivot, moved by torque alone. Coil and return spring give the torque in every
+// sub-step, as a force law of the bat. Near the upper stop a switch cuts the coil to its hold share.
 
+#include "pinball/elements/coil.h"
 #include "pinball/elements/make.h"
 #include "pinball/elements/playfield.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace carom::pinball {
 
@@ -18,7 +20,8 @@ class FlipperDevice final : public Device
 {
 public:
     FlipperDevice(Playfield& field, Index index, const Flipper& def)
-        : Device(index), m_def(def), m_stroke(def.up - def.rest), m_enabled(field.table().elements[index].enabled)
+        : Device(index), m_field(field), m_def(def), m_stroke(def.up - def.rest), m_coil(def.coil_torque, def.coil_rise),
+          m_enabled(field.table().elements[index].enabled)
     {
         Scene& scene = field.scene();
         state.body = scene.create_body({.type = BodyType::Dynamic,
@@ -35,22 +38,26 @@ public:
                                        .lower_angle = std::min(0.0f, m_stroke),
                                        .upper_angle = std::max(0.0f, m_stroke),
                                        .limit_restitution = def.stop_restitution});
+        scene.set_force_law(state.body, {.function = law, .user = this, .greatest_torque = def.coil_torque});
         state.angle = def.rest;
     }
 
     void before_step(Playfield& field) override
     {
-        press(field, m_enabled && (m_def.input == Side::Left ? field.buttons().left : field.buttons().right));
-        const float mean = move_torque(field.h());
-        field.scene().body(state.body).apply_torque(m_stroke > 0 ? mean : -mean);
+        m_step_began = field.time();
+        for (const ButtonChange& change : field.button_changes())
+            press(field, is_on(change.buttons));
     }
 
     void after_step(Playfield& field) override
     {
         const ConstBody body = field.scene().body(state.body);
-        report_stop(field, body.angle() / m_stroke, body.angular_velocity());
+        watch_stops(body.angle(), body.angular_velocity());
         state.angle = m_def.rest + body.angle();
         state.speed = body.angular_velocity();
+        for (const StopHit& hit : m_stop_hits)
+            report_hit(field, {.kind = EventKind::FlipperStop, .point = m_def.pivot, .speed = hit.speed, .value = hit.at == 1});
+        m_stop_hits.clear();
     }
 
     void command(Playfield&, Command command) override
@@ -61,12 +68,23 @@ public:
 
     void add_to(Hash& hash) const override
     {
-        hash.add(m_torque);
+        m_coil.add_to(hash);
         hash.add(m_enabled);
         hash.add(m_at_stop);
     }
 
 private:
+    struct StopHit
+    {
+        float speed; ///< rad/s
+        int at;      ///< as m_at_stop
+    };
+
+    [[nodiscard]] bool is_on(const Buttons& buttons) const
+    {
+        return m_enabled && (m_def.input == Side::Left ? buttons.left : buttons.right);
+    }
+
     void press(Playfield& field, bool on)
     {
         if (on != state.down)
@@ -74,21 +92,37 @@ private:
         state.down = on;
     }
 
-    // The coil's rise: the torque goes to its target in a straight line. Gives the mean over the step.
-    [[nodiscard]] float move_torque(float h)
+    static Load law(void* user, const BodyMotion& motion)
     {
-        const float before = m_torque;
-        const float most = m_def.coil_rise > 0 ? h * m_def.coil_torque / m_def.coil_rise : 2 * m_def.coil_torque;
-        m_torque += std::clamp(target_torque() - m_torque, -most, most);
-        return m_def.coil_rise > 0 ? 0.5f * (before + m_torque) : m_torque;
+        auto& flipper = *static_cast<FlipperDevice*>(user);
+        const float angle = flipper.angle_of(motion.pose.rotation);
+        flipper.watch_stops(angle, motion.angular_velocity);
+        const double begin = flipper.m_step_began + motion.time;
+        const float torque = flipper.m_coil.mean_torque(
+            begin, static_cast<double>(motion.h),
+            [&](double time)
+            {
+                const float then = angle + motion.angular_velocity * static_cast<float>(time - begin);
+                return flipper.target_torque(flipper.is_on(flipper.m_field.buttons_at(time - flipper.m_step_began)), then);
+            });
+        return {.torque = flipper.m_stroke > 0 ? torque : -torque};
     }
 
-    // Positive towards the upper stop.
-    [[nodiscard]] float target_torque() const
+    // A bat mostly rests, and the arc tangent is what its law costs.
+    float angle_of(Rotation rotation)
     {
-        if (!state.down)
+        if (rotation != m_seen_rotation)
+            m_seen_angle = rotation.angle();
+        m_seen_rotation = rotation;
+        return m_seen_angle;
+    }
+
+    // Positive towards the upper stop; `angle` is that of the body.
+    [[nodiscard]] float target_torque(bool on, float angle) const
+    {
+        if (!on)
             return -m_def.return_ratio * m_def.coil_torque;
-        const float to_go = std::abs(m_def.up - state.angle);
+        const float to_go = std::abs(m_stroke - angle);
         if (to_go >= m_def.eos)
             return m_def.coil_torque;
         const float x = to_go / m_def.eos;
@@ -96,25 +130,31 @@ private:
         return m_def.coil_torque * (m_def.hold_torque_ratio + (1 - m_def.hold_torque_ratio) * fade);
     }
 
-    // The bat may have come to the stop and be on its way back within one step: then it has turned round near it.
-    void report_stop(Playfield& field, float progress, float speed)
+    // The bat may have come to the stop and be on its way back since the last look: then it has turned round near it.
+    void watch_stops(float angle, float speed)
     {
-        const bool turned_round = state.speed * speed < 0;
+        const float progress = angle / m_stroke;
+        const bool turned_round = m_seen_speed * speed < 0;
         const float reach = turned_round ? 0.1f : 0.01f;
         const int at = progress < reach ? -1 : progress > 1 - reach ? 1 : 0;
         if (at != 0 && at != m_at_stop)
-            report_hit(
-                field,
-                {.kind = EventKind::FlipperStop, .point = m_def.pivot, .speed = std::abs(state.speed), .value = at == 1 ? 1 : 0});
+            m_stop_hits.push_back({std::abs(m_seen_speed), at});
         // The bounces after that stay silent: it has to get half a stroke away before it can strike again.
         if (at != 0 || std::abs(progress - 0.5f) < 0.25f)
             m_at_stop = at;
+        m_seen_speed = speed;
     }
 
+    const Playfield& m_field;
     const Flipper& m_def;
-    float m_stroke;     ///< rad, signed
-    float m_torque = 0; ///< N m, positive towards the upper stop
+    float m_stroke; ///< rad, signed
+    Coil m_coil;
+    double m_step_began = 0;
+    float m_seen_speed = 0; ///< at the last look
+    Rotation m_seen_rotation{};
+    float m_seen_angle = 0;
     int m_at_stop = -1; ///< -1 lower, 1 upper, 0 between
+    std::vector<StopHit> m_stop_hits{};
     bool m_enabled;
 };
 

@@ -1,5 +1,6 @@
 #include "pinball/elements/playfield.h"
 
+#include "pinball/elements/change_times.h"
 #include "pinball/elements/make.h"
 #include "pinball/elements/rolling.h"
 
@@ -16,15 +17,43 @@ constexpr std::uint64_t ball_tag = std::uint64_t{1} << 63;
 // Softer touches than this are rolling and leaning, not hits: a ball at rest sinks and rises by less.
 constexpr float quietest_impact = 0.02f; // m/s
 
+// Sub-steps of at most a quarter of a millisecond, however long the step is, and where that can be, such that one begins at every whole
+// millisecond: there buttons change and coils look at them. 4 in 1 ms, 25 in 1/240 s, 50 in 1/120 s.
+int substeps_of(float step)
+{
+    for (int in_millisecond = 4; in_millisecond <= 12; ++in_millisecond)
+    {
+        const float count = 1000 * static_cast<float>(in_millisecond) * step;
+        if (std::abs(count - std::round(count)) < 1e-3f && count < 64.5f)
+            return static_cast<int>(std::round(count));
+    }
+    return std::clamp(static_cast<int>(std::ceil(4000 * step)), 1, 64);
+}
+
 SceneDef scene_def(const Table& table)
 {
     SceneDef def;
     def.gravity = {0, -table.physics.g * Rotation::from_angle(table.physics.slope).s};
     def.length_scale = 0.02f; // a ball is 27 mm
     def.fixed_step = table.physics.step;
+    def.substeps = substeps_of(table.physics.step);
     def.friction_rule = MixRule::OtherDecides;
     def.restitution_rule = MixRule::OtherDecides;
     return def;
+}
+
+} // namespace
+
+namespace {
+
+constexpr double same_time = 1e-6; // s: nobody presses a button that exactly
+
+// The step as it was meant: 0.001f is not a thousandth, and over an hour that adds up.
+double nominal(float step)
+{
+    const double rate = 1 / static_cast<double>(step);
+    const double whole = std::round(rate);
+    return std::abs(rate - whole) < 1e-3 ? 1 / whole : 1 / rate;
 }
 
 } // namespace
@@ -52,8 +81,10 @@ bool PlungerLane::contains(Position p) const
 }
 
 Playfield::Playfield(const Table& table, std::uint64_t seed)
-    : m_table(table), m_scene(scene_def(table)), m_random(seed), m_lane(table), m_slope(m_scene.gravity()),
-      m_friction(table.physics.mu_playfield * table.physics.g * Rotation::from_angle(table.physics.slope).c)
+    : m_table(table), m_scene(scene_def(table)), m_random(seed), m_lane(table),
+      m_floor{.slope = m_scene.gravity(),
+              .friction = table.physics.mu_playfield * table.physics.g * Rotation::from_angle(table.physics.slope).c,
+              .ball_mass = table.ball.mass}
 {
     add_devices();
 }
@@ -66,13 +97,32 @@ void Playfield::add_devices()
         m_devices.push_back(std::visit([&](const auto& part) { return make(*this, i, part); }, m_table.elements[i].part));
 }
 
+double Playfield::time() const { return static_cast<double>(m_step) * nominal(h()); }
+
+const Buttons& Playfield::buttons_at(double time) const
+{
+    const ButtonChange* last = &m_changes.front();
+    for (const ButtonChange& change : m_changes)
+        if (change.time <= time + same_time)
+            last = &change;
+    return last->buttons;
+}
+
 void Playfield::step(const Buttons& buttons)
 {
+    const ButtonChange at_once{.buttons = buttons};
+    step_through({&at_once, 1});
+}
+
+void Playfield::step_through(std::span<const ButtonChange> changes)
+{
+    check_times("Playfield::step_through", "ButtonChange::time", changes, h());
     m_events.clear();
-    m_buttons = buttons;
+    m_changes = {{.buttons = m_changes.back().buttons}};
+    m_changes.insert(m_changes.end(), changes.begin(), changes.end());
     for (auto& device : m_devices)
         device->before_step(*this);
-    roll_balls();
+    let_balls_roll();
     m_scene.step(h());
     ++m_step;
     read_balls();
@@ -84,16 +134,49 @@ void Playfield::step(const Buttons& buttons)
     remove_drained();
 }
 
-void Playfield::roll_balls()
+namespace {
+
+// What the sideways friction left of the greatest friction impulse, over the ball's mass.
+float room_to_rub(const ImpactEvent& impact, float mass)
+{
+    const float greatest = impact.friction * impact.impulse;
+    const float left = greatest * greatest - impact.friction_impulse * impact.friction_impulse;
+    return left > 0 ? std::sqrt(left) / mass : 0.0f;
+}
+
+} // namespace
+
+// A force law: in every sub-step first what has struck the ball, then the playfield.
+Load Playfield::roll(void* user, const BodyMotion& motion)
+{
+    Ball& ball = *static_cast<Ball*>(user);
+    for (const ImpactEvent& impact : motion.impacts)
+        ball.field->rub(ball, impact);
+    const Floor& floor = ball.field->m_floor;
+    const Vec2 friction = playfield_friction(motion.velocity, ball.state.rolling, floor.slope, floor.friction, motion.h);
+    ball.state.rolling = rolling_after(ball.state.rolling, friction, motion.h);
+    return {.force = floor.ball_mass * friction};
+}
+
+// Two balls that rub on each other do so after the step: here each is alone.
+void Playfield::rub(Ball& ball, const ImpactEvent& impact) const
+{
+    const bool ball_is_a = impact.body_a == ball.state.body;
+    const BodyId other = ball_is_a ? impact.body_b : impact.body_a;
+    if (std::ranges::any_of(m_balls, [other](const Ball& b) { return b.state.body == other; }))
+        return;
+    const Vec2 normal = ball_is_a ? -impact.normal : impact.normal;
+    ball.state.rolling = rub_wall(ball.state.rolling, normal, room_to_rub(impact, m_floor.ball_mass));
+}
+
+// Anew in every step: balls come and go, and their places in memory with them.
+void Playfield::let_balls_roll()
 {
     for (Ball& ball : m_balls)
     {
-        if (ball.state.held)
-            continue;
-        Body body = m_scene.body(ball.state.body);
-        const Vec2 friction = playfield_friction(body.velocity(), ball.state.rolling, m_slope, m_friction, h());
-        body.apply_force(m_table.ball.mass * friction);
-        ball.state.rolling = rolling_after(ball.state.rolling, friction, h());
+        ball.field = this;
+        m_scene.set_force_law(ball.state.body,
+                              {.function = roll, .user = &ball, .greatest_force = m_floor.ball_mass * m_floor.friction});
     }
 }
 
@@ -141,25 +224,10 @@ void Playfield::hear_impacts()
     }
 }
 
-namespace {
-
-// What the sideways friction left of the greatest friction impulse, over the ball's mass.
-float room_to_rub(const ImpactEvent& impact, float friction, float mass)
-{
-    const float greatest = friction * impact.impulse;
-    const float left = greatest * greatest - impact.friction_impulse * impact.friction_impulse;
-    return left > 0 ? std::sqrt(left) / mass : 0.0f;
-}
-
-} // namespace
-
 void Playfield::strike(Ball& ball, Index element, const ImpactEvent& impact, Vec2 normal)
 {
     if (element == none)
         return;
-    const Index material = m_table.elements[element].material;
-    const float friction = material == none ? 0.0f : m_table.materials[material].friction;
-    ball.state.rolling = rub_wall(ball.state.rolling, normal, room_to_rub(impact, friction, m_table.ball.mass));
     if (impact.approach_speed >= quietest_impact)
         emit({.kind = EventKind::Impact,
               .element = element,
@@ -173,8 +241,7 @@ void Playfield::strike(Ball& ball, Index element, const ImpactEvent& impact, Vec
 
 void Playfield::strike_balls(Ball& a, Ball& b, const ImpactEvent& impact)
 {
-    const float friction = m_table.ball.material == none ? 0.0f : m_table.materials[m_table.ball.material].friction;
-    rub_balls(a.state.rolling, b.state.rolling, impact.normal, room_to_rub(impact, friction, m_table.ball.mass));
+    rub_balls(a.state.rolling, b.state.rolling, impact.normal, room_to_rub(impact, m_table.ball.mass));
     if (impact.approach_speed < quietest_impact)
         return;
     // A free ball strikes a captive one; of two captive ones the faster strikes the slower.

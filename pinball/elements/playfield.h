@@ -6,6 +6,7 @@
 #include "carom/scene.h"
 #include "pinball/elements/device.h"
 #include "pinball/elements/random.h"
+#include "pinball/elements/rolling.h"
 #include "pinball/table/table.h"
 
 #include <memory>
@@ -27,12 +28,20 @@ struct Buttons
     bool plunger = false;
 };
 
+/// The buttons from a time of the step on, until the next change.
+struct ButtonChange
+{
+    double time = 0; ///< s since the step began
+    Buttons buttons{};
+};
+
 struct Ball
 {
     BallState state{};
     Index element = none; ///< of a captive ball
     bool in_lane = false;
     bool drained = false;
+    const Playfield* field = nullptr; ///< that it rolls on
 };
 
 /// The column before the plunger, in which a ball waits or falls back.
@@ -56,7 +65,11 @@ public:
     Playfield(const Table& table, std::uint64_t seed);
     ~Playfield();
 
+    /// One step with the buttons as they are held all through it.
     void step(const Buttons& buttons);
+    /// One step in which the buttons change, in the order of time; up to the first change they stay as they were. Coils and
+    /// rods feel a change within the step, however long that is. Refuses times (carom::Error) that go back or lie outside of the step.
+    void step_through(std::span<const ButtonChange> changes);
 
     /// Puts a ball before the plunger and reports it; nothing while another one is in the way.
     std::optional<GameEvent> serve();
@@ -75,7 +88,11 @@ public:
     // For the elements.
     [[nodiscard]] Scene& scene() { return m_scene; }
     [[nodiscard]] Random& random() { return m_random; }
-    [[nodiscard]] const Buttons& buttons() const { return m_buttons; }
+    /// The changes of this step; the first is at its start.
+    [[nodiscard]] std::span<const ButtonChange> button_changes() const { return m_changes; }
+    /// The buttons at a time since the step began.
+    [[nodiscard]] const Buttons& buttons_at(double time) const;
+    [[nodiscard]] double time() const; ///< s, at the start of the step
     [[nodiscard]] float h() const { return m_table.physics.step; }
     [[nodiscard]] std::span<Ball> all_balls() { return m_balls; }
     [[nodiscard]] Ball* find_ball(BodyId body);
@@ -96,7 +113,9 @@ public:
 
 private:
     void add_devices();
-    void roll_balls();
+    void let_balls_roll();
+    static Load roll(void* user, const BodyMotion& motion);
+    void rub(Ball& ball, const ImpactEvent& impact) const;
     void read_balls();
     void hear_impacts();
     void hear_triggers();
@@ -110,10 +129,9 @@ private:
     const Table& m_table;
     Scene m_scene;
     Random m_random;
-    Buttons m_buttons{};
+    std::vector<ButtonChange> m_changes{{}};
     PlungerLane m_lane;
-    Vec2 m_slope{};       ///< acceleration down the table, m/s²
-    float m_friction = 0; ///< greatest deceleration by the playfield, m/s²
+    Floor m_floor{};
     std::vector<std::unique_ptr<Device>> m_devices{};
     std::vector<Ball> m_balls{};
     std::vector<GameEvent> m_events{};

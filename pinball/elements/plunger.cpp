@@ -1,8 +1,10 @@
-// The plunger: a rod on a slider with a true spring. The key pulls it back at a steady speed; let go, the spring throws it
-// forward to its stop, and the ball with it.
+// The plunger: a rod on a slider with a true spring. The key pulls it back at a steady speed, as a force law of the rod; let go, the
+// spring throws it forward to its stop, and the ball with it.
 
 #include "pinball/elements/make.h"
 #include "pinball/elements/playfield.h"
+
+#include <algorithm>
 
 namespace carom::pinball {
 
@@ -12,37 +14,42 @@ namespace {
 constexpr float pressed_length = 0.02f; // m
 // The rod's collar lands on a rubber ring.
 constexpr float stop_restitution = 0.2f;
+// How fast the hand takes up a wrong speed, and how it eases the rod to the end of its stroke.
+constexpr float grip_time = 0.001f; // s
+constexpr float ease_time = 0.005f; // s
 
 class PlungerDevice final : public Device
 {
 public:
-    PlungerDevice(Playfield& field, Index index, const Plunger& def) : Device(index), m_def(def)
+    PlungerDevice(Playfield& field, Index index, const Plunger& def) : Device(index), m_field(field), m_def(def)
     {
         Scene& scene = field.scene();
         state.body =
             scene.create_body({.type = BodyType::Dynamic, .position = def.pos, .locks = {.angular = true}, .can_sleep = false});
         scene.create_shape(state.body, box(def.half.x, def.half.y), field.moving_surface(index));
         scene.body(state.body).set_mass({.mass = def.mass, .center = {}, .inertia = 0});
-        m_slider = scene.create_joint(slider(false));
+        m_slider = scene.create_joint(PrismaticDef{.body_b = state.body,
+                                                   .anchor_a = def.pos,
+                                                   .axis_a = def.axis,
+                                                   .enable_limit = true,
+                                                   .lower_translation = -def.stroke,
+                                                   .upper_translation = 0,
+                                                   .limit_restitution = stop_restitution});
         const float at_rest = pressed_length + def.stroke;
         scene.create_joint(SpringDef{.body_b = state.body,
                                      .anchor_a = def.pos - at_rest * def.axis,
                                      .stiffness = def.k,
                                      .damping = def.c,
                                      .length = at_rest + def.preload / def.k});
+        m_slope = scene.gravity();
+        m_strength = 2 * (def.preload + def.k * def.stroke);
+        scene.set_force_law(state.body, {.function = law, .user = this, .greatest_force = m_strength});
     }
 
     void before_step(Playfield& field) override
     {
-        const bool pull = field.buttons().plunger;
-        if (pull == state.down)
-            return;
-        state.down = pull;
-        field.scene().joint(m_slider).set_def(slider(pull));
-        if (pull)
-            field.emit({.kind = EventKind::PlungerPulled, .element = index(), .point = m_def.pos});
-        else
-            report_hit(field, {.kind = EventKind::PlungerReleased, .point = m_def.pos, .speed = state.travel});
+        for (const ButtonChange& change : field.button_changes())
+            turn_key(field, change);
     }
 
     void after_step(Playfield& field) override
@@ -53,22 +60,52 @@ public:
     }
 
 private:
-    [[nodiscard]] PrismaticDef slider(bool pulled) const
+    void turn_key(Playfield& field, const ButtonChange& change)
     {
-        return {.body_b = state.body,
-                .anchor_a = m_def.pos,
-                .axis_a = m_def.axis,
-                .enable_limit = true,
-                .lower_translation = -m_def.stroke,
-                .upper_translation = 0,
-                .limit_restitution = stop_restitution,
-                .enable_motor = pulled,
-                .motor_speed = -m_def.pull_speed,
-                .max_motor_force = 2 * (m_def.preload + m_def.k * m_def.stroke)};
+        const bool pull = change.buttons.plunger;
+        if (pull == state.down)
+            return;
+        state.down = pull;
+        const float travel = std::clamp(state.travel + static_cast<float>(change.time) * state.speed, 0.0f, m_def.stroke);
+        if (pull)
+            field.emit({.kind = EventKind::PlungerPulled, .element = index(), .point = m_def.pos});
+        else
+            report_hit(field, {.kind = EventKind::PlungerReleased, .point = m_def.pos, .speed = travel});
     }
 
+    // The pull lasts for as much of the sub-step as the key is held.
+    static Load law(void* user, const BodyMotion& motion)
+    {
+        const auto& plunger = *static_cast<PlungerDevice*>(user);
+        const float held = plunger.share_held(motion.time, static_cast<double>(motion.h));
+        return {.force = held > 0 ? held * plunger.pull(motion) * plunger.m_def.axis : Vec2{}};
+    }
+
+    [[nodiscard]] float share_held(double begin, double h) const
+    {
+        const double end = begin + h;
+        double held = m_field.buttons_at(begin).plunger ? h : 0;
+        for (const ButtonChange& change : m_field.button_changes())
+            if (change.time > begin && change.time < end && change.buttons.plunger != m_field.buttons_at(begin).plunger)
+                held += change.buttons.plunger ? end - change.time : change.time - end;
+        return static_cast<float>(std::clamp(held / h, 0.0, 1.0));
+    }
+
+    // Along the axis: against spring and slope, and what brings the rod to the wanted speed; a hand is only so strong.
+    [[nodiscard]] float pull(const BodyMotion& motion) const
+    {
+        const float travel = -dot(motion.pose.position - Position(m_def.pos), m_def.axis);
+        const float wanted = -std::min(m_def.pull_speed, (m_def.stroke - travel) / ease_time);
+        const float push = m_def.preload + m_def.k * travel - m_def.c * wanted + m_def.mass * dot(m_slope, m_def.axis);
+        const float lacking = wanted - dot(motion.velocity, m_def.axis);
+        return std::clamp(m_def.mass / grip_time * lacking - push, -m_strength, m_strength);
+    }
+
+    const Playfield& m_field;
     const Plunger& m_def;
     JointId m_slider{};
+    Vec2 m_slope{};       ///< acceleration down the table, m/s²
+    float m_strength = 0; ///< N
 };
 
 } // namespace

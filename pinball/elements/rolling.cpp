@@ -6,10 +6,14 @@ namespace carom::pinball {
 
 Vec2 playfield_friction(Vec2 velocity, Vec2 rolling, Vec2 slope, float greatest, float h)
 {
-    const Vec2 slip = velocity - rolling + h * slope;
-    const Vec2 stop = (-2.0f / (7.0f * h)) * slip;
-    const float wanted = length(stop);
-    return wanted <= greatest ? stop : (greatest / wanted) * stop;
+    const Vec2 slip = velocity - rolling;
+    const Vec2 stop = (-2.0f / (7.0f * h)) * (slip + h * slope);
+    if (length(stop) <= greatest)
+        return stop;
+    // Friction works along the slip and does not turn it; the slope does: its way half through is the mean.
+    const Vec2 mean = slip + (0.5f * h) * slope;
+    const float speed = length(mean);
+    return speed > 0 ? (-greatest / speed) * mean : Vec2{};
 }
 
 Vec2 rolling_after(Vec2 rolling, Vec2 friction, float h) { return rolling - (2.5f * h) * friction; }

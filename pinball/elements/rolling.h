@@ -9,11 +9,20 @@
 /// works against u: it changes the velocity by a h and, since the inertia is 2/5 m r², the rolling by -5/2 a h, hence the
 /// slip by 7/2 a h. From rest that gives 5/7 g sin(slope); from a slide it ends in rolling at 5/7 of the speed.
 
+#include "carom/force_law.h"
 #include "carom/math.h"
 
 namespace carom::pinball {
 
-/// Acceleration that the playfield's friction gives over a step of h: what ends the slip within the step, or what the
+/// What a ball rolls on.
+struct Floor
+{
+    Vec2 slope{};       ///< acceleration down the table, m/s²
+    float friction = 0; ///< greatest deceleration by the playfield, m/s²
+    float ball_mass = 0;
+};
+
+/// Acceleration that the playfield's friction gives over a time h: what ends the slip within it, or what the
 /// friction can give at most. `slope` is the acceleration that gravity adds meanwhile.
 [[nodiscard]] Vec2 playfield_friction(Vec2 velocity, Vec2 rolling, Vec2 slope, float greatest, float h);
 

@@ -1,20 +1,24 @@
 #include "pinball/game/auto_plunger.h"
 
+#include <cmath>
+
 namespace carom::pinball {
 
 namespace {
 
 // A ball that was just served settles on the rod first, and one that was launched gets away before the next pull.
-constexpr int settle_steps = 300;
+constexpr float settle_time = 0.3f; // s
 
 } // namespace
+
+AutoPlunger::AutoPlunger(float step) : m_settle_steps(static_cast<int>(std::lround(settle_time / step))) {}
 
 bool AutoPlunger::step(bool ready, int pull_steps)
 {
     if (m_pulled == 0)
     {
         m_pause = ready && m_balls > 0 ? m_pause + 1 : 0;
-        if (m_pause < settle_steps)
+        if (m_pause < m_settle_steps)
             return false;
     }
     if (++m_pulled <= pull_steps)

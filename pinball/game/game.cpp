@@ -1,5 +1,6 @@
 #include "pinball/game/game.h"
 
+#include "pinball/elements/change_times.h"
 #include "pinball/elements/playfield.h"
 #include "pinball/game/auto_plunger.h"
 #include "pinball/rules/rule_book.h"
@@ -25,12 +26,12 @@ Index plunger_of(const Table& table)
 struct Session
 {
     Session(const Table& table, const Options& options)
-        : field(table, options.seed), rules(table, options.ball_save, options.kickback)
+        : field(table, options.seed), rules(table, options.ball_save, options.kickback), auto_plunger(table.physics.step)
     {}
 
     Playfield field;
     RuleBook rules;
-    AutoPlunger auto_plunger{};
+    AutoPlunger auto_plunger;
     Input held{};
     std::vector<GameEvent> events{};
     std::vector<BallState> balls{};
@@ -45,7 +46,8 @@ struct Game::State
         note_balls();
     }
 
-    void step(const Input& input);
+    void step(std::span<const InputChange> changes);
+    [[nodiscard]] Presses press(std::span<const InputChange> changes);
     void serve();
     void obey();
     void note_balls();
@@ -65,7 +67,17 @@ Game::~Game() = default;
 Game::Game(Game&&) noexcept = default;
 Game& Game::operator=(Game&&) noexcept = default;
 
-void Game::step(const Input& input) { m_state->step(input); }
+void Game::step(const Input& input)
+{
+    const InputChange at_once{.input = input};
+    m_state->step({&at_once, 1});
+}
+
+void Game::step_through(std::span<const InputChange> changes)
+{
+    check_times("Game::step_through", "InputChange::time", changes, table().physics.step);
+    m_state->step(changes);
+}
 
 void Game::restart()
 {
@@ -74,13 +86,19 @@ void Game::restart()
 }
 
 // The table first, then the rules on what it told, then their orders to the table: an order shows in the next step.
-void Game::State::step(const Input& input)
+void Game::State::step(std::span<const InputChange> changes)
 {
     Session& s = *session;
-    s.field.step({.left = input.left, .right = input.right, .plunger = input.plunger || auto_pull()});
-    const Presses presses{
-        .left = input.left && !s.held.left, .right = input.right && !s.held.right, .start = input.start && !s.held.start};
-    s.held = input;
+    const bool pull = auto_pull();
+    const auto buttons = [pull](const Input& input)
+    { return Buttons{.left = input.left, .right = input.right, .plunger = input.plunger || pull}; };
+    std::vector<ButtonChange> button_changes;
+    if (changes.empty() || changes.front().time > 0)
+        button_changes.push_back({.buttons = buttons(s.held)});
+    for (const InputChange& change : changes)
+        button_changes.push_back({change.time, buttons(change.input)});
+    s.field.step_through(button_changes);
+    const Presses presses = press(changes);
     const auto told = s.field.events();
     s.events.assign(told.begin(), told.end());
     s.rules.step(s.field.step_count(), presses, s.events, s.field.balls_in_play());
@@ -88,6 +106,21 @@ void Game::State::step(const Input& input)
     obey();
     note_score();
     note_balls();
+}
+
+// A button that went down within the step counts as pressed, also if it is up again.
+Presses Game::State::press(std::span<const InputChange> changes)
+{
+    Presses presses;
+    Input& held = session->held;
+    for (const auto& [time, input] : changes)
+    {
+        presses.left |= input.left && !held.left;
+        presses.right |= input.right && !held.right;
+        presses.start |= input.start && !held.start;
+        held = input;
+    }
+    return presses;
 }
 
 void Game::State::obey()

@@ -30,6 +30,13 @@ struct Input
     friend bool operator==(Input, Input) = default;
 };
 
+/// The buttons from a time of the step on, until the next change.
+struct InputChange
+{
+    double time = 0; ///< s since the step began
+    Input input{};
+};
+
 struct Options
 {
     std::uint64_t seed = 1;
@@ -45,8 +52,11 @@ public:
     Game(Game&&) noexcept;
     Game& operator=(Game&&) noexcept;
 
-    /// One step of Physics::step (1 ms).
+    /// One step of Physics::step (by default 1 ms), with the buttons as they are held all through it.
     void step(const Input& input);
+    /// One step in which the buttons change; up to the first change they stay as they were. For tables with long steps: flippers
+    /// and plunger feel every millisecond. Refuses times (carom::Error) that go back or lie outside of the step.
+    void step_through(std::span<const InputChange> changes);
     /// Back to the first step, with the same seed; high scores stay.
     void restart();
 

@@ -7,7 +7,7 @@ namespace carom::pinball {
 
 namespace {
 
-constexpr std::int64_t steps_between_points = 6;
+constexpr float time_between_points = 0.006f; // s
 constexpr std::size_t trail_points = 22;
 constexpr float sink_per_step = 1.0f / 70;
 
@@ -52,7 +52,7 @@ void Effects::follow(const BallState& ball, const Game& game)
     const float h = game.table().physics.step;
     const float radius = game.table().ball.radius;
     memory.orientation.turn_by({-ball.rolling.y * h / radius, ball.rolling.x * h / radius, ball.spin * h});
-    if (game.step_count() % steps_between_points != 0)
+    if (game.step_count() % std::max<std::int64_t>(std::lround(time_between_points / h), 1) != 0)
         return;
     memory.trail.insert(memory.trail.begin(), ball.position);
     if (memory.trail.size() > trail_points)

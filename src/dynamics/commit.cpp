@@ -6,7 +6,9 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/flight/motion.h"
+#include "dynamics/force_laws.h"
 #include "dynamics/quarantine.h"
+#include "dynamics/raw_events.h"
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
 #include "dynamics/wake.h"
@@ -91,7 +93,7 @@ void commit_state(StepContext& ctx, std::int32_t index)
         x = flier.landed ? x : center.x;
         y = flier.landed ? y : center.y;
     }
-    if (!is_sound(s, x, y))
+    if ((s.flags & body_flag::unsound) != 0 || !is_sound(s, x, y))
     {
         ctx.scratch.unsound.push_back(body);
         return;
@@ -219,14 +221,7 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
                                            body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
     }
     for (const RawImpact& raw : output.impacts)
-    {
-        ImpactEvent event = raw.event;
-        event.shape_a = shape_id(state, raw.shape_a);
-        event.shape_b = shape_id(state, raw.shape_b);
-        event.body_a = body_id(state, state.shapes[raw.shape_a].body);
-        event.body_b = body_id(state, state.shapes[raw.shape_b].body);
-        ctx.scene.events.impacts.push_back(event);
-    }
+        ctx.scene.events.impacts.push_back(impact_event(state, raw));
     for (const DeferredImpulse& d : output.deferred)
         apply_deferred(ctx, d);
     for (const std::int32_t shape : output.kicked_shapes)
@@ -359,6 +354,7 @@ void commit_and_sleep(StepContext& ctx)
         commit_joint(ctx, work);
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
+    note_untold_impacts(ctx);
     for (std::size_t u = 0; u < scratch.units.size(); ++u)
         merge_output(ctx, scratch.outputs[u]);
     update_triggers(ctx);

@@ -6,6 +6,7 @@
 #include "dynamics/contact_solver.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/flight.h"
+#include "dynamics/force_laws.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
@@ -27,6 +28,7 @@ UnitOutput& UnitOutput::operator=(UnitOutput&&) noexcept = default;
 void UnitOutput::clear()
 {
     impacts.clear();
+    told_impacts = 0;
     begins.clear();
     late_rows.clear();
     deferred.clear();
@@ -94,6 +96,7 @@ public:
 private:
     void substep(int k)
     {
+        apply_force_laws(m_ctx, m_unit, k, m_output);
         raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
         std::optional<UnitEnergy> energy;
@@ -523,6 +526,7 @@ private:
         event.time = m_ctx.h * static_cast<float>(k + 1);
         event.approach_speed = approach;
         event.restitution = e;
+        event.friction = row.friction;
         event.kick_speed = kick;
         event.effective_mass_a = mass_a;
         event.effective_mass_b = mass_b;

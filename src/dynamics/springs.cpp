@@ -81,27 +81,28 @@ SpringRow spring_row(const SolverView& view, const JointRecord& joint, const Joi
     return {row, JointBodies(view, work).mass(row)};
 }
 
-SpringKick make_kick(double stretch, double speed, double acceleration)
+SpringKick make_kick(double stretch, double speed, double acceleration, double straight)
 {
-    return {static_cast<float>(stretch), static_cast<float>(speed), static_cast<float>(acceleration)};
+    return {static_cast<float>(stretch), static_cast<float>(speed), static_cast<float>(acceleration),
+            static_cast<float>(straight)};
 }
 
 void fit_exactly(const SpringAnswer& s, double w2, double h, JointWork& work)
 {
-    // h (u + h a + kick) - h² a / 2 = e' - e; the speed at hand is u + h a.
+    // h (u + h a + kick) - h² a / 2 = e' - e; the speed at hand is u + h a. What drifts straight goes without h² a / 2.
     const double by_speed = (s.b - h) / h;
-    work.before = make_kick((s.a - 1) / h, by_speed, (s.g - 0.5 * h * h) / h - by_speed * h);
+    work.before = make_kick((s.a - 1) / h, by_speed, (s.g - 0.5 * h * h) / h - by_speed * h, -0.5 * h);
     // Where it came from: e = e' - h v + h² a / 2 with v the speed at hand, u = (e' - A e - G a) / B.
     const double v_of_e = s.d / s.b;
     const double by_e = -w2 * s.b - v_of_e * s.a; // of u' by e
-    work.after = make_kick(v_of_e + by_e, -h * by_e - 1, 0.5 * h * h * by_e + s.b - v_of_e * s.g);
+    work.after = make_kick(v_of_e + by_e, -h * by_e - 1, 0.5 * h * h * by_e + s.b - v_of_e * s.g, -0.5 * h * h * by_e);
 }
 
 // Too stiff for the fitted step: an implicit one, stable at any stiffness, in the first kick alone.
 void fit_implicitly(double stiffness, double damping, double mass, double h, JointWork& work)
 {
     const double p = 1 / (1 + (h * damping + h * h * stiffness) / mass);
-    work.before = make_kick(-p * h * stiffness / mass, p - 1, 0);
+    work.before = make_kick(-p * h * stiffness / mass, p - 1, 0, 0);
     work.after = {};
 }
 
@@ -121,8 +122,11 @@ float kick(const SolverView& view, const JointRecord& joint, const JointWork& wo
     const JointRow& row = spring.row;
     const float acceleration = dot(row.d, bodies.cb.acceleration - bodies.ca.acceleration) +
                                row.arm_b * bodies.cb.angular_acceleration - row.arm_a * bodies.ca.angular_acceleration;
+    const auto straight = [&](std::int32_t state)
+    { return (view.states[state].flags & body_flag::unbound) == 0 ? view.constants[state].acceleration : Vec2{}; };
     const float impulse =
-        spring.mass * (kick.stretch * row.error + kick.speed * bodies.speed(row) + kick.acceleration * acceleration);
+        spring.mass * (kick.stretch * row.error + kick.speed * bodies.speed(row) + kick.acceleration * acceleration +
+                       kick.straight * dot(row.d, straight(work.b) - straight(work.a)));
     bodies.apply(row, impulse);
     return impulse;
 }

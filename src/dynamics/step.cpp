@@ -1,7 +1,7 @@
 // One step, in seven stages. First where everything may go in this step (sweep) and which boxes may meet on the way (pairs); then how near pairs
 // touch (contacts), and who must be solved together because of it (units). The units are solved through all sub-steps, balls in flight
 // at their own times between the sub-steps of everything else (solve). Only then are poses written back and quiet islands put to sleep (commit), and the
-// user hears what happened (events): nothing calls the user in the middle of a step.
+// user hears what happened (events): only force laws are called in the middle of a step.
 
 #include "core/clock.h"
 #include "dynamics/fields.h"

@@ -2,6 +2,7 @@
 
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
+#include "dynamics/force_laws.h"
 #include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
 
@@ -29,18 +30,19 @@ Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const Bod
     return ctx.dt * sim.velocity + ctx.dt * ctx.dt * a;
 }
 
-float turn_motion(const BodySim& sim, float dt)
+// How far a point may come by turning, and any way that a force law may push.
+float free_motion(const StepContext& ctx, int body, const BodySim& sim)
 {
-    const float angle = std::fabs(sim.angular_velocity) * dt;
-    return sim.extent * (angle < 2 ? angle : 2.0f);
+    const float angle = (std::fabs(sim.angular_velocity) + greatest_spin_of_law(ctx, body)) * ctx.dt;
+    return sim.extent * (angle < 2 ? angle : 2.0f) + greatest_shift_of_law(ctx, body);
 }
 
-FloatBox swept(const FloatBox& box, Vec2 shift, float turn)
+FloatBox swept(const FloatBox& box, Vec2 shift, float any_way)
 {
     FloatBox s = box;
     (shift.x < 0 ? s.lx : s.ux) += shift.x;
     (shift.y < 0 ? s.ly : s.uy) += shift.y;
-    return grow(s, turn);
+    return grow(s, any_way);
 }
 
 // A fat box that held a fast path is far too wide for a body that has slowed down.
@@ -57,14 +59,14 @@ void sweep_body(StepContext& ctx, int body, float& motion)
     if (record.has_target)
         aim_at_target(sim, ctx.dt);
     const Vec2 shift = predicted_shift(ctx, record, sim);
-    const float turn = turn_motion(sim, ctx.dt);
-    motion = length(shift) + turn;
+    const float any_way = free_motion(ctx, body, sim);
+    motion = length(shift) + any_way;
     const float margin = ctx.scene.tolerances.box_margin;
     for_each_leaf(state, body,
                   [&](int shape)
                   {
                       const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
-                      const FloatBox needed = swept(tight, shift, turn + 0.25f * margin);
+                      const FloatBox needed = swept(tight, shift, any_way + 0.25f * margin);
                       const FloatBox& fat = state.broad_phase.box(shape);
                       if (contains(fat, needed) && !too_wide(fat, needed, margin))
                           return;

@@ -7,6 +7,7 @@
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
+#include "dynamics/force_laws.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
@@ -285,7 +286,8 @@ struct Builder
     {
         const bool driven =
             state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
-        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
+        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
+                      : 0;
     }
 
     [[nodiscard]] bool flies(int body) const
@@ -480,6 +482,7 @@ struct Builder
         scratch.state_bodies.clear();
         scratch.state_of.assign(state.awake_bodies.size(), none);
         scratch.fliers.clear();
+        scratch.laws.clear();
         for (Unit& unit : scratch.units)
         {
             const int first = unit.first_state;
@@ -487,12 +490,14 @@ struct Builder
             const StepContext& unit_ctx = cut ? *cut : ctx;
             unit.first_state = static_cast<std::int32_t>(scratch.states.size());
             unit.first_flier = static_cast<std::int32_t>(scratch.fliers.size());
+            unit.first_law = static_cast<std::int32_t>(scratch.laws.size());
             unit.precise = unit.state_count <= precise_limit;
             unit.dynamic_count = unit.state_count;
             add_fixed_state(none); // stands for every body that does not move, so that units share nothing
             for (int i = first; i < first + unit.state_count; ++i)
                 add_dynamic_state(unit_ctx, sorted[static_cast<std::size_t>(i)]);
             unit.flier_count = static_cast<std::int32_t>(scratch.fliers.size()) - unit.first_flier;
+            unit.law_count = static_cast<std::int32_t>(scratch.laws.size()) - unit.first_law;
             for (int i = 0; i < unit.flier_count; ++i)
                 copy_kinematic_neighbours(unit, scratch.fliers[static_cast<std::size_t>(unit.first_flier + i)].body);
             add_rows(unit_ctx, unit);
@@ -508,6 +513,8 @@ struct Builder
         scratch.states.push_back(initial_state(state, body));
         scratch.constants.push_back(state_constants(unit_ctx, body));
         scratch.state_bodies.push_back(body);
+        if (force_law_of(ctx, body) != nullptr)
+            scratch.laws.push_back({index, scratch.constants.back().angular_acceleration, scratch.constants.back().acceleration});
         if (const std::int32_t kind = flight[static_cast<std::size_t>(place)]; kind != earthbound)
         {
             scratch.states.back().flags |= body_flag::flier;

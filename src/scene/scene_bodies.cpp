@@ -63,7 +63,7 @@ BodyId Scene::create_body(const BodyDef& def)
     state.sims[index] = make_sim(def);
     if (m_data->body_extras.size() <= index)
         m_data->body_extras.resize(index + 1);
-    m_data->body_extras[index] = {def.user_data};
+    m_data->body_extras[index] = {.user_data = def.user_data};
     update_mass(state, slot);
     if (def.awake && def.enabled && def.type != BodyType::Static)
         enter_awake(*m_data, slot);
@@ -76,6 +76,7 @@ void Scene::destroy(BodyId id)
         return;
     SceneState& state = m_data->state;
     const int slot = slot_of(id);
+    set_force_law(id, {});
     destroy_contacts_of_body(*m_data, slot);
     while (state.bodies[slot].first_joint != none)
         destroy_joint(*m_data, state.bodies[slot].first_joint >> 1);
@@ -86,6 +87,18 @@ void Scene::destroy(BodyId id)
         state.ignored.erase(pair_key(slot, other));
     state.bodies.destroy(slot);
     state.graph_dirty = true;
+}
+
+void Scene::set_force_law(BodyId id, const ForceLaw& law)
+{
+    const Checker check{"Scene::set_force_law"};
+    if (!check_live(*m_data, "Scene::set_force_law", "body", id) ||
+        !check.not_negative("ForceLaw::greatest_force", law.greatest_force) ||
+        !check.not_negative("ForceLaw::greatest_torque", law.greatest_torque))
+        return;
+    ForceLaw& slot = m_data->body_extras[static_cast<std::size_t>(slot_of(id))].law;
+    m_data->law_count += static_cast<int>(law.function != nullptr) - static_cast<int>(slot.function != nullptr);
+    slot = law.function != nullptr ? law : ForceLaw{};
 }
 
 Body Scene::body(BodyId id)

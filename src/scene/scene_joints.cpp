@@ -351,7 +351,7 @@ const JointRecord& record_of(const SceneData* data, JointId id, const char* func
     return check_live(*data, function, "joint", id) ? data->state.joints[slot_of(id)] : nothing;
 }
 
-struct BodyMotion
+struct AnchorMotion
 {
     Position point;
     Vec2 velocity{};
@@ -359,7 +359,7 @@ struct BodyMotion
     Rotation rotation{};
 };
 
-BodyMotion motion_at(const SceneState& state, int body, Vec2 anchor)
+AnchorMotion motion_at(const SceneState& state, int body, Vec2 anchor)
 {
     if (body == none)
         return {Position(anchor), {}, 0, {}};
@@ -394,8 +394,8 @@ Position ConstJoint::anchor_b() const
 float ConstJoint::coordinate() const
 {
     const JointRecord& r = record_of(m_data, m_id, "Joint::coordinate");
-    const BodyMotion a = motion_at(m_data->state, r.body_a, r.anchor_a);
-    const BodyMotion b = motion_at(m_data->state, r.body_b, r.anchor_b);
+    const AnchorMotion a = motion_at(m_data->state, r.body_a, r.anchor_a);
+    const AnchorMotion b = motion_at(m_data->state, r.body_b, r.anchor_b);
     switch (r.kind)
     {
     case JointType::Spring:
@@ -409,8 +409,8 @@ float ConstJoint::coordinate() const
 float ConstJoint::speed() const
 {
     const JointRecord& r = record_of(m_data, m_id, "Joint::speed");
-    const BodyMotion a = motion_at(m_data->state, r.body_a, r.anchor_a);
-    const BodyMotion b = motion_at(m_data->state, r.body_b, r.anchor_b);
+    const AnchorMotion a = motion_at(m_data->state, r.body_a, r.anchor_a);
+    const AnchorMotion b = motion_at(m_data->state, r.body_b, r.anchor_b);
     if (r.kind == JointType::Revolute)
         return b.angular_velocity - a.angular_velocity;
     const Vec2 gap = b.point - a.point;

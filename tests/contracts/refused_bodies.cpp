@@ -78,3 +78,12 @@ TEST_F(Contract, BodiesWithMasslessShapesCannotBecomeDynamic)
     refused([&] { scene.body(plane.body).set_type(BodyType::Kinematic); }, {"Body::set_type"});
     EXPECT_NO_THROW(scene.body(arc.body).set_type(BodyType::Kinematic));
 }
+
+TEST_F(Contract, ForceLaws)
+{
+    for (const float bad : {-1.0f, not_a_number, infinite})
+    {
+        refused([&] { scene.set_force_law(ball.body, {.greatest_force = bad}); }, {"Scene::set_force_law", "greatest_force"});
+        refused([&] { scene.set_force_law(ball.body, {.greatest_torque = bad}); }, {"Scene::set_force_law", "greatest_torque"});
+    }
+}

@@ -17,6 +17,7 @@ TEST_F(Contract, StaleAndNullBodies)
         refused([&] { scene.ignore_pair(bad, ball.body); }, {"Scene::ignore_pair"});
         refused([&] { scene.ignore_pair(ball.body, bad); }, {"Scene::ignore_pair"});
         refused([&] { scene.restore_pair(ball.body, bad); }, {"Scene::restore_pair"});
+        refused([&] { scene.set_force_law(bad, {}); }, {"Scene::set_force_law", "body"});
     }
 }
 

@@ -176,3 +176,26 @@ TEST(Row11_SpringLauncher, RodAndBallShareTheEnergyOfTheSpring)
         EXPECT_NEAR(scene.body(ball).velocity().x, want, 0.02 * want);
     }
 }
+
+// x(t) = F / k (1 - cos w t), on a slider whose limits are far away.
+TEST(Row09Springs, AConstantPushAgainstASpringOnASlider)
+{
+    for (const float h : {1.0f / 60, 1.0f / 1000})
+    {
+        Scene scene(weightless());
+        const BodyId rod = add_dynamic(scene, {}, box(0.1f, 0.1f)).body;
+        const float mass = scene.body(rod).mass();
+        constexpr float omega = 6;
+        scene.create_joint(
+            PrismaticDef{.body_b = rod, .axis_a = {1, 0}, .enable_limit = true, .lower_translation = -5, .upper_translation = 5});
+        scene.create_joint(SpringDef{.body_b = rod, .anchor_a = {-9, 0}, .stiffness = mass * omega * omega, .length = 9});
+        const float push = 36 * mass;
+        for (int i = 1; i <= static_cast<int>(std::lround(2 / h)); ++i)
+        {
+            scene.body(rod).apply_force({push, 0});
+            scene.step(h);
+            const double t = static_cast<double>(h) * i;
+            ASSERT_NEAR(scene.body(rod).position().x, 1 - std::cos(omega * t), 0.01) << "h " << h << " at " << t;
+        }
+    }
+}

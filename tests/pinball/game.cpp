@@ -7,7 +7,10 @@
 #include "pinball/headless/run.h"
 #include "pinball/table/loader.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
+#include <vector>
 
 namespace carom::pinball::test {
 namespace {
@@ -73,6 +76,79 @@ TEST(Game, APlungeBringsTheBallIntoPlay)
         game.step({});
     EXPECT_EQ(game.phase(), Phase::InPlay);
     EXPECT_GT(game.ball_save_steps(), 0);
+}
+
+Table at_rate(int rate)
+{
+    Table table = momentum();
+    table.physics.step = 1 / static_cast<float>(rate);
+    return table;
+}
+
+TEST(Game, OneInputIsAChangeAtTheStartOfTheStep)
+{
+    Game by_input(momentum(), {.seed = 3});
+    Game by_change(momentum(), {.seed = 3});
+    for (const Input& input : recorded_inputs(3, 3000))
+    {
+        by_input.step(input);
+        const InputChange change{.input = input};
+        by_change.step_through({&change, 1});
+    }
+    EXPECT_EQ(by_input.state_hash(), by_change.state_hash());
+}
+
+TEST(Game, FeelsWhatIsPressedAndLetGoWithinOneStep)
+{
+    Game game(at_rate(120));
+    game.step({});
+    game.step_through(std::vector<InputChange>{{0.002, {.start = true}}, {0.005, {}}});
+    EXPECT_NE(game.phase(), Phase::Attract);
+    game.step_through(std::vector<InputChange>{{0.001, {.left = true}}, {0.004, {}}});
+    EXPECT_EQ(std::ranges::count(game.events(), EventKind::FlipperCoil, &GameEvent::kind), 2);
+    for (Index i = 0; i < game.table().elements.size(); ++i)
+    {
+        const auto* flipper = std::get_if<Flipper>(&game.table().elements[i].part);
+        if (!flipper || flipper->input != Side::Left)
+            continue;
+        EXPECT_GT(game.element(i).speed, 0.1f) << "three milliseconds of a rising coil";
+    }
+}
+
+TEST(Game, PlaysAtLongSteps)
+{
+    for (const int rate : {120, 240})
+    {
+        Game game(at_rate(rate));
+        game.step({.start = true});
+        for (int i = 0; i < rate / 2; ++i)
+            game.step({});
+        for (int i = 0; i < rate * 7 / 10; ++i)
+            game.step({.plunger = true});
+        int steps = 0;
+        for (; steps < 3 * rate && game.phase() == Phase::Ready; ++steps)
+            game.step({});
+        EXPECT_EQ(game.phase(), Phase::InPlay) << rate;
+        for (int i = 0; i < 2 * rate; ++i)
+            game.step({.left = i % rate < rate / 4});
+        for (const BallState& ball : game.balls())
+        {
+            EXPECT_GT(ball.position.y, 0) << rate;
+            EXPECT_LT(ball.position.y, 1.07) << rate;
+        }
+    }
+}
+
+TEST(Game, RefusesChangesOutOfTheStepOrOutOfOrder)
+{
+    Game game(momentum());
+    game.step({});
+    const std::uint64_t before = game.state_hash();
+    const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    for (const std::vector<InputChange>& bad :
+         {std::vector<InputChange>{{-0.0001, {}}}, {{0.0011, {}}}, {{not_a_number, {}}}, {{0.0005, {}}, {0.0004, {}}}})
+        EXPECT_THROW(game.step_through(bad), Error);
+    EXPECT_EQ(game.state_hash(), before);
 }
 
 /// How far up the table a ball comes that is launched with this share of a full pull.

@@ -514,6 +514,7 @@ private:
         e.friction_impulse = static_cast<float>(row.tangent);
         e.energy_lost = static_cast<float>(row.energy_lost);
         e.restitution = static_cast<float>(row.restitution);
+        e.friction = static_cast<float>(row.friction);
         e.kick_speed = static_cast<float>(row.kick);
         const float speed_other = sign * static_cast<float>(s.speed_other);
         const float speed_own = sign * static_cast<float>(s.speed_other - row.approach);

@@ -40,6 +40,14 @@ struct StateConstants
     float angular_decay = 1;
 };
 
+/// A state whose body has a force law, and the accelerations that it has without.
+struct LawWork
+{
+    std::int32_t state = none;
+    float angular_acceleration = 0;
+    Vec2 acceleration{};
+};
+
 struct RowPoint
 {
     Vec2 ra{}; ///< lever arms of the Jacobian
@@ -88,6 +96,7 @@ struct SpringKick
     float stretch = 0;
     float speed = 0;
     float acceleration = 0;
+    float straight = 0; ///< by the acceleration of a body that does not drift along a parabola, beside that
 };
 
 /// A joint in the solver: its record and the states of its bodies.

@@ -63,6 +63,7 @@ struct Events
 struct BodyExtra
 {
     std::uint64_t user_data = 0;
+    ForceLaw law{};
 };
 struct ShapeExtra
 {
@@ -75,6 +76,13 @@ struct JointExtra
     std::uint64_t user_data = 0;
 };
 
+/// An impact that a body's force law is to be told in the next step.
+struct UntoldImpact
+{
+    std::int32_t body = none;
+    ImpactEvent event{};
+};
+
 struct SceneData
 {
     SceneDef def{};
@@ -85,9 +93,11 @@ struct SceneData
     std::vector<JointExtra> joint_extras;
     Events events{};
     Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step
+    std::vector<UntoldImpact> untold_impacts;
     StepReport report{};
     Scratch scratch{};
     int callback_count = 0; ///< shapes that have callbacks
+    int law_count = 0;      ///< bodies that have a force law
     bool stepping = false;
     bool keep_forces = false; ///< inside update(): forces act in every step of the frame
 };

@@ -69,6 +69,7 @@ inline constexpr std::uint32_t unbound = 4;   ///< no contact rows, no limits, n
 inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
 inline constexpr std::uint32_t traced = 32;   ///< its path is recorded: it is near a trigger
+inline constexpr std::uint32_t unsound = 64;  ///< its force law gave what is no force: it is put aside after the step
 } // namespace body_flag
 
 /// What every solver pass touches. Pose changes count from the start of the step.

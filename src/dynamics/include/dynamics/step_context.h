@@ -31,6 +31,8 @@ struct Unit
     std::int32_t joint_count = 0;
     std::int32_t first_flier = 0;
     std::int32_t flier_count = 0;
+    std::int32_t first_law = 0;
+    std::int32_t law_count = 0;
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
@@ -79,7 +81,9 @@ struct RecordedPose
 struct UnitOutput
 {
     std::vector<RawImpact> impacts;
-    std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
+    std::size_t told_impacts = 0;           ///< the first so many are known to force laws
+    std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
+    std::vector<RawTouch> begins;           ///< contacts that first bore a load in this step
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
     std::vector<std::int32_t> kicked_shapes;
@@ -116,6 +120,7 @@ struct Scratch
     std::vector<BodyState> states; ///< [0] stands for every static body
     std::vector<StateConstants> constants;
     std::vector<std::int32_t> state_bodies; ///< body slot of each state
+    std::vector<LawWork> laws;              ///< by unit
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     std::vector<JointWork> joints;

@@ -1,0 +1,143 @@
+// Force laws are asked before everything else in a sub-step. What they give becomes a constant acceleration of the sub-step, beside gravity and
+// applied force: the rows and flight know nothing of laws.
+
+#include "dynamics/force_laws.h"
+
+#include "core/refuse.h"
+#include "dynamics/raw_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float most = 1e6f; // m, rad/s: a bound beyond it says no more, and boxes stay finite
+
+} // namespace
+
+float greatest_shift_of_law(const StepContext& ctx, int body)
+{
+    const ForceLaw* law = force_law_of(ctx, body);
+    if (law == nullptr)
+        return 0;
+    const Vec2 inverse_mass = ctx.state.sims[static_cast<std::size_t>(body)].inverse_mass;
+    return std::min(ctx.dt * ctx.dt * law->greatest_force * std::max(inverse_mass.x, inverse_mass.y), most);
+}
+
+float greatest_spin_of_law(const StepContext& ctx, int body)
+{
+    const ForceLaw* law = force_law_of(ctx, body);
+    if (law == nullptr)
+        return 0;
+    return std::min(ctx.dt * law->greatest_torque * ctx.state.sims[static_cast<std::size_t>(body)].inverse_inertia, most);
+}
+
+namespace {
+
+bool takes_part(const SceneState& state, int body, const RawImpact& raw)
+{
+    return state.shapes[raw.shape_a].body == body || state.shapes[raw.shape_b].body == body;
+}
+
+// What has struck the body since its law was last called.
+std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k, UnitOutput& output)
+{
+    output.law_impacts.clear();
+    if (k == 0)
+    {
+        for (const UntoldImpact& untold : ctx.scene.untold_impacts)
+            if (untold.body == body)
+                output.law_impacts.push_back(untold.event);
+    }
+    for (const RawImpact& raw : std::span(output.impacts).subspan(output.told_impacts))
+        if (takes_part(ctx.state, body, raw))
+            output.law_impacts.push_back(impact_event(ctx.state, raw));
+    return output.law_impacts;
+}
+
+BodyMotion motion_at(const StepContext& ctx, const BodySim& sim, const BodyState& s, int k, std::span<const ImpactEvent> impacts)
+{
+    const Rotation rotation = s.delta_rotation * sim.rotation;
+    return {.time = static_cast<double>(ctx.dt) * k / ctx.substeps,
+            .h = ctx.h,
+            .pose = {sim.center + s.delta_position - rotate(rotation, sim.local_center), rotation},
+            .velocity = s.velocity,
+            .angular_velocity = s.angular_velocity,
+            .impacts = impacts};
+}
+
+// Finite, and not such that it leads out of all numbers in this step: the bound of the sweep.
+bool is_sound(const StepContext& ctx, Vec2 acceleration, float angular_acceleration)
+{
+    return ctx.dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y) + std::fabs(angular_acceleration)) < 1e15f;
+}
+
+bool exceeds(const ForceLaw& law, const Load& load)
+{
+    return dot(load.force, load.force) > law.greatest_force * law.greatest_force || std::fabs(load.torque) > law.greatest_torque;
+}
+
+void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOutput& output)
+{
+    Scratch& scratch = ctx.scratch;
+    const auto index = static_cast<std::size_t>(work.state);
+    BodyState& s = scratch.states[index];
+    if ((s.flags & body_flag::unsound) != 0)
+        return;
+    const int body = scratch.state_bodies[index];
+    const ForceLaw& law = ctx.scene.body_extras[static_cast<std::size_t>(body)].law;
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    const Load load = law.function(law.user, motion_at(ctx, sim, s, k, impacts_of(ctx, body, k, output)));
+    StateConstants& c = scratch.constants[index];
+    c.acceleration = work.acceleration + Vec2{c.inverse_mass.x * load.force.x, c.inverse_mass.y * load.force.y};
+    c.angular_acceleration = work.angular_acceleration + c.inverse_inertia * load.torque;
+    if (!is_sound(ctx, c.acceleration, c.angular_acceleration))
+    {
+        c.acceleration = work.acceleration;
+        c.angular_acceleration = work.angular_acceleration;
+        s.flags |= body_flag::unsound;
+    }
+    else if (const std::int32_t f = scratch.flier_of_state[index]; f != none && exceeds(law, load))
+    {
+        scratch.fliers[static_cast<std::size_t>(f)].deflected = true; // it may leave the boxes that its pairs were found with
+    }
+}
+
+} // namespace
+
+void apply_force_laws(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    if (unit.law_count == 0)
+        return;
+    for (std::int32_t i = unit.first_law; i < unit.first_law + unit.law_count; ++i)
+        apply_force_law(ctx, ctx.scratch.laws[static_cast<std::size_t>(i)], k, output);
+    output.told_impacts = output.impacts.size();
+}
+
+void note_untold_impacts(StepContext& ctx)
+{
+    ctx.scene.untold_impacts.clear();
+    if (ctx.scene.law_count == 0)
+        return;
+    const SceneState& state = ctx.state;
+    const auto note = [&](std::size_t unit, std::size_t i, int body, const RawImpact& raw)
+    {
+        const int place = state.bodies[body].awake_index;
+        const bool of_unit = place != none && ctx.scratch.unit_of[static_cast<std::size_t>(place)] == static_cast<int>(unit);
+        if (force_law_of(ctx, body) != nullptr && !(of_unit && i < ctx.scratch.outputs[unit].told_impacts))
+            ctx.scene.untold_impacts.push_back({body, impact_event(state, raw)});
+    };
+    for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
+    {
+        const std::vector<RawImpact>& impacts = ctx.scratch.outputs[u].impacts;
+        for (std::size_t i = 0; i < impacts.size(); ++i)
+        {
+            note(u, i, state.shapes[impacts[i].shape_a].body, impacts[i]);
+            note(u, i, state.shapes[impacts[i].shape_b].body, impacts[i]);
+        }
+    }
+}
+
+} // namespace carom::internal
