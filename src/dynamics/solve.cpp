@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace carom::internal {
 
@@ -76,8 +75,10 @@ void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
 class UnitSolver
 {
 public:
-    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output)
+    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy)
         : m_ctx(unit.slices > 1 ? sliced(ctx, unit.slices) : ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
+          m_energy(energy),
+          m_watches_energy(unit.precise || (unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
           m_rows(std::span(ctx.scratch.rows)
                      .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
@@ -99,9 +100,8 @@ private:
         apply_force_laws(m_ctx, m_unit, k, m_output);
         raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
-        std::optional<UnitEnergy> energy;
-        if (m_unit.precise || (m_unit.dynamic_count <= UnitEnergy::most_bodies && !m_joints.empty()))
-            energy.emplace(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
+        if (m_watches_energy)
+            m_energy.begin(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
                            0.1f * m_ctx.scene.tolerances.slop);
         integrate_velocities();
         warm_start_all();
@@ -112,30 +112,30 @@ private:
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
         kick_springs_after(m_view, m_ctx.state, m_joints);
         guard_cores();
-        fly(k, energy);
+        fly(k);
         refresh_rows();
         prepare_direct();
         solve(false);
-        if (energy)
-            energy->note_load(m_rows, late_rows());
+        if (m_watches_energy)
+            m_energy.note_load(m_rows, late_rows());
         const bool kicked = bounce(k);
-        if (energy && !kicked)
-            energy->restore(is_direct());
+        if (m_watches_energy && !kicked)
+            m_energy.restore(is_direct());
         finish_substep(k);
     }
 
-    void fly(int k, std::optional<UnitEnergy>& energy)
+    void fly(int k)
     {
         if (m_unit.flier_count == 0)
         {
             trace_paths(m_ctx, m_unit, k, m_output);
             return;
         }
-        if (energy)
-            energy->before_impacts();
+        if (m_watches_energy)
+            m_energy.before_impacts();
         advance_fliers(m_ctx, m_unit, k, m_output);
-        if (energy)
-            energy->after_impacts();
+        if (m_watches_energy)
+            m_energy.after_impacts();
     }
 
     // What is kept for the next step's warm start is of a whole sub-step.
@@ -586,6 +586,8 @@ private:
     Scratch& m_scratch;
     const Unit& m_unit;
     UnitOutput& m_output;
+    UnitEnergy& m_energy; ///< memory that the units of a task share
+    bool m_watches_energy;
     SolverView m_view;
     std::span<ContactRow> m_rows;
     std::span<JointWork> m_joints;
@@ -627,8 +629,10 @@ void solve_units(StepContext& ctx)
         ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
         [&](int task)
         {
+            UnitEnergy energy;
             for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1]; ++u)
-                UnitSolver(ctx, scratch.units[static_cast<std::size_t>(u)], scratch.outputs[static_cast<std::size_t>(u)]).run();
+                UnitSolver(ctx, scratch.units[static_cast<std::size_t>(u)], scratch.outputs[static_cast<std::size_t>(u)], energy)
+                    .run();
         });
 }
 

@@ -76,10 +76,15 @@ double stored(const JointRecord& joint, const JointPose& pose)
 
 } // namespace
 
-UnitEnergy::UnitEnergy(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
+void UnitEnergy::begin(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
                        std::int32_t count, float slop)
-    : m_view(view), m_state(state), m_joints(joints), m_slop(slop), m_first(first), m_count(std::min(count, most_bodies))
 {
+    m_view = view;
+    m_state = &state;
+    m_joints = joints;
+    m_slop = slop;
+    m_first = first;
+    m_count = std::min(count, most_bodies);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         const BodyState& s = m_view.states[i];
@@ -115,7 +120,7 @@ void UnitEnergy::add_springs(double sign)
 {
     for (const JointWork& work : m_joints)
     {
-        const JointRecord& joint = m_state.joints[work.joint];
+        const JointRecord& joint = m_state->joints[work.joint];
         if (joint.kind == JointType::Spring)
             body(is_ours(work.a) ? work.a : work.b).missing += sign * stored(joint, present_pose(m_view, work));
     }
@@ -173,7 +178,7 @@ void UnitEnergy::join(std::int32_t own, std::int32_t other)
 
 void UnitEnergy::note_joint(const JointWork& work)
 {
-    const JointRecord& joint = m_state.joints[work.joint];
+    const JointRecord& joint = m_state->joints[work.joint];
     for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
     {
         if (!is_ours(own))

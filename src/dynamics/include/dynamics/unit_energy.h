@@ -18,7 +18,7 @@ public:
     static constexpr int most_bodies = 64;
 
     /// Before the forces of a sub-step. Dynamic states are [first, first + count).
-    UnitEnergy(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
+    void begin(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
                std::int32_t count, float slop);
     /// Around what happens in flight: energy that impacts took or gave stays so.
     void before_impacts() { add_kinetic(-1); }
@@ -66,12 +66,12 @@ private:
     void add_springs(double sign);
     void scale(int group, bool exact);
 
-    const SolverView& m_view;
-    const SceneState& m_state;
+    SolverView m_view{};
+    const SceneState* m_state = nullptr;
     std::span<const JointWork> m_joints;
-    float m_slop;
-    std::int32_t m_first;
-    std::int32_t m_count;
+    float m_slop = 0;
+    std::int32_t m_first = 0;
+    std::int32_t m_count = 0;
     std::array<Body, most_bodies> m_bodies;
     std::array<Group, most_bodies> m_groups;
 };
