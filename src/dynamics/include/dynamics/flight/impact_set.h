@@ -11,8 +11,8 @@
 
 namespace carom::internal {
 
-inline constexpr double still_held =
-    1e-3; ///< of the size: what was held or is in the solver's hands touches with its overlap or gap
+/// Of the size: what was held or is in the solver's hands touches with its overlap or gap.
+inline constexpr double still_held = 1e-3;
 
 class ImpactSet
 {
