@@ -8,6 +8,7 @@
 // CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 5th.
 
 #include "property/arrangements.h"
+#include "support/slow_build.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,17 +21,7 @@ using namespace carom::shots;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(CAROM_VALIDATE)
-constexpr int usual_divisor = 5;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr int usual_divisor = 5;
-#else
-constexpr int usual_divisor = 1;
-#endif
-#else
-constexpr int usual_divisor = 1;
-#endif
+constexpr int usual_divisor = carom::test::slow_build ? 5 : 1;
 
 int divisor()
 {

@@ -3,24 +3,14 @@
 /// @file
 /// Runs an experiment on Carom and checks what it gives.
 
+#include "support/slow_build.h"
 #include "truth/experiment.h"
 
 #include <gtest/gtest.h>
 
 namespace truth::test {
 
-// Sanitizers and structure walks cost a factor of ten.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool slow_build = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool slow_build = true;
-#else
-inline constexpr bool slow_build = false;
-#endif
-#else
-inline constexpr bool slow_build = false;
-#endif
+using carom::test::slow_build;
 
 inline Metrics run(int number, double hz, double share = 1, const Engine& engine = carom_engine())
 {
