@@ -229,7 +229,7 @@ bool DirectSolve::find_pose_ahead()
     m_turns_too_far = after > 0.5 * before && after > 1e-3;
     if (m_turns_too_far)
     {
-        take_back();
+        apply(-1); // taken back
         return false;
     }
     substitute();
@@ -247,16 +247,6 @@ double DirectSolve::largest_error() const
         largest = std::max(largest, std::fabs(m_residual[static_cast<std::size_t>(i)]) / size);
     }
     return as_double(m_view.h) * largest;
-}
-
-void DirectSolve::take_back()
-{
-    for (int i = 0; i < m_count; ++i)
-    {
-        const auto impulse = static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
-        push(row(i), -impulse);
-        impulse_of(row(i)) -= impulse;
-    }
 }
 
 void DirectSolve::close_gaps()
@@ -324,11 +314,11 @@ void DirectSolve::note_errors_ahead()
     }
 }
 
-void DirectSolve::apply()
+void DirectSolve::apply(float sign)
 {
     for (int i = 0; i < m_count; ++i)
     {
-        const auto impulse = static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
+        const float impulse = sign * static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
         push(row(i), impulse);
         impulse_of(row(i)) += impulse;
     }

@@ -154,11 +154,6 @@ private:
     }
 
     [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
-    [[nodiscard]] std::span<BodyState> states()
-    {
-        return std::span(m_scratch.states)
-            .subspan(static_cast<std::size_t>(m_unit.first_state), static_cast<std::size_t>(m_unit.state_count));
-    }
 
     void note_approaches()
     {
@@ -257,7 +252,7 @@ private:
         ball.delta_position += (a_gives ? -depth : depth) * row.n;
     }
 
-    // --- round contacts in small units: looked at anew in every sub-step ---------------------------------------------------------------
+    // --- contacts in small units: looked at anew within the step -----------------------------------------------------------------------
 
     [[nodiscard]] BodyPose pose_of(int body, std::int32_t state, float ahead) const
     {

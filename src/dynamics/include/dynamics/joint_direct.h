@@ -66,10 +66,9 @@ private:
     [[nodiscard]] bool find_pose_ahead();
     void start_anew();
     [[nodiscard]] double largest_error() const;
-    void take_back();
     void note_speeds();
     void note_errors_ahead();
-    void apply();
+    void apply(float sign = 1);
     void push(const Row& row, float impulse);
     static void note_shift(Node& node, const JointRow& row, float arm, float impulse);
     void shift(const Node& node, float share);
