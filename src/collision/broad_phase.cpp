@@ -7,9 +7,13 @@ namespace carom::internal {
 void BroadPhase::insert(int item, const FloatBox& box, Layer layer, bool unbounded)
 {
     if (item >= static_cast<int>(m_places.size()))
+    {
         m_places.resize(static_cast<std::size_t>(item) + 1);
+        m_paths.resize(static_cast<std::size_t>(item) + 1);
+    }
     Place& place = m_places[static_cast<std::size_t>(item)];
     place = {box, layer, unbounded, -1, -1};
+    stand_still(item);
     if (unbounded)
         m_unbounded.insert(std::lower_bound(m_unbounded.begin(), m_unbounded.end(), item), item);
     else
@@ -39,9 +43,22 @@ void BroadPhase::move_to(int item, Layer layer)
         add_recent(item, layer);
     }
     place.layer = layer;
+    stand_still(item);
+}
+
+void BroadPhase::stand_still(int item)
+{
+    const Place& place = m_places[static_cast<std::size_t>(item)];
+    m_paths[static_cast<std::size_t>(item)] = {place.box, {}, 0, place.layer == Layer::Moving};
 }
 
 void BroadPhase::set_box(int item, const FloatBox& box)
+{
+    widen(item, box);
+    stand_still(item);
+}
+
+void BroadPhase::widen(int item, const FloatBox& box)
 {
     Place& place = m_places[static_cast<std::size_t>(item)];
     place.box = box;
@@ -62,7 +79,7 @@ void BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
         if (many)
             m_places[static_cast<std::size_t>(items[i])].box = boxes[i];
         else
-            set_box(items[i], boxes[i]);
+            widen(items[i], boxes[i]);
     }
     if (many)
         rebuild(forest, 0);

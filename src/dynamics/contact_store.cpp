@@ -138,7 +138,16 @@ void remove_awake_contact(SceneState& state, int index)
     contact.awake_index = none;
 }
 
-void create_contact(SceneData& scene, int shape_a, int shape_b)
+void follow_again(SceneState& state, int index)
+{
+    Contact& contact = state.contacts[index];
+    if (contact.pair != none)
+        return;
+    contact.pair = static_cast<std::int32_t>(state.box_pairs.size());
+    state.box_pairs.push_back({contact.shape_a, contact.shape_b, index});
+}
+
+void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
 {
     SceneState& state = scene.state;
     // The first shape is the trigger, or the one whose type comes first in the table: then every pair is computed one way.
@@ -158,8 +167,9 @@ void create_contact(SceneData& scene, int shape_a, int shape_b)
     contact.flags = contact_flag::fresh | (trigger ? contact_flag::trigger : 0u);
     if (a->leaf.type == LeafType::Circle || b->leaf.type == LeafType::Circle)
         contact.flags |= contact_flag::round;
+    contact.pair = pair;
     const int index = state.contacts.create(contact);
-    state.pairs.insert(pair_key(shape_a, shape_b));
+    state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
     link_contact(state, index);
     mix_materials(scene, state.contacts[index]);
     if (trigger)
@@ -223,7 +233,11 @@ void destroy_contact(SceneData& scene, int index, Events& events, float time)
     end_touch(scene, index, events, time);
     remove_awake_contact(state, index);
     unlink_contact(state, index);
-    state.pairs.erase(pair_key(state.contacts[index].shape_a, state.contacts[index].shape_b));
+    const Contact& contact = state.contacts[index];
+    if (contact.pair != none)
+        state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = none;
+    else
+        state.pairs.erase(pair_key(contact.shape_a, contact.shape_b));
     state.contacts.destroy(index);
 }
 

@@ -3,7 +3,7 @@
 
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
-#include "dynamics/half_space_box.h"
+
 #include "dynamics/material.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
@@ -64,17 +64,26 @@ void update_passing(const StepContext& ctx, Contact& contact)
 {
     const float least = least_separation(contact.manifold);
     const float slop = ctx.scene.tolerances.slop;
-    const bool behind = lets_pass(ctx.scene, contact.shape_a, contact.shape_b, contact.manifold.normal);
+    const bool behind =
+        contact.manifold.count > 0 && lets_pass(ctx.scene, contact.shape_a, contact.shape_b, contact.manifold.normal);
     if (least > slop)
         contact.flags = behind ? contact.flags | contact_flag::passing : contact.flags & ~contact_flag::passing;
     else if ((contact.flags & contact_flag::touching) == 0 && (behind || least < -4 * slop))
         contact.flags |= contact_flag::passing;
 }
 
+// How much nearer the two may come in this step, if nothing strikes them.
+float relative_motion(const SceneState& state, const Contact& contact)
+{
+    const BoxPath& a = state.broad_phase.path(contact.shape_a);
+    const BoxPath& b = state.broad_phase.path(contact.shape_b);
+    return length(b.shift - a.shift) + a.any_way + b.any_way;
+}
+
 void update_manifold(const StepContext& ctx, Contact& contact)
 {
     const SceneState& state = ctx.state;
-    const float margin = ctx.scene.tolerances.speculation + motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b);
+    const float margin = ctx.scene.tolerances.speculation + relative_motion(state, contact);
     const Manifold old = contact.manifold;
     contact.manifold =
         world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), margin);
@@ -139,7 +148,7 @@ void begin_touch(StepContext& ctx, int index)
 // Something fast that may hit a sleeper in this step wakes it before the units are built.
 bool may_hit(const StepContext& ctx, const Contact& contact)
 {
-    const bool moves = motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) > ctx.scene.tolerances.speculation;
+    const bool moves = relative_motion(ctx.state, contact) > ctx.scene.tolerances.speculation;
     return moves && contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
 }
 
@@ -159,12 +168,9 @@ void begin_or_wake(StepContext& ctx, int index)
     }
 }
 
-void end_or_destroy(StepContext& ctx, int index)
+void end_if_apart(StepContext& ctx, int index)
 {
-    const Contact& contact = ctx.state.contacts[index];
-    if (!boxes_meet(ctx.state, contact.shape_a, contact.shape_b))
-        destroy_contact(ctx.scene, index, ctx.scene.events, 0);
-    else if (!should_touch(ctx, contact))
+    if (!should_touch(ctx, ctx.state.contacts[index]))
         end_touch(ctx.scene, index, ctx.scene.events, 0);
 }
 
@@ -175,14 +181,14 @@ void update_contacts(StepContext& ctx)
     SceneState& state = ctx.state;
     for (const std::int32_t index : state.awake_contacts)
         update_manifold(ctx, state.contacts[index]);
-    // Waking and destroying change the list: go through a copy. Woken contacts keep the manifold they slept with; it is still true.
+    // Waking changes the list: go through a copy. Woken contacts keep the manifold they slept with; it is still true.
     // Begins come first, so that a chain left over one piece and touched over the next is never let go.
     std::vector<std::int32_t>& order = ctx.scratch.order;
     order.assign(state.awake_contacts.begin(), state.awake_contacts.end());
     for (const std::int32_t index : order)
         begin_or_wake(ctx, index);
     for (const std::int32_t index : order)
-        end_or_destroy(ctx, index);
+        end_if_apart(ctx, index);
     ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
     ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
 }

@@ -30,19 +30,12 @@ Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const Bod
     return ctx.dt * sim.velocity + ctx.dt * ctx.dt * a;
 }
 
-// How far a point may come by turning, and any way that a force law may push.
-float free_motion(const StepContext& ctx, int body, const BodySim& sim)
+// How far a point may come by turning, by the bend of its parabola, and any way that a force law may push.
+float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shift)
 {
     const float angle = (std::fabs(sim.angular_velocity) + greatest_spin_of_law(ctx, body)) * ctx.dt;
-    return sim.extent * (angle < 2 ? angle : 2.0f) + greatest_shift_of_law(ctx, body);
-}
-
-FloatBox swept(const FloatBox& box, Vec2 shift, float any_way)
-{
-    FloatBox s = box;
-    (shift.x < 0 ? s.lx : s.ux) += shift.x;
-    (shift.y < 0 ? s.ly : s.uy) += shift.y;
-    return grow(s, any_way);
+    const float bend = 0.5f * length(shift - ctx.dt * sim.velocity);
+    return sim.extent * (angle < 2 ? angle : 2.0f) + bend + greatest_shift_of_law(ctx, body);
 }
 
 // A fat box that held a fast path is far too wide for a body that has slowed down.
@@ -59,14 +52,16 @@ void sweep_body(StepContext& ctx, int body, float& motion)
     if (record.has_target)
         aim_at_target(sim, ctx.dt);
     const Vec2 shift = predicted_shift(ctx, record, sim);
-    const float any_way = free_motion(ctx, body, sim);
+    const float any_way = free_motion(ctx, body, sim, shift);
     motion = length(shift) + any_way;
     const float margin = ctx.scene.tolerances.box_margin;
     for_each_leaf(state, body,
                   [&](int shape)
                   {
                       const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
-                      const FloatBox needed = swept(tight, shift, any_way + 0.25f * margin);
+                      const BoxPath path{tight, shift, any_way, true};
+                      state.broad_phase.set_path(shape, path);
+                      const FloatBox needed = grow(swept(path), 0.25f * margin);
                       const FloatBox& fat = state.broad_phase.box(shape);
                       if (contains(fat, needed) && !too_wide(fat, needed, margin))
                           return;

@@ -164,8 +164,9 @@ struct Builder
     StepContext& ctx;
     SceneState& state;
     Scratch& scratch;
-    std::vector<std::int32_t> flight;   ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
-    std::vector<std::int32_t> grounded; ///< the same of what could fly but bears or is borne by something
+    std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
+    std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
+    std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
 
     explicit Builder(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
@@ -332,12 +333,15 @@ struct Builder
                 static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
             reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
         }
+        may_be_struck.assign(state.awake_bodies.size(), 0);
         for (const Reach& reach : reaches)
         {
             state.broad_phase.query(Layer::Moving, reach.box,
                                     [&](int shape)
                                     {
-                                        link_bodies(ctx, reach.body, state.shapes[shape].body);
+                                        const int body = state.shapes[shape].body;
+                                        link_bodies(ctx, reach.body, body);
+                                        may_be_struck[static_cast<std::size_t>(state.bodies[body].awake_index)] = 1;
                                         return true;
                                     });
         }
@@ -495,7 +499,7 @@ struct Builder
             unit.dynamic_count = unit.state_count;
             add_fixed_state(none); // stands for every body that does not move, so that units share nothing
             for (int i = first; i < first + unit.state_count; ++i)
-                add_dynamic_state(unit_ctx, sorted[static_cast<std::size_t>(i)]);
+                add_dynamic_state(unit_ctx, unit.precise, sorted[static_cast<std::size_t>(i)]);
             unit.flier_count = static_cast<std::int32_t>(scratch.fliers.size()) - unit.first_flier;
             unit.law_count = static_cast<std::int32_t>(scratch.laws.size()) - unit.first_law;
             for (int i = 0; i < unit.flier_count; ++i)
@@ -505,7 +509,7 @@ struct Builder
         }
     }
 
-    void add_dynamic_state(const StepContext& unit_ctx, std::int32_t place)
+    void add_dynamic_state(const StepContext& unit_ctx, bool precise, std::int32_t place)
     {
         const int body = state.awake_bodies[static_cast<std::size_t>(place)];
         const auto index = static_cast<std::int32_t>(scratch.states.size());
@@ -523,11 +527,19 @@ struct Builder
                 forget_impulses(state.joints[kind]);
             scratch.fliers.push_back(make_flier(unit_ctx, index, body, kind));
         }
-        else if (const std::int32_t could = grounded[static_cast<std::size_t>(place)]; could != earthbound)
+        else if (const std::int32_t could = grounded[static_cast<std::size_t>(place)];
+                 could != earthbound && (precise || may_take_off(place, could)))
         {
             scratch.fliers.push_back(make_flier(unit_ctx, index, body, could));
             scratch.fliers.back().landed = true;
         }
+    }
+
+    // In a crowd only what flies, or a law, makes anything fast enough to fly within the step.
+    [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t kind) const
+    {
+        return may_be_struck[static_cast<std::size_t>(place)] != 0 || kind != none ||
+               force_law_of(ctx, state.awake_bodies[static_cast<std::size_t>(place)]) != nullptr;
     }
 
     // A flier may land on a kinematic body, which then needs its place in the unit.
@@ -663,6 +675,8 @@ void build_units(StepContext& ctx)
     Builder builder(ctx);
     builder.find_fliers();
     builder.link_units();
+    builder.number_units();
+    builder.ground_crowds();
     builder.link_deflected();
     builder.number_units();
     builder.ground_crowds();

@@ -17,8 +17,18 @@ void enter_awake(SceneData& scene, int body)
     state.awake_bodies.push_back(body);
     state.graph_dirty = true;
     state.sims[static_cast<std::size_t>(body)].sleep_time = 0;
-    for_each_leaf(state, body, [&](int shape) { state.broad_phase.move_to(shape, Layer::Moving); });
-    for_each_contact(state, body, [&](int contact) { add_awake_contact(state, contact); });
+    for_each_leaf(state, body,
+                  [&](int shape)
+                  {
+                      state.broad_phase.move_to(shape, Layer::Moving);
+                      state.fresh_shapes.push_back(shape); // pairs without a contact were let go
+                  });
+    for_each_contact(state, body,
+                     [&](int contact)
+                     {
+                         add_awake_contact(state, contact);
+                         follow_again(state, contact);
+                     });
 }
 
 void leave_awake(SceneData& scene, int body)

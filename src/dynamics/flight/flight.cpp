@@ -71,7 +71,9 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
     for (Flier& f : span.fliers())
     {
         const BodyState& s = span.state_of(f.state);
-        if (f.landed && (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
+        const bool was_struck = unit.precise || f.crowded || f.deflected;
+        if (f.landed && was_struck &&
+            (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
             take_off(span, f, span.h); // where the sub-step before has left it
     }
 }

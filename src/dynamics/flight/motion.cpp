@@ -232,7 +232,9 @@ bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
                   [&](int own)
                   {
                       const FloatBox soon = grow(round_outwards(leaf_bounds(leaf_view(span.state, own), pose)), ahead);
-                      leaves |= !contains(span.state.broad_phase.box(own), soon);
+                      const FloatBox foreseen =
+                          grow(swept(span.state.broad_phase.path(own)), span.ctx.scene.tolerances.box_margin);
+                      leaves |= !contains(foreseen, soon);
                   });
     return leaves;
 }

@@ -85,7 +85,7 @@ private:
         m_flier.event_version = 0;
     }
 
-    // A bounce or a kick may lead out of the boxes that the pairs were found with.
+    // A bounce or a kick leads elsewhere than the contacts of this step were made for.
     void look_beyond_boxes()
     {
         Flier end = m_flier;
@@ -124,13 +124,25 @@ private:
     [[nodiscard]] bool is_new(int own, int shape) const
     {
         const SceneState& state = m_span.state;
-        return !state.shapes[shape].trigger && !state.pairs.contains(pair_key(own, shape)) && may_collide(state, own, shape);
+        return !state.shapes[shape].trigger && !has_contact(own, shape) && may_collide(state, own, shape);
+    }
+
+    [[nodiscard]] bool has_contact(int own, int shape) const
+    {
+        const SceneState& state = m_span.state;
+        for (int edge = state.bodies[m_flier.body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.shape_a == own && contact.shape_b == shape) || (contact.shape_a == shape && contact.shape_b == own))
+                return true;
+        }
+        return false;
     }
 
     void look_beyond_box(int own, const FloatBox& path)
     {
         const SceneState& state = m_span.state;
-        if (state.shapes[own].trigger || contains(state.broad_phase.box(own), path))
+        if (state.shapes[own].trigger)
             return;
         const auto visit = [&](int shape)
         {

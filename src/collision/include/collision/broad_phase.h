@@ -19,6 +19,38 @@ enum class Layer : std::int8_t
     Resting = 1,
 };
 
+/// A leaf's box at the start of a step, and how it moves in it.
+struct BoxPath
+{
+    FloatBox box{};
+    Vec2 shift{};       ///< of the whole box, along its path
+    float any_way = 0;  ///< how far any point of it may come beside that
+    bool moves = false; ///< belongs to the moving layer
+};
+static_assert(sizeof(BoxPath) == 32);
+
+/// The box around all that it covers.
+[[nodiscard]] inline FloatBox swept(const BoxPath& p)
+{
+    FloatBox s = p.box;
+    (p.shift.x < 0 ? s.lx : s.ux) += p.shift.x;
+    (p.shift.y < 0 ? s.ly : s.uy) += p.shift.y;
+    return grow(s, p.any_way);
+}
+
+/// May the two come nearer than the margin? Seen from one of them: what moves along with it stays away.
+[[nodiscard]] inline bool may_meet(const BoxPath& a, const BoxPath& b, float margin)
+{
+    const float g = margin + a.any_way + b.any_way;
+    const float dx = b.shift.x - a.shift.x;
+    const float dy = b.shift.y - a.shift.y;
+    const float lx = b.box.lx + (dx < 0 ? dx : 0);
+    const float ux = b.box.ux + (dx > 0 ? dx : 0);
+    const float ly = b.box.ly + (dy < 0 ? dy : 0);
+    const float uy = b.box.uy + (dy > 0 ? dy : 0);
+    return lx <= a.box.ux + g && ux >= a.box.lx - g && ly <= a.box.uy + g && uy >= a.box.ly - g;
+}
+
 class BroadPhase
 {
 public:
@@ -29,6 +61,10 @@ public:
 
     /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: the layer is sorted anew.
     void update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
+
+    /// Of this step; between steps, and for what rests, the box stands still.
+    void set_path(int item, const BoxPath& path) { m_paths[static_cast<std::size_t>(item)] = path; }
+    [[nodiscard]] const BoxPath& path(int item) const { return m_paths[static_cast<std::size_t>(item)]; }
 
     [[nodiscard]] const FloatBox& box(int item) const { return m_places[static_cast<std::size_t>(item)].box; }
     [[nodiscard]] bool has(int item) const
@@ -80,12 +116,15 @@ private:
         std::vector<std::int32_t> recent;
     };
 
+    void stand_still(int item);
+    void widen(int item, const FloatBox& box);
     void add_recent(int item, Layer layer);
     void take_out(int item);
     void merge_recent(Forest& forest);
     void rebuild(Forest& forest, std::size_t from_tree);
 
     std::vector<Place> m_places;
+    std::vector<BoxPath> m_paths; ///< by item
     Forest m_forests[2];
     std::vector<std::int32_t> m_unbounded;
 };

@@ -9,8 +9,8 @@ namespace carom::internal {
 /// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
 [[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
 
-/// The pair's shapes must be allowed to collide and have no contact yet.
-void create_contact(SceneData& scene, int shape_a, int shape_b);
+/// Of a pair in SceneState::box_pairs, whose shapes must be allowed to collide and have no contact yet.
+void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
 
 /// Ends what has begun: the event goes to `events` at `time`. Wakes nothing.
 void destroy_contact(SceneData& scene, int contact, Events& events, float time);
@@ -24,6 +24,9 @@ void mix_materials(const SceneData& scene, Contact& contact);
 
 void add_awake_contact(SceneState& state, int contact);
 void remove_awake_contact(SceneState& state, int contact);
+
+/// Puts its pair back into SceneState::box_pairs, where it is not.
+void follow_again(SceneState& state, int contact);
 
 [[nodiscard]] inline int edge_contact(int edge) { return edge >> 1; }
 

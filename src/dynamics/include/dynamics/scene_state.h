@@ -146,12 +146,21 @@ struct Contact
     std::int32_t next[2] = {none, none}; ///< edges in the bodies' lists
     std::int32_t previous[2] = {none, none};
     std::int32_t awake_index = none; ///< place in awake_contacts or trigger_contacts
+    std::int32_t pair = none;        ///< place in box_pairs; none: both sleep
     std::uint32_t flags = 0;
     float friction = 0;
     float rolling_resistance = 0;
     float surface_speed = 0; ///< of b against a along perp(normal)
     std::int32_t color = none;
     Manifold manifold{};
+};
+
+/// Two shapes whose fat boxes overlap, one of which is awake. They have a contact while they may meet in the step.
+struct BoxPair
+{
+    std::int32_t a = none;
+    std::int32_t b = none;
+    std::int32_t contact = none;
 };
 
 enum class JointType : std::uint8_t
@@ -216,7 +225,8 @@ struct SceneState
     VertexStore vertices;
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
-    PairSet pairs;   ///< shape pairs that have a contact
+    std::vector<BoxPair> box_pairs;
+    PairSet pairs;   ///< shape pairs that are in box_pairs or have a contact
     PairSet ignored; ///< body pairs that never touch
     BroadPhase broad_phase;
     std::vector<std::int32_t> awake_bodies;
