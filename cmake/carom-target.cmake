@@ -20,6 +20,17 @@ function(carom_target target)
     endif()
 endfunction()
 
+# carom_kernels(<folder>): the contact kernels in it are one source, compiled for what the machine may have; the choice falls at run time
+# (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only.
+function(carom_kernels folder)
+    set_source_files_properties("${folder}/contact_kernels_baseline.cpp" PROPERTIES COMPILE_OPTIONS -Wno-psabi)
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+        set_source_files_properties("${folder}/contact_kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-mavx2")
+        set_source_files_properties("${folder}/contact_kernels_avx512.cpp" PROPERTIES
+                                    COMPILE_OPTIONS "-Wno-psabi;-mavx512f;-mavx512vl;-mprefer-vector-width=256")
+    endif()
+endfunction()
+
 # carom_glob(<variable> <pattern>...): the files of these patterns, relative to the current folder, found anew at each build.
 function(carom_glob variable)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS LIST_DIRECTORIES false RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" ${ARGN})

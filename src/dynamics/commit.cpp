@@ -12,6 +12,7 @@
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
 #include "dynamics/wake.h"
+#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -348,6 +349,8 @@ void commit_and_sleep(StepContext& ctx)
     for (std::size_t i = 0; i < scratch.states.size(); ++i)
         commit_state(ctx, static_cast<std::int32_t>(i));
     clear_unsolved_impulses(ctx);
+    for (const WideRow& row : scratch.wide_rows)
+        commit_wide_row(ctx.state, row);
     for (const ContactRow& row : scratch.rows)
         commit_row(ctx, row);
     for (const JointWork& work : scratch.joints)

@@ -13,8 +13,10 @@
 #include "dynamics/springs.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_energy.h"
+#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace carom::internal {
@@ -83,7 +85,10 @@ public:
           m_rows(std::span(ctx.scratch.rows)
                      .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
           m_joints(std::span(ctx.scratch.joints)
-                       .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count)))
+                       .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
+          m_wide(ctx.scratch.wide_rows.data() + unit.first_wide),
+          m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness},
+          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.flier_count == 0)
     {}
 
     void run()
@@ -103,8 +108,8 @@ private:
         if (m_watches_energy)
             m_energy.begin(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
                            0.1f * m_ctx.scene.tolerances.slop);
-        integrate_velocities();
-        warm_start_all();
+        integrate_velocities(k);
+        warm_start_all(k);
         predict_bends();
         solve(true);
         integrate_positions();
@@ -118,6 +123,8 @@ private:
         solve(false);
         if (m_watches_energy)
             m_energy.note_load(m_rows, late_rows());
+        if (m_starts_by_body)
+            note_pushes();
         const bool kicked = bounce(k);
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
@@ -159,6 +166,7 @@ private:
     {
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             note_approach(m_view, impact_row(i));
+        m_kernels.note_approach(m_wide, m_unit.wide_count, m_view.states);
         note_limit_approach(m_view, m_ctx.state, m_joints);
     }
 
@@ -169,8 +177,13 @@ private:
     }
 
     // v += h a, then damping. Balls in flight have their own way.
-    void integrate_velocities()
+    void integrate_velocities(int k)
     {
+        if (m_starts_by_body)
+        {
+            integrate_and_push(k);
+            return;
+        }
         for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
         {
             BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
@@ -182,12 +195,44 @@ private:
         }
     }
 
-    void warm_start_all()
+    // Where points and normals keep through the step, all that the rows gave to a body in the last sub-step is given again at once: what warm
+    // starting adds up row by row.
+    void integrate_and_push(int k)
+    {
+        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+        {
+            BodyState& s = m_view.states[i];
+            const StateConstants& c = m_view.constants[i];
+            BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+            if ((s.flags & body_flag::dynamic) == 0)
+                continue;
+            const Vec2 v = c.linear_decay * (s.velocity + m_ctx.h * c.acceleration);
+            const float w = c.angular_decay * (s.angular_velocity + m_ctx.h * c.angular_acceleration);
+            s.velocity = k == 0 ? v : v + push.velocity;
+            s.angular_velocity = k == 0 ? w : w + push.angular_velocity;
+            push = {v, w};
+        }
+    }
+
+    void note_pushes()
+    {
+        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+        {
+            const BodyState& s = m_view.states[i];
+            BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+            push = {s.velocity - push.velocity, s.angular_velocity - push.angular_velocity};
+        }
+    }
+
+    void warm_start_all(int k)
     {
         kick_springs_before(m_view, m_ctx.state, m_joints);
         prepare_direct();
         if (!m_joints.empty())
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
+        if (m_starts_by_body && k > 0)
+            return;
+        m_kernels.warm_start(m_wide, m_unit.wide_count, m_view.states);
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
@@ -211,6 +256,7 @@ private:
         {
             if (!m_joints.empty())
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
+            (use_bias ? m_kernels.solve : m_kernels.relax)(m_wide, m_unit.wide_count, m_view.states, m_softness);
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
         }
@@ -240,6 +286,32 @@ private:
             if (row.core > 0 && row.count == 1)
                 guard_core(row);
         }
+        for (int i = m_unit.first_core; i < m_unit.first_core + m_unit.core_count; ++i)
+            guard_wide_core(m_scratch.cores[static_cast<std::size_t>(i)]);
+    }
+
+    void guard_wide_core(const WideCore& core) const
+    {
+        const WideRow& row = m_scratch.wide_rows[static_cast<std::size_t>(core.lane / lane_count)];
+        const int i = core.lane % lane_count;
+        const bool a_gives = row.inverse_mass_a.v[i] != 0;
+        if (!a_gives && row.inverse_mass_b.v[i] == 0)
+            return;
+        const BodyState& a = m_view.states[row.a.v[i]];
+        const BodyState& b = m_view.states[row.b.v[i]];
+        const Vec2 n{row.nx.v[i], row.ny.v[i]};
+        const WidePoint& p = row.points[0];
+        const float separation = p.base.v[i] + dot(b.delta_position - a.delta_position, n) +
+                                 turned(b, p.along_b.v[i], p.across_b.v[i]) - turned(a, p.along_a.v[i], p.across_a.v[i]);
+        const float depth = -separation - core.depth;
+        if (depth > 0)
+            m_view.states[a_gives ? row.a.v[i] : row.b.v[i]].delta_position += (a_gives ? -depth : depth) * n;
+    }
+
+    // n · (R r - r)
+    [[nodiscard]] static float turned(const BodyState& s, float along, float across)
+    {
+        return (s.delta_rotation.c - 1) * along + s.delta_rotation.s * across;
     }
 
     void guard_core(const ContactRow& row)
@@ -399,10 +471,78 @@ private:
         const std::size_t kicks = m_output.kicked_shapes.size();
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
+        for (int g = 0; g < m_unit.wide_count; ++g)
+            bounce_wide_row(g, k);
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
             m_output.direct->keep_together();
         return m_output.kicked_shapes.size() != kicks;
+    }
+
+    // Lanes that bear a load: told once, bounced once.
+    void bounce_wide_row(int group, int k)
+    {
+        WideRow& wide = m_wide[group];
+        unsigned news = wide.may_hit | wide.untold;
+        for (; news != 0; news &= news - 1)
+        {
+            const int i = std::countr_zero(news);
+            const bool loaded =
+                wide.points[0].normal_impulse.v[i] > 0 || (wide.count == 2 && wide.points[1].normal_impulse.v[i] > 0);
+            if (loaded)
+                bounce_lane(wide, (m_unit.first_wide + group) * lane_count + i, k);
+        }
+    }
+
+    void bounce_lane(WideRow& wide, std::int32_t lane, int k)
+    {
+        const unsigned bit = 1u << (lane % lane_count);
+        float approach = 0;
+        for (int p = 0; p < wide.count; ++p)
+        {
+            if (wide.points[p].normal_impulse.v[lane % lane_count] > 0)
+                approach = std::max(approach, wide.points[p].approach.v[lane % lane_count]);
+        }
+        const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
+        if (!strikes && (wide.untold & bit) == 0)
+            return;
+        ContactRow row = row_of_lane(m_ctx, lane);
+        row.hit = strikes ? 0 : 1;
+        const ContactRow before = row;
+        if ((wide.untold & bit) != 0)
+            begin_touch(row, k);
+        wide.untold &= ~bit;
+        if (!strikes)
+            return;
+        resolve_impact(row, approach, k);
+        wide.may_hit &= ~bit;
+        put_impulses(m_scratch, row, lane);
+        forget_pushes(before, row);
+    }
+
+    // What flies off is not pushed again by warm starting.
+    void forget_pushes(const ContactRow& before, const ContactRow& after)
+    {
+        if (!m_starts_by_body)
+            return;
+        for (int i = 0; i < before.count; ++i)
+        {
+            if (after.points[i].normal_impulse != 0)
+                continue;
+            const RowPoint& p = before.points[i];
+            const Vec2 impulse = p.normal_impulse * before.n + p.tangent_impulse * perp(before.n);
+            take_push(before.a, p.ra, -impulse);
+            take_push(before.b, p.rb, impulse);
+        }
+    }
+
+    void take_push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    {
+        const StateConstants& c = m_view.constants[state];
+        BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(state)];
+        push.velocity.x -= c.inverse_mass.x * impulse.x;
+        push.velocity.y -= c.inverse_mass.y * impulse.y;
+        push.angular_velocity -= c.inverse_inertia * cross(arm, impulse);
     }
 
     void bounce_row(ContactRow& row, int k)
@@ -586,6 +726,10 @@ private:
     SolverView m_view;
     std::span<ContactRow> m_rows;
     std::span<JointWork> m_joints;
+    WideRow* m_wide;
+    WideSoftness m_softness;
+    bool m_starts_by_body;
+    const WideKernels& m_kernels = wide_kernels();
 };
 
 void UnitSolver::record_poses(int k)
@@ -608,6 +752,7 @@ void solve_units(StepContext& ctx)
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
         scratch.outputs[i].clear();
     mark_traced(ctx);
+    scratch.pushes.resize(scratch.states.size());
     // Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
     std::vector<std::int32_t>& starts = scratch.order;
     starts.assign(1, 0);

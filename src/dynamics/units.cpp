@@ -13,8 +13,10 @@
 #include "dynamics/prepare.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_energy.h"
+#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -70,32 +72,6 @@ void reset_parents(StepContext& ctx)
         parent[i] = static_cast<std::int32_t>(i);
 }
 
-// Islands: relabelled only when the graph has changed.
-void label_islands(StepContext& ctx)
-{
-    SceneState& state = ctx.state;
-    if (!state.graph_dirty)
-        return;
-    reset_parents(ctx);
-    for (const std::int32_t index : state.awake_contacts)
-    {
-        const Contact& contact = state.contacts[index];
-        if ((contact.flags & contact_flag::touching) != 0)
-            link_bodies(ctx, contact.body_a, contact.body_b);
-    }
-    for (int j = 0; j < state.joints.capacity(); ++j)
-    {
-        if (state.joints.is_live(j))
-            link_bodies(ctx, state.joints[j].body_a, state.joints[j].body_b);
-    }
-    for (const std::int32_t body : state.awake_bodies)
-    {
-        const std::int32_t root = find_root(ctx.scratch.parent, state.bodies[body].awake_index);
-        state.bodies[body].island = state.awake_bodies[static_cast<std::size_t>(root)];
-    }
-    state.graph_dirty = false;
-}
-
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
 bool gets_rows(const SceneState& state, const Contact& contact)
@@ -137,24 +113,14 @@ bool is_closed(const StepContext& ctx, int index, int body)
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
 }
 
-// Nothing bears it and it overlaps nothing: then its path is its own until it hits something.
-bool is_unloaded(const StepContext& ctx, int body)
+// Is it borne, or does it overlap something that must be pushed out? Then it does not fly. What will be apart by itself within the step need not
+// be pushed.
+bool is_loaded(const StepContext& ctx, const Contact& contact)
 {
-    const SceneState& state = ctx.state;
-    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-    {
-        const Contact& contact = state.contacts[edge >> 1];
-        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0 || contact.manifold.count == 0)
-            continue;
-        const float separation = least_separation(contact.manifold);
-        const bool loaded = separation <= ctx.scene.tolerances.speculation && (contact.flags & contact_flag::loaded) != 0;
-        // Overlap must be pushed out, unless the two will be apart by themselves within the step.
-        const bool overlaps = separation < -ctx.scene.tolerances.slop &&
-                              motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) < -4 * separation;
-        if (loaded || overlaps)
-            return false;
-    }
-    return true;
+    const float separation = least_separation(contact.manifold);
+    const bool loaded = separation <= ctx.scene.tolerances.speculation && (contact.flags & contact_flag::loaded) != 0;
+    return loaded || (separation < -ctx.scene.tolerances.slop &&
+                      motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) < -4 * separation);
 }
 
 // --- building ---------------------------------------------------------------------------------------------------------------------
@@ -183,8 +149,73 @@ struct Builder
                 continue;
             const std::int32_t kind = flight_of(state, body);
             if (kind != earthbound && (kind == none || is_closed(ctx, kind, body)))
-                (is_unloaded(ctx, body) ? flight : grounded)[i] = kind;
+                flight[i] = kind;
         }
+    }
+
+    // The one walk over all contacts; what follows goes over the links. A body that a contact loads does not fly.
+    void gather_links()
+    {
+        scratch.links.clear();
+        for (const std::int32_t index : state.awake_contacts)
+        {
+            Contact& contact = state.contacts[index];
+            contact.color = contact.wide = none;
+            const bool touching = (contact.flags & contact_flag::touching) != 0;
+            const bool solved = contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
+            if (!touching && !solved)
+                continue;
+            const Link l{index, place_of(contact.body_a), place_of(contact.body_b), touching, solved};
+            if (l.a < 0 && l.b < 0)
+                continue;
+            scratch.links.push_back(l);
+            ctx.report.touching += touching ? 1 : 0;
+            if (solved && is_loaded(ctx, contact))
+            {
+                ground(l.a);
+                ground(l.b);
+            }
+        }
+    }
+
+    [[nodiscard]] std::int32_t place_of(int body) const
+    {
+        const BodyRecord& record = state.bodies[body];
+        if (record.awake_index == none || record.type == BodyType::Static)
+            return none;
+        return record.type == BodyType::Dynamic ? record.awake_index : -2 - record.awake_index;
+    }
+
+    void ground(std::int32_t place)
+    {
+        if (place < 0 || flight[static_cast<std::size_t>(place)] == earthbound)
+            return;
+        grounded[static_cast<std::size_t>(place)] = flight[static_cast<std::size_t>(place)];
+        flight[static_cast<std::size_t>(place)] = earthbound;
+    }
+
+    // Islands: relabelled only when the graph has changed.
+    void label_islands()
+    {
+        if (!state.graph_dirty)
+            return;
+        reset_parents(ctx);
+        for (const Link& l : scratch.links)
+        {
+            if (l.touching && l.a >= 0 && l.b >= 0)
+                link(scratch.parent, l.a, l.b);
+        }
+        for (int j = 0; j < state.joints.capacity(); ++j)
+        {
+            if (state.joints.is_live(j))
+                link_bodies(ctx, state.joints[j].body_a, state.joints[j].body_b);
+        }
+        for (const std::int32_t body : state.awake_bodies)
+        {
+            const std::int32_t root = find_root(scratch.parent, state.bodies[body].awake_index);
+            state.bodies[body].island = state.awake_bodies[static_cast<std::size_t>(root)];
+        }
+        state.graph_dirty = false;
     }
 
     // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
@@ -240,11 +271,13 @@ struct Builder
             std::int32_t& slices = scratch.units[static_cast<std::size_t>(u)].slices;
             slices = std::max(slices, wanted);
         };
-        for (const std::int32_t index : state.awake_contacts)
+        for (const Link& l : scratch.links)
         {
-            const Contact& c = state.contacts[index];
-            if (gets_rows(state, c))
-                slice(c.body_a, c.body_b, turn_rate(c), slice_turn, precise_limit);
+            const std::int32_t u = scratch.unit_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
+            if (!l.solved || bodies[static_cast<std::size_t>(u)] > precise_limit)
+                continue;
+            const Contact& c = state.contacts[l.contact];
+            slice(c.body_a, c.body_b, turn_rate(c), slice_turn, precise_limit);
         }
         for (int j = 0; j < state.joints.capacity(); ++j)
         {
@@ -305,11 +338,10 @@ struct Builder
             if (state.bodies[body].type == BodyType::Dynamic)
                 link_bodies(ctx, body, state.bodies[body].island);
         }
-        for (const std::int32_t index : state.awake_contacts)
+        for (const Link& l : scratch.links)
         {
-            const Contact& contact = state.contacts[index];
-            if (gets_rows(state, contact))
-                link_bodies(ctx, contact.body_a, contact.body_b);
+            if (l.solved && l.a >= 0 && l.b >= 0)
+                link(scratch.parent, l.a, l.b);
         }
     }
 
@@ -399,9 +431,8 @@ struct Builder
     }
 
     // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count).
-    template <class UnitOf, class SetRange>
-    void sort_by_unit(const std::vector<std::int32_t>& items, std::vector<std::int32_t>& sorted, UnitOf&& unit_of,
-                      SetRange&& set_range)
+    template <class Item, class UnitOf, class SetRange>
+    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, UnitOf&& unit_of, SetRange&& set_range)
     {
         std::vector<std::int32_t> starts(scratch.units.size() + 1, 0);
         std::vector<std::int32_t> units(items.size());
@@ -424,20 +455,18 @@ struct Builder
         }
     }
 
-    void sort_contacts()
+    // Bodies in flight meet things at their own time; a row would stop them early.
+    [[nodiscard]] bool in_flight(std::int32_t place) const
     {
-        std::vector<std::int32_t> chosen;
-        for (const std::int32_t index : state.awake_contacts)
-        {
-            Contact& contact = state.contacts[index];
-            contact.color = none;
-            // Bodies in flight meet things at their own time; a row would stop them early.
-            if (gets_rows(state, contact) && !flies(contact.body_a) && !flies(contact.body_b))
-                chosen.push_back(index);
-        }
+        return place >= 0 && flight[static_cast<std::size_t>(place)] != earthbound;
+    }
+
+    void sort_links()
+    {
+        std::erase_if(scratch.links, [&](const Link& l) { return !l.solved || in_flight(l.a) || in_flight(l.b); });
         sort_by_unit(
-            chosen, scratch.solved_contacts,
-            [&](int i) { return unit_of_pair(state.contacts[i].body_a, state.contacts[i].body_b); },
+            scratch.links, scratch.solved_links,
+            [&](const Link& l) { return scratch.unit_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)]; },
             [](Unit& unit, int first, int count)
             {
                 unit.first_row = first;
@@ -581,35 +610,105 @@ struct Builder
     {
         scratch.color_masks.resize(scratch.states.size());
         std::fill(scratch.color_masks.begin() + unit.first_state, scratch.color_masks.end(), 0);
-        const int first = unit.first_row;
-        std::vector<std::int32_t>& order = scratch.order;
-        order.assign(scratch.solved_contacts.begin() + first, scratch.solved_contacts.begin() + first + unit.row_count);
-        for (const std::int32_t index : order)
-            assign_color(unit, state.contacts[index]);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](int x, int y) { return state.contacts[x].color < state.contacts[y].color; });
-        std::copy(order.begin(), order.end(), scratch.solved_contacts.begin() + first);
+        const std::span<Link> links =
+            std::span(scratch.solved_links)
+                .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count));
+        for (Link& l : links)
+        { // from here on: states
+            l.a = state_at(unit, l.a);
+            l.b = state_at(unit, l.b);
+        }
+        unit.first_row = static_cast<std::int32_t>(scratch.rows.size());
         unit.first_impact_row = static_cast<std::int32_t>(scratch.impact_rows.size());
-        for (const std::int32_t index : order)
-            add_row(unit_ctx, unit, index);
+        unit.first_wide = static_cast<std::int32_t>(scratch.wide_rows.size());
+        unit.first_core = static_cast<std::int32_t>(scratch.cores.size());
+        if (is_wide(unit))
+            add_wide_rows(unit_ctx, unit, links);
+        else
+            add_narrow_rows(unit_ctx, unit, links);
+        unit.row_count = static_cast<std::int32_t>(scratch.rows.size()) - unit.first_row;
+        unit.wide_count = static_cast<std::int32_t>(scratch.wide_rows.size()) - unit.first_wide;
+        unit.core_count = static_cast<std::int32_t>(scratch.cores.size()) - unit.first_core;
         unit.impact_row_count = static_cast<std::int32_t>(scratch.impact_rows.size()) - unit.first_impact_row;
         for (int i = 0; i < unit.joint_count; ++i)
             add_joint(unit_ctx, unit, scratch.solved_joints[static_cast<std::size_t>(unit.first_joint + i)]);
     }
 
-    void assign_color(Unit& unit, Contact& contact)
+    // Not what is looked at anew within the step, sliced, or watched for its energy.
+    [[nodiscard]] static bool is_wide(const Unit& unit)
     {
-        std::uint64_t unused = 0;
-        std::uint64_t& mask_a = is_moving_dynamic(state, contact.body_a)
-                                    ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_a))]
-                                    : unused;
-        std::uint64_t& mask_b = is_moving_dynamic(state, contact.body_b)
-                                    ? scratch.color_masks[static_cast<std::size_t>(state_for(unit, contact.body_b))]
-                                    : unused;
-        int color = 0;
-        while (color < color_limit && (((mask_a | mask_b) >> color) & 1) != 0)
-            ++color;
-        contact.color = color;
+        return !unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies);
+    }
+
+    void add_narrow_rows(const StepContext& unit_ctx, Unit& unit, std::span<const Link> links)
+    {
+        std::vector<std::int32_t>& order = scratch.order;
+        order.resize(links.size());
+        for (std::size_t i = 0; i < links.size(); ++i)
+        {
+            assign_color(unit, links[i]);
+            order[i] = static_cast<std::int32_t>(i);
+        }
+        const auto color = [&](int i) { return state.contacts[links[static_cast<std::size_t>(i)].contact].color; };
+        std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return color(x) < color(y); });
+        for (const std::int32_t i : order)
+            add_row(unit_ctx, unit, links[static_cast<std::size_t>(i)]);
+    }
+
+    // Eight by eight, each group of one colour and one number of points. What does not fit follows in rows of its own.
+    void add_wide_rows(const StepContext& unit_ctx, Unit& unit, std::span<const Link> links)
+    {
+        std::vector<std::int32_t>& filled = scratch.lanes_of_bin; // of each bin; then where its next lane goes
+        filled.assign(2 * (color_limit + 1), 0);
+        const auto bin_of = [&](const Contact& c)
+        { return static_cast<std::size_t>(2 * c.color + (c.manifold.count == 2 ? 0 : 1)); };
+        std::vector<std::int32_t>& narrow = scratch.order;
+        narrow.clear();
+        for (std::size_t i = 0; i < links.size(); ++i)
+        {
+            assign_color(unit, links[i]);
+            const Contact& contact = state.contacts[links[i].contact];
+            if (contact.color == color_limit || !fits_lane(ctx, contact, links[i]))
+                narrow.push_back(static_cast<std::int32_t>(i));
+            else
+                ++filled[bin_of(contact)];
+        }
+        std::int32_t lane = unit.first_wide * lane_count;
+        for (std::int32_t& count : filled)
+        {
+            const std::int32_t first = lane;
+            lane += (count + lane_count - 1) / lane_count * lane_count;
+            count = first;
+        }
+        add_empty_rows(scratch, unit.first_state, lane / lane_count);
+        std::size_t next_narrow = 0;
+        for (std::size_t i = 0; i < links.size(); ++i)
+        {
+            if (next_narrow < narrow.size() && narrow[next_narrow] == static_cast<std::int32_t>(i))
+            {
+                ++next_narrow;
+                continue;
+            }
+            Contact& contact = state.contacts[links[i].contact];
+            contact.wide = filled[bin_of(contact)]++;
+            fill_lane(ctx, links[i], contact.wide);
+            unbind(links[i]);
+        }
+        wide_kernels().prepare(scratch.wide_rows.data() + unit.first_wide, lane / lane_count - unit.first_wide);
+        for (const std::int32_t i : narrow)
+            add_row(unit_ctx, unit, links[static_cast<std::size_t>(i)]);
+    }
+
+    void assign_color(Unit& unit, const Link& l)
+    {
+        const auto dynamic = [&](std::int32_t s)
+        { return (scratch.states[static_cast<std::size_t>(s)].flags & body_flag::dynamic) != 0; };
+        std::uint64_t unused_a = 0;
+        std::uint64_t unused_b = 0;
+        std::uint64_t& mask_a = dynamic(l.a) ? scratch.color_masks[static_cast<std::size_t>(l.a)] : unused_a;
+        std::uint64_t& mask_b = dynamic(l.b) ? scratch.color_masks[static_cast<std::size_t>(l.b)] : unused_b;
+        const int color = std::min(std::countr_one(mask_a | mask_b), color_limit);
+        state.contacts[l.contact].color = color;
         if (color == color_limit)
         {
             ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
@@ -620,18 +719,27 @@ struct Builder
         unit.colors = std::max(unit.colors, color + 1);
     }
 
-    void add_row(const StepContext& unit_ctx, const Unit& unit, std::int32_t index)
+    void add_row(const StepContext& unit_ctx, const Unit& unit, const Link& l)
     {
-        const Contact& contact = state.contacts[index];
-        const std::int32_t a = state_for(unit, contact.body_a);
-        const std::int32_t b = state_for(unit, contact.body_b);
-        scratch.rows.push_back(prepare_row(unit_ctx, index, contact.manifold, a, b));
-        ContactRow& row = scratch.rows.back();
-        follow_closely(contact, unit, row);
+        const Contact& contact = state.contacts[l.contact];
+        scratch.rows.push_back(prepare_row(unit_ctx, l.contact, contact.manifold, l.a, l.b));
+        follow_closely(contact, unit, scratch.rows.back());
         if ((contact.flags & contact_flag::loaded) == 0)
             scratch.impact_rows.push_back(static_cast<std::int32_t>(scratch.rows.size()) - 1);
-        scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
-        scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
+        unbind(l);
+    }
+
+    void unbind(const Link& l)
+    {
+        scratch.states[static_cast<std::size_t>(l.a)].flags &= ~body_flag::unbound;
+        scratch.states[static_cast<std::size_t>(l.b)].flags &= ~body_flag::unbound;
+    }
+
+    [[nodiscard]] std::int32_t state_at(const Unit& unit, std::int32_t place)
+    {
+        if (place >= 0)
+            return scratch.state_of[static_cast<std::size_t>(place)];
+        return state_for(unit, place == none ? none : state.awake_bodies[static_cast<std::size_t>(-2 - place)]);
     }
 
     void add_joint(const StepContext& unit_ctx, const Unit& unit, std::int32_t joint)
@@ -659,8 +767,6 @@ struct Builder
         ctx.report.units = static_cast<int>(scratch.units.size());
         for (const Unit& unit : scratch.units)
             ctx.report.colors = std::max(ctx.report.colors, static_cast<int>(unit.colors));
-        for (const std::int32_t index : state.awake_contacts)
-            ctx.report.touching += (state.contacts[index].flags & contact_flag::touching) != 0 ? 1 : 0;
     }
 };
 
@@ -671,9 +777,12 @@ void build_units(StepContext& ctx)
     ctx.scratch.rows.clear();
     ctx.scratch.impact_rows.clear();
     ctx.scratch.joints.clear();
-    label_islands(ctx);
+    ctx.scratch.wide_rows.clear();
+    ctx.scratch.cores.clear();
     Builder builder(ctx);
     builder.find_fliers();
+    builder.gather_links();
+    builder.label_islands();
     builder.link_units();
     builder.number_units();
     builder.ground_crowds();
@@ -681,7 +790,7 @@ void build_units(StepContext& ctx)
     builder.number_units();
     builder.ground_crowds();
     builder.choose_slices();
-    builder.sort_contacts();
+    builder.sort_links();
     builder.sort_joints();
     builder.lay_out_states();
     builder.index_fliers();

@@ -5,6 +5,7 @@
 
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
+#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -267,6 +268,11 @@ void take_off(const FlightSpan& span, Flier& f, double time)
     drop_rows(std::span(span.scratch.rows)
                   .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
     drop_rows(span.output.late_rows);
+    for (int edge = span.state.bodies[f.body].first_contact; edge != none; edge = span.state.contacts[edge >> 1].next[edge & 1])
+    {
+        if (Contact& contact = span.state.contacts[edge >> 1]; contact.wide != none)
+            drop_lane(span.ctx, contact, span.unit.first_state);
+    }
     if (f.joint != none)
         forget_impulses(span.state.joints[f.joint]);
     clear_substep(span, f);

@@ -152,6 +152,7 @@ struct Contact
     float rolling_resistance = 0;
     float surface_speed = 0; ///< of b against a along perp(normal)
     std::int32_t color = none;
+    std::int32_t wide = none; ///< during a step: where its wide row is, group * lane_count + lane
     Manifold manifold{};
 };
 

@@ -6,6 +6,7 @@
 #include "collision/time_of_impact.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
+#include "dynamics/wide_rows.h"
 
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,10 @@ struct Unit
     std::int32_t dynamic_count = 0; ///< of these, after the first one
     std::int32_t first_row = 0;     ///< contact rows, sorted by color
     std::int32_t row_count = 0;
+    std::int32_t first_wide = 0; ///< groups of wide rows, sorted by color: of large units; rows are then what does not fit there
+    std::int32_t wide_count = 0;
+    std::int32_t first_core = 0; ///< of its wide rows
+    std::int32_t core_count = 0;
     std::int32_t first_joint = 0;
     std::int32_t joint_count = 0;
     std::int32_t first_flier = 0;
@@ -39,6 +44,31 @@ struct Unit
     std::int32_t slices = 1; ///< of each sub-step
     bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
     bool traced = false;     ///< paths of some of its bodies are recorded
+};
+
+/// Contact of a dynamic body, or of two, that takes part in a step.
+struct Link
+{
+    std::int32_t contact;
+    std::int32_t a; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
+    std::int32_t b;
+    bool touching; ///< else it may touch within the step
+    bool solved;   ///< gets a row, unless a body flies
+};
+
+/// What constraints gave to a body in the last sub-step: warm starting of the next.
+struct BodyPush
+{
+    Vec2 velocity{};
+    float angular_velocity = 0;
+    float padding = 0;
+};
+
+/// A ball in a wide row against what does not give way.
+struct WideCore
+{
+    std::int32_t lane; ///< group * lane_count + lane
+    float depth;
 };
 
 /// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
@@ -111,10 +141,11 @@ struct Scratch
     std::vector<std::int32_t> moved_items; ///< shapes whose fat box changed
     std::vector<FloatBox> moved_boxes;
     std::vector<std::uint64_t> new_pairs;
-    std::vector<std::int32_t> parent;          ///< union-find, by place in awake_bodies
-    std::vector<std::int32_t> unit_of;         ///< by place in awake_bodies
-    std::vector<std::int32_t> state_of;        ///< by place in awake_bodies; dynamic bodies only
-    std::vector<std::int32_t> solved_contacts; ///< contacts that get rows, by unit
+    std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
+    std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
+    std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
+    std::vector<Link> links;
+    std::vector<Link> solved_links; ///< those that get rows, by unit
     std::vector<std::int32_t> solved_joints;
     std::vector<Unit> units;
     std::vector<BodyState> states; ///< [0] stands for every static body
@@ -123,6 +154,9 @@ struct Scratch
     std::vector<LawWork> laws;              ///< by unit
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
+    std::vector<WideRow> wide_rows;
+    std::vector<WideCore> cores;
+    std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<std::int32_t> flier_of_state;
@@ -131,6 +165,7 @@ struct Scratch
     std::vector<PathPiece> paths; ///< of all units, by body
     std::vector<Crossing> crossings;
     std::vector<std::uint64_t> color_masks;
+    std::vector<std::int32_t> lanes_of_bin; ///< of wide rows of a unit: by color and number of points
     std::vector<std::int32_t> order;
 };
 

@@ -1,0 +1,111 @@
+#pragma once
+
+// Eight floats that are calculated with at once, on GCC's and Clang's vector extensions: one register where the machine has them that wide,
+// two or four elsewhere. The same source gives the same bits everywhere: each lane is computed by itself, with the operations written.
+// Minimum and maximum are comparisons. Only kernels that are compiled once per instruction set include this file (see dynamics/wide/):
+// everything in it is inlined, so that no copy made for one machine is called on another.
+
+#include "core/lanes.h"
+
+#include <cstdint>
+#include <cstring>
+
+#define CAROM_INLINE inline __attribute__((always_inline))
+
+namespace carom::internal {
+
+using F8 = float __attribute__((vector_size(32)));
+using I8 = std::int32_t __attribute__((vector_size(32)));
+
+CAROM_INLINE F8 load(const LaneFloats& a)
+{
+    F8 r;
+    std::memcpy(&r, __builtin_assume_aligned(a.v, 32), sizeof r);
+    return r;
+}
+CAROM_INLINE I8 load(const LaneInts& a)
+{
+    I8 r;
+    std::memcpy(&r, __builtin_assume_aligned(a.v, 32), sizeof r);
+    return r;
+}
+CAROM_INLINE void store(LaneFloats& a, F8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
+
+CAROM_INLINE F8 all(float x) { return F8{x, x, x, x, x, x, x, x}; }
+/// Of each lane a where the mask is set (-1), b where it is clear (0).
+CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return mask ? a : b; }
+CAROM_INLINE F8 least(F8 a, F8 b) { return a < b ? a : b; }
+CAROM_INLINE F8 greatest(F8 a, F8 b) { return a > b ? a : b; }
+CAROM_INLINE F8 clamp(F8 x, F8 low, F8 high) { return least(greatest(x, low), high); }
+
+CAROM_INLINE F8 root(F8 x)
+{
+    F8 r;
+    for (int i = 0; i < lane_count; ++i)
+        r[i] = __builtin_sqrtf(x[i]);
+    return r;
+}
+
+/// A bit per lane.
+CAROM_INLINE unsigned bits(I8 mask)
+{
+    unsigned r = 0;
+    for (int i = 0; i < lane_count; ++i)
+        r |= mask[i] != 0 ? 1u << i : 0u;
+    return r;
+}
+
+using F4 = float __attribute__((vector_size(16)));
+
+/// Eight records of four floats become four vectors of eight lanes. Lane i is what `at(i)` points to.
+template <class At>
+CAROM_INLINE void gather4(const At& at, F8& x, F8& y, F8& z, F8& w)
+{
+    const auto pair = [&](int i, int j)
+    {
+        F4 lo;
+        F4 hi;
+        std::memcpy(&lo, at(i), sizeof lo);
+        std::memcpy(&hi, at(j), sizeof hi);
+        return __builtin_shufflevector(lo, hi, 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    const F8 r0 = pair(0, 4);
+    const F8 r1 = pair(1, 5);
+    const F8 r2 = pair(2, 6);
+    const F8 r3 = pair(3, 7);
+    const F8 xy01 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
+    const F8 xy23 = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
+    const F8 zw01 = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
+    const F8 zw23 = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
+    x = __builtin_shufflevector(xy01, xy23, 0, 1, 8, 9, 4, 5, 12, 13);
+    y = __builtin_shufflevector(xy01, xy23, 2, 3, 10, 11, 6, 7, 14, 15);
+    z = __builtin_shufflevector(zw01, zw23, 0, 1, 8, 9, 4, 5, 12, 13);
+    w = __builtin_shufflevector(zw01, zw23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// And back.
+template <class At>
+CAROM_INLINE void scatter4(const At& at, F8 x, F8 y, F8 z, F8 w)
+{
+    const F8 xy02 = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13);   // x0 y0 x1 y1 | x4 y4 x5 y5
+    const F8 xy13 = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15); // x2 y2 x3 y3 | x6 y6 x7 y7
+    const F8 zw02 = __builtin_shufflevector(z, w, 0, 8, 1, 9, 4, 12, 5, 13);
+    const F8 zw13 = __builtin_shufflevector(z, w, 2, 10, 3, 11, 6, 14, 7, 15);
+    const F8 r0 = __builtin_shufflevector(xy02, zw02, 0, 1, 8, 9, 4, 5, 12, 13);
+    const F8 r1 = __builtin_shufflevector(xy02, zw02, 2, 3, 10, 11, 6, 7, 14, 15);
+    const F8 r2 = __builtin_shufflevector(xy13, zw13, 0, 1, 8, 9, 4, 5, 12, 13);
+    const F8 r3 = __builtin_shufflevector(xy13, zw13, 2, 3, 10, 11, 6, 7, 14, 15);
+    const auto split = [&](int i, int j, F8 r)
+    {
+        const F4 lo = __builtin_shufflevector(r, r, 0, 1, 2, 3);
+        const F4 hi = __builtin_shufflevector(r, r, 4, 5, 6, 7);
+        std::memcpy(at(i), &lo, sizeof lo);
+        std::memcpy(at(j), &hi, sizeof hi);
+    };
+    split(0, 4, r0);
+    split(1, 5, r1);
+    split(2, 6, r2);
+    split(3, 7, r3);
+}
+
+} // namespace carom::internal

@@ -1,0 +1,30 @@
+#pragma once
+
+// From contacts to wide rows, and back.
+
+#include "dynamics/step_context.h"
+
+namespace carom::internal {
+
+/// Contacts that roll, convey, or hold a body that may not move along every axis have rows of their own.
+[[nodiscard]] bool fits_lane(const StepContext& ctx, const Contact& contact, const Link& states);
+
+/// Appends empty groups until there are so many. `fixed` is the unit's state of what does not move.
+void add_empty_rows(Scratch& scratch, std::int32_t fixed, std::int32_t groups);
+
+/// Writes the contact into a lane; WideKernels::prepare does the rest.
+void fill_lane(const StepContext& ctx, const Link& states, std::int32_t lane);
+
+/// The lane as a row of its own, at the start of the step.
+[[nodiscard]] ContactRow row_of_lane(const StepContext& ctx, std::int32_t lane);
+
+/// Impulses of such a row go back into its lane.
+void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t lane);
+
+/// Its body has taken off: the lane pushes no more.
+void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
+
+/// Impulses of all lanes, to their contacts.
+void commit_wide_row(SceneState& state, const WideRow& row);
+
+} // namespace carom::internal

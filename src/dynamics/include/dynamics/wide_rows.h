@@ -1,0 +1,79 @@
+#pragma once
+
+// Contacts of large units, eight side by side: no two of a group share a moving body. They are solved in the contact's own frame. With
+// n the normal, t = perp(n), and r the lever arm of a point, r × t = r · n, so that two scalars per body and point say everything:
+//   across = r × n    the arm of the normal, and how the separation changes as the body turns
+//   along  = r · n    the arm of the tangent, and how the separation curves
+// Points and normals are those of the start of the step; what turns with them is the separation.
+
+#include "core/lanes.h"
+#include "dynamics/rows.h"
+
+#include <cstdint>
+
+namespace carom::internal {
+
+struct WidePoint
+{
+    LaneFloats across_a;
+    LaneFloats along_a;
+    LaneFloats across_b;
+    LaneFloats along_b;
+    LaneFloats base; ///< separation = base + n · (relative displacement of the anchors)
+    LaneFloats k;    ///< J M^-1 J^T of the normal; 1 in empty lanes
+    LaneFloats tangent_mass;
+    LaneFloats normal_impulse;
+    LaneFloats tangent_impulse;
+    LaneFloats total_impulse; ///< over the step
+    LaneFloats total_tangent;
+    LaneFloats approach; ///< speed at the start of the sub-step, of groups that may be struck
+};
+
+struct WideRow
+{
+    LaneInts a; ///< states
+    LaneInts b;
+    LaneInts contact; ///< none: the lane is empty
+    LaneInts stiff;   ///< -1: against what has infinite mass
+    LaneFloats nx;
+    LaneFloats ny;
+    LaneFloats friction;
+    LaneFloats inverse_mass_a;
+    LaneFloats inverse_mass_b;
+    LaneFloats inverse_inertia_a;
+    LaneFloats inverse_inertia_b;
+    LaneFloats coupling; ///< of two normals, J1 M^-1 J2^T
+    WidePoint points[2];
+    std::int32_t count;    ///< points, the same in all lanes
+    std::uint32_t may_hit; ///< lanes that bore nothing when the step began and have not been struck
+    std::uint32_t untold;  ///< lanes that did not touch when the step began and whose touch is not told
+    std::uint32_t padding;
+};
+
+struct WideSoftness
+{
+    float h;
+    float inverse_h;
+    float push_speed;
+    Softness contact;
+    Softness stiff; ///< against what has infinite mass
+};
+
+/// The passes over wide rows, compiled for one instruction set. Every one of them does the same, bit for bit.
+struct WideKernels
+{
+    const char* name;
+    /// Effective masses, once all lanes are filled.
+    void (*prepare)(WideRow* rows, std::int32_t count);
+    void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
+    /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
+    void (*solve)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
+    void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
+    /// Approach speeds of groups that may be struck.
+    void (*note_approach)(WideRow* rows, std::int32_t count, const BodyState* states);
+};
+
+/// The best that this machine has, or CAROM_ISA asks for (sse2, avx2, avx512); chosen once.
+[[nodiscard]] const WideKernels& wide_kernels();
+
+} // namespace carom::internal

@@ -1,0 +1,326 @@
+// The contact passes, from equation to lanes; contact_solver.cpp has the same for a row at a time, and the equations. Compiled once per
+// instruction set, each in a namespace of its own, CAROM_ISA.
+
+#include "core/lane_math.h"
+#include "dynamics/wide_rows.h"
+
+#include <cstddef>
+
+namespace carom::internal::CAROM_ISA {
+
+namespace {
+
+// What the eight contacts' bodies have now.
+struct Speeds
+{
+    F8 x, y, w, flags;
+};
+
+struct Poses
+{
+    F8 x, y, c, s;
+};
+
+static_assert(sizeof(BodyState) == 32 && offsetof(BodyState, delta_position) == 16);
+
+CAROM_INLINE Speeds speeds_of(const BodyState* states, const LaneInts& index)
+{
+    Speeds v;
+    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
+    return v;
+}
+
+CAROM_INLINE Poses poses_of(const BodyState* states, const LaneInts& index)
+{
+    Poses p;
+    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]) + 16; }, p.x, p.y, p.c, p.s);
+    return p;
+}
+
+CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v)
+{
+    scatter4([&](int i) { return reinterpret_cast<char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
+}
+
+// The bodies of a group and their relative velocity in the contact's frame.
+struct Group
+{
+    F8 nx, ny, mass_a, mass_b, inertia_a, inertia_b, mass;
+    Speeds a, b;
+    F8 vn, vt; ///< of b's center against a's
+    F8 pn, pt; ///< impulses of this pass
+
+    CAROM_INLINE Group(const WideRow& row, const BodyState* states)
+    {
+        nx = load(row.nx);
+        ny = load(row.ny);
+        mass_a = load(row.inverse_mass_a);
+        mass_b = load(row.inverse_mass_b);
+        inertia_a = load(row.inverse_inertia_a);
+        inertia_b = load(row.inverse_inertia_b);
+        mass = mass_a + mass_b;
+        a = speeds_of(states, row.a);
+        b = speeds_of(states, row.b);
+        const F8 dx = b.x - a.x;
+        const F8 dy = b.y - a.y;
+        vn = dx * nx + dy * ny;
+        vt = dy * nx - dx * ny;
+        pn = pt = all(0);
+    }
+
+    CAROM_INLINE F8 normal_speed(const WidePoint& p) const { return vn + load(p.across_b) * b.w - load(p.across_a) * a.w; }
+    CAROM_INLINE F8 tangent_speed(const WidePoint& p) const { return vt + load(p.along_b) * b.w - load(p.along_a) * a.w; }
+
+    CAROM_INLINE void push(const WidePoint& p, F8 impulse)
+    {
+        vn += mass * impulse;
+        a.w -= inertia_a * load(p.across_a) * impulse;
+        b.w += inertia_b * load(p.across_b) * impulse;
+        pn += impulse;
+    }
+
+    CAROM_INLINE void rub(const WidePoint& p, F8 impulse)
+    {
+        vt += mass * impulse;
+        a.w -= inertia_a * load(p.along_a) * impulse;
+        b.w += inertia_b * load(p.along_b) * impulse;
+        pt += impulse;
+    }
+
+    CAROM_INLINE void finish(const WideRow& row, BodyState* states)
+    {
+        const F8 px = pn * nx - pt * ny;
+        const F8 py = pn * ny + pt * nx;
+        a.x -= mass_a * px;
+        a.y -= mass_a * py;
+        b.x += mass_b * px;
+        b.y += mass_b * py;
+        put(states, row.a, a);
+        put(states, row.b, b);
+    }
+};
+
+// n · (displacement of the anchors): the centers' and, with c and s the cosine and sine of the turn, n · (R r - r).
+struct Displacement
+{
+    F8 centers, turned_a, turned_b, sin_a, sin_b;
+
+    CAROM_INLINE Displacement(const WideRow& row, const Group& g, const BodyState* states)
+    {
+        const Poses a = poses_of(states, row.a);
+        const Poses b = poses_of(states, row.b);
+        centers = (b.x - a.x) * g.nx + (b.y - a.y) * g.ny;
+        turned_a = a.c - 1;
+        turned_b = b.c - 1;
+        sin_a = a.s;
+        sin_b = b.s;
+    }
+
+    CAROM_INLINE F8 separation(const WidePoint& p) const
+    {
+        return load(p.base) + centers + (turned_b * load(p.along_b) + sin_b * load(p.across_b)) -
+               (turned_a * load(p.along_a) + sin_a * load(p.across_a));
+    }
+};
+
+struct Soft
+{
+    F8 bias_rate, give;
+
+    CAROM_INLINE Soft(const WideRow& row, const WideSoftness& s)
+    {
+        const I8 stiff = load(row.stiff);
+        bias_rate = select(stiff, all(s.stiff.bias_rate), all(s.contact.bias_rate));
+        give = select(stiff, all(1 / s.stiff.mass_scale), all(1 / s.contact.mass_scale));
+    }
+};
+
+// What a normal is solved for: its speed should become -bias, give = 1 / mass_scale is the softness.
+struct Target
+{
+    F8 speed, bias, give;
+};
+
+CAROM_INLINE Target target_of(const Group& g, const WidePoint& p, const Displacement& d, const Soft& soft, const WideSoftness& s)
+{
+    const F8 separation = d.separation(p);
+    const I8 apart = separation > all(0);
+    return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, all(-s.push_speed))),
+            select(apart, all(1), soft.give)};
+}
+
+CAROM_INLINE Target relaxed(const Group& g, const WidePoint& p, const Displacement& d, const WideSoftness& s)
+{
+    return {g.normal_speed(p), greatest(d.separation(p), all(0)) * s.inverse_h, all(1)};
+}
+
+CAROM_INLINE F8 set_normal(Group& g, WidePoint& p, F8 old, F8 impulse)
+{
+    store(p.normal_impulse, impulse);
+    g.push(p, impulse - old);
+    return impulse;
+}
+
+CAROM_INLINE void solve_normal(Group& g, WidePoint& p, const Target& t)
+{
+    // k give x + (speed + bias - k old) = 0, x >= 0: softness is compliance beside k.
+    const F8 k = load(p.k);
+    const F8 old = load(p.normal_impulse);
+    set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), all(0)));
+}
+
+// Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account and stacks lean.
+// A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
+CAROM_INLINE void solve_normals(Group& g, WideRow& row, const Target& t1, const Target& t2)
+{
+    WidePoint& p = row.points[0];
+    WidePoint& q = row.points[1];
+    const F8 k11 = load(p.k);
+    const F8 k22 = load(q.k);
+    const F8 k12 = load(row.coupling);
+    const F8 old1 = load(p.normal_impulse);
+    const F8 old2 = load(q.normal_impulse);
+    const F8 a11 = k11 * t1.give;
+    const F8 a22 = k22 * t2.give;
+    const F8 b1 = t1.speed + t1.bias - (k11 * old1 + k12 * old2);
+    const F8 b2 = t2.speed + t2.bias - (k12 * old1 + k22 * old2);
+    const F8 inverse_det = all(1) / (a11 * a22 - k12 * k12);
+    const F8 both1 = inverse_det * (k12 * b2 - a22 * b1);
+    const F8 both2 = inverse_det * (k12 * b1 - a11 * b2);
+    const F8 only1 = greatest(-b1 / a11, all(0));
+    const F8 only2 = greatest(-b2 / a22, all(0));
+    const I8 second_sinks = k12 * only1 + b2 < all(0);
+    const I8 both = (both1 >= all(0)) & (both2 >= all(0));
+    set_normal(g, p, old1, select(both, both1, select(second_sinks, all(0), only1)));
+    set_normal(g, q, old2, select(both, both2, select(second_sinks, only2, all(0))));
+}
+
+CAROM_INLINE F8 solve_friction(Group& g, WidePoint& p, F8 friction)
+{
+    const F8 limit = friction * load(p.normal_impulse);
+    const F8 old = load(p.tangent_impulse);
+    const F8 updated = clamp(old - load(p.tangent_mass) * g.tangent_speed(p), -limit, limit);
+    store(p.tangent_impulse, updated);
+    g.rub(p, updated - old);
+    return updated;
+}
+
+template <int points>
+CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftness& s)
+{
+    Group g(row, states);
+    const Displacement d(row, g, states);
+    const Soft soft(row, s);
+    const Target t = target_of(g, row.points[0], d, soft, s);
+    if (points == 2)
+        solve_normals(g, row, t, target_of(g, row.points[1], d, soft, s));
+    else
+        solve_normal(g, row.points[0], t);
+    const F8 friction = load(row.friction);
+    for (int i = 0; i < points; ++i)
+        solve_friction(g, row.points[i], friction);
+    g.finish(row, states);
+}
+
+template <int points>
+CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
+{
+    Group g(row, states);
+    const Displacement d(row, g, states);
+    const Target t = relaxed(g, row.points[0], d, s);
+    if (points == 2)
+        solve_normals(g, row, t, relaxed(g, row.points[1], d, s));
+    else
+        solve_normal(g, row.points[0], t);
+    for (int i = 0; i < points; ++i)
+        store(row.points[i].total_impulse, load(row.points[i].total_impulse) + load(row.points[i].normal_impulse));
+    const F8 friction = load(row.friction);
+    for (int i = 0; i < points; ++i)
+    {
+        const F8 tangent = solve_friction(g, row.points[i], friction);
+        store(row.points[i].total_tangent, load(row.points[i].total_tangent) + tangent);
+    }
+    g.finish(row, states);
+}
+
+void prepare(WideRow* rows, std::int32_t count)
+{
+    for (WideRow* row = rows; row < rows + count; ++row)
+    {
+        const F8 mass = load(row->inverse_mass_a) + load(row->inverse_mass_b);
+        const F8 ia = load(row->inverse_inertia_a);
+        const F8 ib = load(row->inverse_inertia_b);
+        for (int i = 0; i < row->count; ++i)
+        {
+            WidePoint& p = row->points[i];
+            const F8 na = load(p.across_a);
+            const F8 nb = load(p.across_b);
+            const F8 ta = load(p.along_a);
+            const F8 tb = load(p.along_b);
+            const F8 k = mass + na * na * ia + nb * nb * ib;
+            const F8 tangent_k = mass + ta * ta * ia + tb * tb * ib;
+            store(p.k, select(k > all(0), k, all(1)));
+            store(p.tangent_mass, select(tangent_k > all(0), all(1) / tangent_k, all(0)));
+        }
+        const F8 coupling = mass + load(row->points[0].across_a) * load(row->points[1].across_a) * ia +
+                            load(row->points[0].across_b) * load(row->points[1].across_b) * ib;
+        // Points nearly in one place share their load anyhow; solving for both would only divide noise.
+        const F8 limit = 0.9995f * root(load(row->points[0].k) * load(row->points[1].k));
+        store(row->coupling, clamp(coupling, -limit, limit));
+    }
+}
+
+void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
+{
+    for (WideRow* row = rows; row < rows + count; ++row)
+    {
+        Group g(*row, states);
+        for (int i = 0; i < row->count; ++i)
+        {
+            g.push(row->points[i], load(row->points[i].normal_impulse));
+            g.rub(row->points[i], load(row->points[i].tangent_impulse));
+        }
+        g.finish(*row, states);
+    }
+}
+
+void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s)
+{
+    for (WideRow* row = rows; row < rows + count; ++row)
+    {
+        if (row->count == 2)
+            solve_group<2>(*row, states, s);
+        else
+            solve_group<1>(*row, states, s);
+    }
+}
+
+void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s)
+{
+    for (WideRow* row = rows; row < rows + count; ++row)
+    {
+        if (row->count == 2)
+            relax_group<2>(*row, states, s);
+        else
+            relax_group<1>(*row, states, s);
+    }
+}
+
+void note_approach(WideRow* rows, std::int32_t count, const BodyState* states)
+{
+    for (WideRow* row = rows; row < rows + count; ++row)
+    {
+        if (row->may_hit == 0)
+            continue;
+        const Group g(*row, states);
+        for (int i = 0; i < row->count; ++i)
+            store(row->points[i].approach, -g.normal_speed(row->points[i]));
+    }
+}
+
+} // namespace
+
+extern const WideKernels kernels;
+const WideKernels kernels = {CAROM_ISA_NAME, prepare, warm_start, solve, relax, note_approach};
+
+} // namespace carom::internal::CAROM_ISA

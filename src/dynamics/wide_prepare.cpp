@@ -1,0 +1,174 @@
+#include "dynamics/wide_prepare.h"
+
+#include "dynamics/prepare.h"
+#include "dynamics/scene_data.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace carom::internal {
+
+namespace {
+
+struct Lane
+{
+    WideRow& row;
+    int i;
+
+    Lane(Scratch& scratch, std::int32_t lane)
+        : row(scratch.wide_rows[static_cast<std::size_t>(lane / lane_count)]), i(lane % lane_count)
+    {}
+};
+
+bool is_uniform(const StateConstants& c) { return c.inverse_mass.x == c.inverse_mass.y; }
+
+const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
+{
+    return ctx.scratch.constants[static_cast<std::size_t>(state)];
+}
+
+} // namespace
+
+bool fits_lane(const StepContext& ctx, const Contact& contact, const Link& states)
+{
+    return contact.rolling_resistance == 0 && contact.surface_speed == 0 && is_uniform(constants_of(ctx, states.a)) &&
+           is_uniform(constants_of(ctx, states.b));
+}
+
+void add_empty_rows(Scratch& scratch, std::int32_t fixed, std::int32_t groups)
+{
+    WideRow empty{};
+    for (int i = 0; i < lane_count; ++i)
+    {
+        empty.a.v[i] = empty.b.v[i] = fixed;
+        empty.contact.v[i] = none;
+    }
+    for (WidePoint& p : empty.points)
+        std::fill(std::begin(p.k.v), std::end(p.k.v), 1.0f);
+    empty.count = 1;
+    scratch.wide_rows.resize(static_cast<std::size_t>(groups), empty);
+}
+
+void fill_lane(const StepContext& ctx, const Link& states, std::int32_t index)
+{
+    const Lane lane(ctx.scratch, index);
+    WideRow& row = lane.row;
+    const int i = lane.i;
+    const Contact& contact = ctx.state.contacts[states.contact];
+    const Manifold& m = contact.manifold;
+    const StateConstants& a = constants_of(ctx, states.a);
+    const StateConstants& b = constants_of(ctx, states.b);
+    const bool stiff = a.inverse_mass.x == 0 || b.inverse_mass.x == 0;
+    row.a.v[i] = states.a;
+    row.b.v[i] = states.b;
+    row.contact.v[i] = states.contact;
+    row.stiff.v[i] = stiff ? -1 : 0;
+    row.nx.v[i] = m.normal.x;
+    row.ny.v[i] = m.normal.y;
+    row.friction.v[i] = contact.friction;
+    row.inverse_mass_a.v[i] = a.inverse_mass.x;
+    row.inverse_mass_b.v[i] = b.inverse_mass.x;
+    row.inverse_inertia_a.v[i] = a.inverse_inertia;
+    row.inverse_inertia_b.v[i] = b.inverse_inertia;
+    row.count = m.count;
+    for (int k = 0; k < m.count; ++k)
+    {
+        const ManifoldPoint& from = m.points[k];
+        WidePoint& p = row.points[k];
+        p.across_a.v[i] = cross(from.anchor_a, m.normal);
+        p.along_a.v[i] = dot(from.anchor_a, m.normal);
+        p.across_b.v[i] = cross(from.anchor_b, m.normal);
+        p.along_b.v[i] = dot(from.anchor_b, m.normal);
+        p.base.v[i] = from.separation;
+        p.normal_impulse.v[i] = from.normal_impulse;
+        p.tangent_impulse.v[i] = from.tangent_impulse;
+    }
+    if ((contact.flags & contact_flag::loaded) == 0)
+        row.may_hit |= 1u << i;
+    if ((contact.flags & contact_flag::touching) == 0)
+        row.untold |= 1u << i;
+    if (stiff && (contact.flags & contact_flag::round) != 0 && m.count == 1)
+    {
+        const Leaf& leaf = ctx.state.shapes[a.inverse_mass.x != 0 ? contact.shape_a : contact.shape_b].leaf;
+        if (leaf.type == LeafType::Circle)
+            ctx.scratch.cores.push_back({index, 0.5f * leaf.r0});
+    }
+}
+
+ContactRow row_of_lane(const StepContext& ctx, std::int32_t index)
+{
+    const Lane lane(ctx.scratch, index);
+    const int i = lane.i;
+    const std::int32_t contact = lane.row.contact.v[i];
+    ContactRow row = prepare_row(ctx, contact, ctx.state.contacts[contact].manifold, lane.row.a.v[i], lane.row.b.v[i]);
+    for (int k = 0; k < row.count; ++k)
+    {
+        const WidePoint& from = lane.row.points[k];
+        RowPoint& p = row.points[k];
+        p.normal_impulse = from.normal_impulse.v[i];
+        p.tangent_impulse = from.tangent_impulse.v[i];
+        p.total_impulse = from.total_impulse.v[i];
+        p.total_tangent = from.total_tangent.v[i];
+        p.approach = from.approach.v[i];
+    }
+    return row;
+}
+
+void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t index)
+{
+    const Lane lane(scratch, index);
+    for (int k = 0; k < row.count; ++k)
+    {
+        WidePoint& p = lane.row.points[k];
+        p.normal_impulse.v[lane.i] = row.points[k].normal_impulse;
+        p.tangent_impulse.v[lane.i] = row.points[k].tangent_impulse;
+        p.total_impulse.v[lane.i] = row.points[k].total_impulse;
+        p.total_tangent.v[lane.i] = row.points[k].total_tangent;
+    }
+}
+
+void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
+{
+    const Lane lane(ctx.scratch, contact.wide);
+    WideRow& row = lane.row;
+    const int i = lane.i;
+    row.a.v[i] = row.b.v[i] = fixed;
+    row.contact.v[i] = none;
+    row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
+    row.coupling.v[i] = 0;
+    for (WidePoint& p : row.points)
+    {
+        p.k.v[i] = 1;
+        p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
+    }
+    row.may_hit &= ~(1u << i);
+    row.untold &= ~(1u << i);
+    contact.wide = none;
+    contact.flags &= ~contact_flag::loaded;
+    for (ManifoldPoint& p : contact.manifold.points)
+        p.normal_impulse = p.tangent_impulse = 0;
+}
+
+void commit_wide_row(SceneState& state, const WideRow& row)
+{
+    for (int i = 0; i < lane_count; ++i)
+    {
+        if (row.contact.v[i] == none)
+            continue;
+        Contact& contact = state.contacts[row.contact.v[i]];
+        contact.flags &= ~contact_flag::loaded;
+        for (int k = 0; k < row.count; ++k)
+        {
+            const WidePoint& p = row.points[k];
+            ManifoldPoint& to = contact.manifold.points[k];
+            to.normal_impulse = p.normal_impulse.v[i];
+            to.tangent_impulse = p.tangent_impulse.v[i];
+            to.total_impulse = p.total_impulse.v[i];
+            to.total_tangent = p.total_tangent.v[i];
+            if (to.normal_impulse > 0)
+                contact.flags |= contact_flag::loaded;
+        }
+    }
+}
+
+} // namespace carom::internal
