@@ -4,6 +4,8 @@
 /// Small value types of the plane. SI units, angles in radians, counter-clockwise positive, y up.
 /// Every function here gives the same bits on every platform: none of them calls the C library's sin or cos.
 
+#include <cmath>
+
 namespace carom {
 
 inline constexpr float pi = 3.14159265358979f;
@@ -32,7 +34,13 @@ struct Vec2
 [[nodiscard]] constexpr Vec2 cross(float w, Vec2 r) { return {-w * r.y, w * r.x}; }
 /// The vector turned by +90 degrees.
 [[nodiscard]] constexpr Vec2 perp(Vec2 a) { return {-a.y, a.x}; }
-[[nodiscard]] float length(Vec2 a);
+/// In doubles, where the squares of floats neither vanish nor overflow.
+[[nodiscard]] inline float length(Vec2 a)
+{
+    const double x = a.x;
+    const double y = a.y;
+    return static_cast<float>(std::sqrt(x * x + y * y));
+}
 /// The vector at length one; the zero vector stays zero.
 [[nodiscard]] Vec2 normalize(Vec2 a);
 

@@ -67,12 +67,16 @@ void BoxTree::build(std::span<const TreeLeaf> leaves)
     }
     radix_sort(keys);
     m_items.resize(leaves.size());
-    m_levels.resize(1);
-    m_levels[0].resize(leaves.size());
-    for (std::size_t i = 0; i < keys.size(); ++i)
+    if (m_levels.empty())
+        m_levels.emplace_back();
+    std::vector<BoxBlock>& blocks = m_levels[0];
+    blocks.resize((leaves.size() + arity - 1) / arity);
+    for (std::size_t i = 0; i < blocks.size() * arity; ++i)
     {
-        m_items[i] = leaves[keys[i].index].item;
-        m_levels[0][i] = leaves[keys[i].index].box;
+        const bool is_leaf = i < keys.size();
+        if (is_leaf)
+            m_items[i] = leaves[keys[i].index].item;
+        blocks[i / arity].set(static_cast<int>(i % arity), is_leaf ? leaves[keys[i].index].box : FloatBox{});
     }
     m_live = static_cast<int>(leaves.size());
     build_levels();
@@ -80,33 +84,38 @@ void BoxTree::build(std::span<const TreeLeaf> leaves)
 
 void BoxTree::build_levels()
 {
-    while (m_levels.back().size() > 1)
+    std::size_t level = 0;
+    while (m_levels[level].size() > 1)
     {
-        const std::vector<FloatBox>& below = m_levels.back();
-        std::vector<FloatBox> level((below.size() + arity - 1) / arity);
-        for (std::size_t i = 0; i < below.size(); ++i)
-            level[i / arity] = unite(level[i / arity], below[i]);
-        m_levels.push_back(std::move(level));
+        if (++level == m_levels.size())
+            m_levels.emplace_back();
+        const std::vector<BoxBlock>& below = m_levels[level - 1];
+        std::vector<BoxBlock>& blocks = m_levels[level];
+        blocks.resize((below.size() + arity - 1) / arity);
+        for (std::size_t i = 0; i < blocks.size() * arity; ++i)
+            blocks[i / arity].set(static_cast<int>(i % arity), i < below.size() ? below[i].bounds() : FloatBox{});
     }
+    m_levels.resize(level + 1);
     CAROM_ASSERT(m_levels.size() <= max_levels, "the query stack holds every level");
 }
 
 void BoxTree::update(int leaf, const FloatBox& box)
 {
-    m_levels[0][static_cast<std::size_t>(leaf)] = box;
-    auto i = static_cast<std::size_t>(leaf);
+    m_levels[0][static_cast<std::size_t>(leaf / arity)].set(leaf % arity, box);
     for (std::size_t level = 1; level < m_levels.size(); ++level)
     {
-        i /= arity;
-        if (contains(m_levels[level][i], box))
+        leaf /= arity;
+        BoxBlock& above = m_levels[level][static_cast<std::size_t>(leaf / arity)];
+        const FloatBox old = above.box(leaf % arity);
+        if (contains(old, box))
             return;
-        m_levels[level][i] = unite(m_levels[level][i], box);
+        above.set(leaf % arity, unite(old, box));
     }
 }
 
 void BoxTree::remove(int leaf)
 {
-    m_levels[0][static_cast<std::size_t>(leaf)] = {};
+    m_levels[0][static_cast<std::size_t>(leaf / arity)].set(leaf % arity, {});
     --m_live;
 }
 

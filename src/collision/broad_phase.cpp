@@ -12,7 +12,7 @@ void BroadPhase::insert(int item, const FloatBox& box, Layer layer, bool unbound
         m_paths.resize(static_cast<std::size_t>(item) + 1);
     }
     Place& place = m_places[static_cast<std::size_t>(item)];
-    place = {box, layer, unbounded, -1, -1};
+    place = {box, {}, layer, unbounded, -1, -1};
     stand_still(item);
     if (unbounded)
         m_unbounded.insert(std::lower_bound(m_unbounded.begin(), m_unbounded.end(), item), item);
@@ -44,6 +44,8 @@ void BroadPhase::move_to(int item, Layer layer)
     }
     place.layer = layer;
     stand_still(item);
+    if (layer == Layer::Moving)
+        renew(item);
 }
 
 void BroadPhase::stand_still(int item)
@@ -56,6 +58,7 @@ void BroadPhase::set_box(int item, const FloatBox& box)
 {
     widen(item, box);
     stand_still(item);
+    renew(item);
 }
 
 void BroadPhase::widen(int item, const FloatBox& box)
@@ -66,7 +69,7 @@ void BroadPhase::widen(int item, const FloatBox& box)
         m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(place.tree)].update(place.index, box);
 }
 
-void BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
+bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
 {
     Forest& forest = m_forests[0];
     std::size_t total = forest.recent.size();
@@ -83,6 +86,7 @@ void BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
     }
     if (many)
         rebuild(forest, 0);
+    return many;
 }
 
 void BroadPhase::add_recent(int item, Layer layer)

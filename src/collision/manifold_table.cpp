@@ -34,7 +34,7 @@ constexpr CollideFunction table[leaf_type_count * leaf_type_count] = {
 
     mirrored<collide_half_space_hull>,
     collide_surface_circle,
-    collide_hull_hull,
+    collide_polygons,
     collide_hull_hull,
     collide_hull_hull,
     mirrored<collide_arc_hull>,

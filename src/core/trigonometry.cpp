@@ -112,14 +112,6 @@ double exponential(double x)
 
 } // namespace internal
 
-// In double: squares of floats neither vanish nor overflow there.
-float length(Vec2 a)
-{
-    const double x = a.x;
-    const double y = a.y;
-    return static_cast<float>(std::sqrt(x * x + y * y));
-}
-
 Vec2 normalize(Vec2 a)
 {
     // Scaled first, so that neither tiny nor huge vectors lose their direction.

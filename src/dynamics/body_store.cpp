@@ -125,7 +125,7 @@ void add_to_broad_phase(SceneData& scene, int shape)
     const ShapeRecord& record = state.shapes[shape];
     const Layer layer = state.bodies[record.body].awake_index != none ? Layer::Moving : Layer::Resting;
     state.broad_phase.insert(shape, fat_box(scene, shape), layer, record.leaf.type == LeafType::HalfSpace);
-    state.fresh_shapes.push_back(shape);
+    look_again(state, shape);
 }
 
 void refresh_boxes(SceneData& scene, int body)
@@ -137,7 +137,7 @@ void refresh_boxes(SceneData& scene, int body)
                       if (!state.broad_phase.has(shape))
                           return;
                       state.broad_phase.set_box(shape, fat_box(scene, shape));
-                      state.fresh_shapes.push_back(shape);
+                      look_again(state, shape);
                   });
 }
 

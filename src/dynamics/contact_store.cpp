@@ -236,8 +236,6 @@ void destroy_contact(SceneData& scene, int index, Events& events, float time)
     const Contact& contact = state.contacts[index];
     if (contact.pair != none)
         state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = none;
-    else
-        state.pairs.erase(pair_key(contact.shape_a, contact.shape_b));
     state.contacts.destroy(index);
 }
 

@@ -152,26 +152,21 @@ bool may_hit(const StepContext& ctx, const Contact& contact)
     return moves && contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
 }
 
-void begin_or_wake(StepContext& ctx, int index)
+void wake_both(StepContext& ctx, int index)
 {
-    Contact& contact = ctx.state.contacts[index];
-    contact.flags &= ~contact_flag::fresh;
-    const bool touching = (contact.flags & contact_flag::touching) != 0;
-    if (!touching && should_touch(ctx, contact))
-    {
-        begin_touch(ctx, index);
-    }
-    else if (may_hit(ctx, contact))
-    {
-        wake_body(ctx.scene, contact.body_a);
-        wake_body(ctx.scene, contact.body_b);
-    }
+    const Contact& contact = ctx.state.contacts[index];
+    wake_body(ctx.scene, contact.body_a);
+    wake_body(ctx.scene, contact.body_b);
 }
 
-void end_if_apart(StepContext& ctx, int index)
+News news_of(const StepContext& ctx, const Contact& contact)
 {
-    if (!should_touch(ctx, ctx.state.contacts[index]))
-        end_touch(ctx.scene, index, ctx.scene.events, 0);
+    const bool touching = (contact.flags & contact_flag::touching) != 0;
+    const bool should = should_touch(ctx, contact);
+    if (should != touching)
+        return touching ? News::Ends : News::Begins;
+    const bool one_sleeps = !is_awake(ctx.state, contact.body_a) || !is_awake(ctx.state, contact.body_b);
+    return !touching && one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
 
 } // namespace
@@ -179,16 +174,30 @@ void end_if_apart(StepContext& ctx, int index)
 void update_contacts(StepContext& ctx)
 {
     SceneState& state = ctx.state;
+    std::vector<ContactNews>& news = ctx.scratch.news;
+    news.clear();
     for (const std::int32_t index : state.awake_contacts)
-        update_manifold(ctx, state.contacts[index]);
-    // Waking changes the list: go through a copy. Woken contacts keep the manifold they slept with; it is still true.
-    // Begins come first, so that a chain left over one piece and touched over the next is never let go.
-    std::vector<std::int32_t>& order = ctx.scratch.order;
-    order.assign(state.awake_contacts.begin(), state.awake_contacts.end());
-    for (const std::int32_t index : order)
-        begin_or_wake(ctx, index);
-    for (const std::int32_t index : order)
-        end_if_apart(ctx, index);
+    {
+        Contact& contact = state.contacts[index];
+        update_manifold(ctx, contact);
+        contact.flags &= ~contact_flag::fresh;
+        if (const News what = news_of(ctx, contact); what != News::Nothing)
+            news.push_back({index, what});
+    }
+    // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
+    // touched over the next is never let go.
+    for (const ContactNews& n : news)
+    {
+        if (n.what == News::Begins)
+            begin_touch(ctx, n.contact);
+        else if (n.what == News::MayHit)
+            wake_both(ctx, n.contact);
+    }
+    for (const ContactNews& n : news)
+    {
+        if (n.what == News::Ends)
+            end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
+    }
     ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
     ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
 }

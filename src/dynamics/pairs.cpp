@@ -1,6 +1,7 @@
 // Stage 2, pairs: boxes that moved or are new ask both layers what they overlap. New pairs are sorted, so that contacts are made in an order
 // that depends on nothing but the pairs. Of the pairs those get a contact that may meet in this step: what falls side by side does not.
 
+#include "core/pair_set.h"
 #include "dynamics/body_path.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/half_space_box.h"
@@ -15,11 +16,29 @@ namespace {
 
 void offer_pair(StepContext& ctx, int a, int b)
 {
-    const std::uint64_t key = pair_key(a, b);
-    if (a != b && !ctx.state.pairs.contains(key) && may_collide(ctx.state, a, b))
-        ctx.scratch.new_pairs.push_back(key);
+    if (a != b && may_collide(ctx.state, a, b))
+        ctx.scratch.new_pairs.push_back(pair_key(a, b));
 }
 
+// What overlapped when pairs were last looked for is a pair already; of two that have changed, the first finds the second.
+void offer_changed(StepContext& ctx, int shape, int other)
+{
+    const BroadPhase& boxes = ctx.state.broad_phase;
+    const bool known = overlaps(boxes.box_before(shape), boxes.box_before(other));
+    if (!known && (shape < other || !boxes.has_changed(other)))
+        offer_pair(ctx, shape, other);
+}
+
+void look_at_half_spaces(StepContext& ctx, int shape, const FloatBox& box)
+{
+    for (const std::int32_t half_space : ctx.state.broad_phase.unbounded())
+    {
+        if (reaches_half_space(ctx.state, half_space, box, 0))
+            offer_pair(ctx, shape, half_space);
+    }
+}
+
+// All pairs of a shape, known or not.
 void look_around(StepContext& ctx, int shape, const FloatBox& box)
 {
     const SceneState& state = ctx.state;
@@ -38,11 +57,104 @@ void look_around(StepContext& ctx, int shape, const FloatBox& box)
     }
     broad_phase.query(Layer::Moving, box, offer);
     broad_phase.query(Layer::Resting, box, offer);
-    for (const std::int32_t half_space : broad_phase.unbounded())
+    look_at_half_spaces(ctx, shape, box);
+}
+
+void look_around_moved(StepContext& ctx)
+{
+    const BroadPhase& boxes = ctx.state.broad_phase;
+    const auto offer = [&](int shape, int other) { offer_changed(ctx, shape, other); };
+    if (ctx.scratch.sorted_anew)
     {
-        if (reaches_half_space(state, half_space, box, 0))
-            offer_pair(ctx, shape, half_space);
+        boxes.for_each_changed_overlap(offer);
     }
+    else
+    {
+        for (const std::int32_t shape : ctx.scratch.moved_items)
+        {
+            for (const Layer layer : {Layer::Moving, Layer::Resting})
+                boxes.query(layer, boxes.box(shape),
+                            [&](int other)
+                            {
+                                offer(shape, other);
+                                return true;
+                            });
+        }
+    }
+    if (boxes.unbounded().empty())
+        return;
+    for (const std::int32_t shape : ctx.scratch.moved_items)
+    {
+        for (const std::int32_t half_space : boxes.unbounded())
+        {
+            if (!reaches_half_space(ctx.state, half_space, boxes.box_before(shape), 0) &&
+                reaches_half_space(ctx.state, half_space, boxes.box(shape), 0))
+                offer_pair(ctx, shape, half_space);
+        }
+    }
+}
+
+// Along both bodies' lists at once: one may be the ground's.
+bool has_contact(const SceneState& state, int shape_a, int shape_b)
+{
+    int edge_a = state.bodies[state.shapes[shape_a].body].first_contact;
+    int edge_b = state.bodies[state.shapes[shape_b].body].first_contact;
+    const auto is_it = [&](int edge)
+    {
+        const Contact& c = state.contacts[edge >> 1];
+        return (c.shape_a == shape_a && c.shape_b == shape_b) || (c.shape_a == shape_b && c.shape_b == shape_a);
+    };
+    while (edge_a != none && edge_b != none)
+    {
+        if (is_it(edge_a) || is_it(edge_b))
+            return true;
+        edge_a = state.contacts[edge_a >> 1].next[edge_a & 1];
+        edge_b = state.contacts[edge_b >> 1].next[edge_b & 1];
+    }
+    return false;
+}
+
+// Their pairs are found again, but for those that have a contact.
+void forget_pairs_of_fresh(SceneState& state)
+{
+    const auto is_fresh = [&](int shape)
+    { return !state.broad_phase.has(shape) || state.broad_phase.box_before(shape).lx > state.broad_phase.box_before(shape).ux; };
+    std::size_t kept = 0;
+    for (const BoxPair& pair : state.box_pairs)
+    {
+        if (pair.contact == none && (is_fresh(pair.a) || is_fresh(pair.b)))
+            continue;
+        if (pair.contact != none)
+            state.contacts[pair.contact].pair = static_cast<std::int32_t>(kept);
+        state.box_pairs[kept++] = pair;
+    }
+    state.box_pairs.resize(kept);
+}
+
+void look_around_fresh(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    if (state.fresh_shapes.empty())
+        return;
+    forget_pairs_of_fresh(state);
+    for (const std::int32_t shape : state.fresh_shapes)
+    {
+        if (state.shapes.is_live(shape) && state.broad_phase.has(shape))
+            look_around(ctx, shape, state.broad_phase.box(shape));
+    }
+}
+
+void settle(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    for (const std::int32_t shape : ctx.scratch.moved_items)
+        state.broad_phase.settle(shape);
+    for (const std::int32_t shape : state.fresh_shapes)
+    {
+        if (state.broad_phase.has(shape))
+            state.broad_phase.settle(shape);
+    }
+    state.fresh_shapes.clear();
 }
 
 void add_pairs(StepContext& ctx)
@@ -52,8 +164,10 @@ void add_pairs(StepContext& ctx)
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     for (const std::uint64_t key : pairs)
     {
-        ctx.state.pairs.insert(key);
-        ctx.state.box_pairs.push_back({static_cast<std::int32_t>(key & 0xffffffffu), static_cast<std::int32_t>(key >> 32), none});
+        const auto a = static_cast<std::int32_t>(key & 0xffffffffu);
+        const auto b = static_cast<std::int32_t>(key >> 32);
+        if (!has_contact(ctx.state, a, b))
+            ctx.state.box_pairs.push_back({a, b, none});
     }
 }
 
@@ -74,6 +188,14 @@ bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
            boxes_meet(state, pair.a, pair.b);
 }
 
+// Filters may have changed since the pair was found, and another look may have found it again.
+void give_contact(StepContext& ctx, std::size_t index)
+{
+    const BoxPair pair = ctx.state.box_pairs[index];
+    if (pair.contact == none && may_collide(ctx.state, pair.a, pair.b) && !has_contact(ctx.state, pair.a, pair.b))
+        create_contact(ctx.scene, pair.a, pair.b, static_cast<std::int32_t>(index));
+}
+
 // Contacts of pairs that may meet; those that can't any more lose theirs, unless it must still tell of its end. False: no pair any more.
 bool follow_pair(StepContext& ctx, std::size_t index)
 {
@@ -84,14 +206,13 @@ bool follow_pair(StepContext& ctx, std::size_t index)
     if (!state.broad_phase.path(pair.a).moves && !state.broad_phase.path(pair.b).moves)
     { // triggers see what rests as well, once
         const bool trigger = state.shapes[pair.a].trigger || state.shapes[pair.b].trigger;
-        if (trigger && pair.contact == none && boxes_meet(state, pair.a, pair.b) && may_collide(state, pair.a, pair.b))
-            create_contact(ctx.scene, pair.a, pair.b, static_cast<std::int32_t>(index));
+        if (trigger && boxes_meet(state, pair.a, pair.b))
+            give_contact(ctx, index);
         return false;
     }
     if (may_meet_in_step(ctx, pair))
     {
-        if (pair.contact == none && may_collide(state, pair.a, pair.b))
-            create_contact(ctx.scene, pair.a, pair.b, static_cast<std::int32_t>(index));
+        give_contact(ctx, index);
         return true;
     }
     if (pair.contact != none)
@@ -112,9 +233,7 @@ void follow_pairs(StepContext& ctx)
     {
         if (!follow_pair(ctx, i))
         {
-            if (pairs[i].contact == none)
-                state.pairs.erase(pair_key(pairs[i].a, pairs[i].b));
-            else
+            if (pairs[i].contact != none)
                 state.contacts[pairs[i].contact].pair = none;
             continue;
         }
@@ -133,17 +252,10 @@ void follow_pairs(StepContext& ctx)
 
 void find_pairs(StepContext& ctx)
 {
-    Scratch& scratch = ctx.scratch;
-    SceneState& state = ctx.state;
-    scratch.new_pairs.clear();
-    for (const std::int32_t shape : scratch.moved_items)
-        look_around(ctx, shape, state.broad_phase.box(shape));
-    for (const std::int32_t shape : state.fresh_shapes)
-    {
-        if (state.shapes.is_live(shape) && state.broad_phase.has(shape))
-            look_around(ctx, shape, state.broad_phase.box(shape));
-    }
-    state.fresh_shapes.clear();
+    ctx.scratch.new_pairs.clear();
+    look_around_fresh(ctx);
+    look_around_moved(ctx);
+    settle(ctx);
     add_pairs(ctx);
     follow_pairs(ctx);
 }

@@ -66,7 +66,8 @@ void sweep_body(StepContext& ctx, int body, float& motion)
                       if (contains(fat, needed) && !too_wide(fat, needed, margin))
                           return;
                       ctx.scratch.moved_items.push_back(shape);
-                      ctx.scratch.moved_boxes.push_back(grow(needed, margin));
+                      // What moves farther than its margin gets a new box in the next step anyhow.
+                      ctx.scratch.moved_boxes.push_back(grow(needed, motion < margin ? margin : 0));
                   });
 }
 
@@ -98,8 +99,9 @@ void sweep_paths(StepContext& ctx)
     scratch.motion.resize(ctx.state.awake_bodies.size());
     for (std::size_t i = 0; i < ctx.state.awake_bodies.size(); ++i)
         sweep_body(ctx, ctx.state.awake_bodies[i], scratch.motion[i]);
+    scratch.sorted_anew = false;
     if (!scratch.moved_items.empty())
-        ctx.state.broad_phase.update_moving(scratch.moved_items, scratch.moved_boxes);
+        scratch.sorted_anew = ctx.state.broad_phase.update_moving(scratch.moved_items, scratch.moved_boxes);
 }
 
 } // namespace carom::internal

@@ -21,7 +21,7 @@ void enter_awake(SceneData& scene, int body)
                   [&](int shape)
                   {
                       state.broad_phase.move_to(shape, Layer::Moving);
-                      state.fresh_shapes.push_back(shape); // pairs without a contact were let go
+                      look_again(state, shape); // pairs without a contact were let go
                   });
     for_each_contact(state, body,
                      [&](int contact)

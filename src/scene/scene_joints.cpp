@@ -278,7 +278,7 @@ void destroy_joint(SceneData& data, int index)
     wake_joined(data, joint);
     // The two may touch from now on.
     if (!joint.collide_connected && joint.body_a != none && joint.body_b != none)
-        for_each_leaf(state, joint.body_b, [&](int shape) { state.fresh_shapes.push_back(shape); });
+        for_each_leaf(state, joint.body_b, [&](int shape) { look_again(state, shape); });
 }
 
 } // namespace internal

@@ -367,7 +367,7 @@ void Shape::set_def(const ShapeDef& def)
                           if (meets_others)
                           {
                               destroy_contacts_of_shape(*m_data, leaf);
-                              state.fresh_shapes.push_back(leaf);
+                              look_again(state, leaf);
                           }
                       });
     for_each_contact(state, old.body, [&](int contact) { mix_materials(*m_data, state.contacts[contact]); });

@@ -1,12 +1,15 @@
 #pragma once
 
 // A static tree of boxes: leaves in Morton order, each node the union of eight children in sequence. No pointers: level k of the tree
-// is an array an eighth as long as level k - 1, and the children of node i are 8 i ... 8 i + 7. Building it is a radix sort and one pass;
-// boxes may shrink, grow and vanish afterwards without moving.
+// is an array an eighth as long as level k - 1, and the children of node i are 8 i ... 8 i + 7. Siblings lie side by side, a coordinate
+// at a time, so that all eight are tested at once. Building it is a radix sort and one pass; boxes may shrink, grow and vanish
+// afterwards without moving.
 
 #include "geometry/bounds.h"
 
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -18,10 +21,63 @@ struct TreeLeaf
     std::int32_t item;
 };
 
+/// Eight boxes; empty ones overlap nothing.
+struct alignas(32) BoxBlock
+{
+    static constexpr int size = 8;
+
+    float lx[size];
+    float ly[size];
+    float ux[size];
+    float uy[size];
+
+    [[nodiscard]] FloatBox box(int i) const { return {lx[i], ly[i], ux[i], uy[i]}; }
+    void set(int i, const FloatBox& b)
+    {
+        lx[i] = b.lx;
+        ly[i] = b.ly;
+        ux[i] = b.ux;
+        uy[i] = b.uy;
+    }
+    [[nodiscard]] FloatBox bounds() const
+    {
+        FloatBox all;
+        for (int i = 0; i < size; ++i)
+            all = unite(all, box(i));
+        return all;
+    }
+
+    /// A bit for each box that overlaps.
+    [[nodiscard]] unsigned overlapping(const FloatBox& b) const { return overlapping_half(b, 0) | overlapping_half(b, 4) << 4; }
+
+private:
+    using F4 = float __attribute__((vector_size(16)));
+    using I4 = std::int32_t __attribute__((vector_size(16)));
+
+    static F4 load(const float* p)
+    {
+        F4 v;
+        std::memcpy(&v, p, sizeof v);
+        return v;
+    }
+
+    [[nodiscard]] unsigned overlapping_half(const FloatBox& b, int i) const
+    {
+        const I4 hit = (load(lx + i) <= b.ux) & (load(ux + i) >= b.lx) & (load(ly + i) <= b.uy) & (load(uy + i) >= b.ly);
+#if defined(__SSE__)
+        F4 mask;
+        std::memcpy(&mask, &hit, sizeof mask);
+        return static_cast<unsigned>(__builtin_ia32_movmskps(mask));
+#else
+        return (hit[0] & 1u) | (hit[1] & 2u) | (hit[2] & 4u) | (hit[3] & 8u);
+#endif
+    }
+};
+
 class BoxTree
 {
 public:
-    static constexpr int arity = 8;
+    static constexpr int arity = BoxBlock::size;
     static constexpr int max_levels = 12; // 8^11 leaves
 
     void build(std::span<const TreeLeaf> leaves);
@@ -33,58 +89,90 @@ public:
     [[nodiscard]] int leaf_count() const { return static_cast<int>(m_items.size()); }
     [[nodiscard]] int live_count() const { return m_live; }
     [[nodiscard]] std::int32_t item(int leaf) const { return m_items[static_cast<std::size_t>(leaf)]; }
-    [[nodiscard]] const FloatBox& box(int leaf) const { return m_levels[0][static_cast<std::size_t>(leaf)]; }
-    [[nodiscard]] FloatBox bounds() const { return m_items.empty() ? FloatBox{} : m_levels.back()[0]; }
+    [[nodiscard]] FloatBox box(int leaf) const { return block(leaf / arity).box(leaf % arity); }
+    [[nodiscard]] FloatBox bounds() const { return m_items.empty() ? FloatBox{} : m_levels.back()[0].bounds(); }
+
+    /// Leaves lie in blocks of eight neighbours: leaf i is box i % 8 of block i / 8.
+    [[nodiscard]] int block_count() const { return m_items.empty() ? 0 : static_cast<int>(m_levels[0].size()); }
+    [[nodiscard]] const BoxBlock& block(int i) const { return m_levels[0][static_cast<std::size_t>(i)]; }
+
+    /// Calls visit(block) for every block of leaves that may have a box which overlaps.
+    template <class Visit>
+    void query_blocks(const FloatBox& box, Visit&& visit) const
+    {
+        walk([&](const BoxBlock& k) { return k.overlapping(box); }, 1,
+             [&](std::int32_t node)
+             {
+                 visit(node);
+                 return true;
+             });
+    }
 
     /// Calls visit(item) for every leaf whose box overlaps; visit returns false to stop. False if stopped.
     template <class Visit>
     bool query(const FloatBox& box, Visit&& visit) const
     {
-        return descend([&](const FloatBox& node) { return overlaps(node, box); }, visit);
+        return walk([&](const BoxBlock& k) { return k.overlapping(box); }, 0,
+                    [&](std::int32_t leaf) { return visit(m_items[static_cast<std::size_t>(leaf)]); });
     }
 
-    /// The same for any test of boxes that holds for a node whenever it holds for a child.
+    /// The same for any test of boxes that holds for a node whenever it holds for a child, and never for an empty box.
     template <class Test, class Visit>
     bool descend(Test&& test, Visit&& visit) const
+    {
+        const auto test_all = [&](const BoxBlock& k)
+        {
+            unsigned hits = 0;
+            for (int i = 0; i < arity; ++i)
+                hits |= k.lx[i] <= k.ux[i] && test(k.box(i)) ? 1u << i : 0u;
+            return hits;
+        };
+        return walk(test_all, 0, [&](std::int32_t leaf) { return visit(m_items[static_cast<std::size_t>(leaf)]); });
+    }
+
+private:
+    // Down to the nodes of a level: 0 the leaves, 1 the blocks of leaves.
+    template <class Test, class Visit>
+    bool walk(const Test& test, int last_level, const Visit& visit) const
     {
         if (m_items.empty())
             return true;
         struct Entry
         {
-            std::int32_t level;
-            std::int32_t node;
+            std::int32_t level; ///< of the nodes in the block
+            std::int32_t block;
         };
         Entry stack[arity * max_levels];
         int depth = 0;
-        const auto root_level = static_cast<std::int32_t>(m_levels.size()) - 1;
-        if (test(m_levels.back()[0]))
-            stack[depth++] = {root_level, 0};
+        const auto top = static_cast<std::int32_t>(m_levels.size()) - 1;
+        if (top < last_level)
+            return visit(0);
+        stack[depth++] = {top, 0};
         while (depth > 0)
         {
             const Entry e = stack[--depth];
-            if (e.level == 0)
+            unsigned hits = test(m_levels[static_cast<std::size_t>(e.level)][static_cast<std::size_t>(e.block)]);
+            for (; hits != 0; hits &= hits - 1)
             {
-                if (!visit(m_items[static_cast<std::size_t>(e.node)]))
-                    return false;
-                continue;
-            }
-            const std::vector<FloatBox>& below = m_levels[static_cast<std::size_t>(e.level) - 1];
-            const std::int32_t first = e.node * arity;
-            const std::int32_t last = std::min(first + arity, static_cast<std::int32_t>(below.size()));
-            for (std::int32_t i = last; i-- > first;)
-            {
-                if (test(below[static_cast<std::size_t>(i)]))
-                    stack[depth++] = {e.level - 1, i};
+                const std::int32_t node = e.block * arity + std::countr_zero(hits);
+                if (e.level == last_level)
+                {
+                    if (!visit(node))
+                        return false;
+                }
+                else
+                {
+                    stack[depth++] = {e.level - 1, node};
+                }
             }
         }
         return true;
     }
 
-private:
     void build_levels();
 
     std::vector<std::int32_t> m_items;
-    std::vector<std::vector<FloatBox>> m_levels; ///< [0]: leaves
+    std::vector<std::vector<BoxBlock>> m_levels; ///< [0]: leaves
     int m_live = 0;
 };
 

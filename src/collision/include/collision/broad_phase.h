@@ -60,7 +60,8 @@ public:
     void set_box(int item, const FloatBox& box);
 
     /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: the layer is sorted anew.
-    void update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
+    /// True: sorted anew.
+    bool update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
 
     /// Of this step; between steps, and for what rests, the box stands still.
     void set_path(int item, const BoxPath& path) { m_paths[static_cast<std::size_t>(item)] = path; }
@@ -72,11 +73,61 @@ public:
         return item < static_cast<int>(m_places.size()) && m_places[static_cast<std::size_t>(item)].layer != Layer::None;
     }
 
+    /// Its box when pairs were last looked for; empty for what is new, or must look for all its pairs again.
+    [[nodiscard]] const FloatBox& box_before(int item) const { return m_places[static_cast<std::size_t>(item)].before; }
+    [[nodiscard]] bool has_changed(int item) const
+    {
+        const Place& p = m_places[static_cast<std::size_t>(item)];
+        return p.box.lx != p.before.lx || p.box.ly != p.before.ly || p.box.ux != p.before.ux || p.box.uy != p.before.uy;
+    }
+    void renew(int item) { m_places[static_cast<std::size_t>(item)].before = {}; }
+    /// Pairs have been looked for.
+    void settle(int item)
+    {
+        Place& p = m_places[static_cast<std::size_t>(item)];
+        p.before = p.box;
+    }
+
     /// Calls visit(item) for every box that overlaps; false from visit stops.
     template <class Visit>
     bool query(Layer layer, const FloatBox& box, Visit&& visit) const
     {
-        return descend(layer, [&](const FloatBox& node) { return overlaps(node, box); }, visit);
+        const Forest& forest = m_forests[static_cast<std::size_t>(layer)];
+        for (const std::int32_t item : forest.recent)
+        {
+            if (overlaps(this->box(item), box) && !visit(item))
+                return false;
+        }
+        for (const BoxTree& tree : forest.trees)
+        {
+            if (!tree.query(box, visit))
+                return false;
+        }
+        return true;
+    }
+
+    /// Calls visit(item, other) where the box of an item of the moving layer that has changed overlaps any other: eight neighbours go
+    /// through the trees together.
+    template <class Visit>
+    void for_each_changed_overlap(const Visit& visit) const
+    {
+        for (const BoxTree& tree : m_forests[0].trees)
+        {
+            for (int k = 0; k < tree.block_count(); ++k)
+                visit_block(tree, k, visit);
+        }
+        for (const std::int32_t item : m_forests[0].recent)
+        {
+            if (!has_changed(item))
+                continue;
+            for (const Layer layer : {Layer::Moving, Layer::Resting})
+                query(layer, box(item),
+                      [&](int other)
+                      {
+                          visit(item, other);
+                          return true;
+                      });
+        }
     }
 
     template <class Test, class Visit>
@@ -104,6 +155,7 @@ private:
     struct Place
     {
         FloatBox box{};
+        FloatBox before{};
         Layer layer = Layer::None;
         bool unbounded = false;
         std::int32_t tree = -1;  ///< -1: in the recent list
@@ -115,6 +167,51 @@ private:
         std::vector<BoxTree> trees;
         std::vector<std::int32_t> recent;
     };
+
+    // The changed ones of a block against all blocks that they may overlap.
+    template <class Visit>
+    void visit_block(const BoxTree& tree, int k, const Visit& visit) const
+    {
+        int lanes[BoxTree::arity];
+        int count = 0;
+        FloatBox around;
+        for (int i = 0; i < BoxTree::arity && k * BoxTree::arity + i < tree.leaf_count(); ++i)
+        {
+            const FloatBox b = tree.block(k).box(i);
+            if (b.lx > b.ux || !has_changed(tree.item(k * BoxTree::arity + i)))
+                continue;
+            lanes[count++] = i;
+            around = unite(around, b);
+        }
+        if (count == 0)
+            return;
+        for (const Forest& forest : m_forests)
+        {
+            for (const BoxTree& others : forest.trees)
+            {
+                others.query_blocks(around,
+                                    [&](int other_block)
+                                    {
+                                        const BoxBlock& boxes = others.block(other_block);
+                                        for (int i = 0; i < count; ++i)
+                                        {
+                                            const int item = tree.item(k * BoxTree::arity + lanes[i]);
+                                            unsigned hits = boxes.overlapping(tree.block(k).box(lanes[i]));
+                                            for (; hits != 0; hits &= hits - 1)
+                                                visit(item, others.item(other_block * BoxTree::arity + std::countr_zero(hits)));
+                                        }
+                                    });
+            }
+            for (const std::int32_t other : forest.recent)
+            {
+                for (int i = 0; i < count; ++i)
+                {
+                    if (overlaps(tree.block(k).box(lanes[i]), box(other)))
+                        visit(tree.item(k * BoxTree::arity + lanes[i]), other);
+                }
+            }
+        }
+    }
 
     void stand_still(int item);
     void widen(int item, const FloatBox& box);

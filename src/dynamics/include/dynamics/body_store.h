@@ -37,6 +37,14 @@ void include_mass(SceneState& state, int body, int shape);
 /// Inverse masses alone, after a change of type or locks.
 void update_inverse_mass(SceneState& state, int body);
 
+/// It looks for all its pairs in the next step.
+inline void look_again(SceneState& state, int shape)
+{
+    state.fresh_shapes.push_back(shape);
+    if (state.broad_phase.has(shape))
+        state.broad_phase.renew(shape);
+}
+
 /// The fat box of a leaf at its body's present pose.
 [[nodiscard]] FloatBox fat_box(const SceneData& scene, int shape);
 

@@ -227,7 +227,6 @@ struct SceneState
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
     std::vector<BoxPair> box_pairs;
-    PairSet pairs;   ///< shape pairs that are in box_pairs or have a contact
     PairSet ignored; ///< body pairs that never touch
     BroadPhase broad_phase;
     std::vector<std::int32_t> awake_bodies;

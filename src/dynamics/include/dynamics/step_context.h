@@ -46,6 +46,20 @@ struct Unit
     bool traced = false;     ///< paths of some of its bodies are recorded
 };
 
+/// What the update of a contact found that others must hear of.
+enum class News : std::uint8_t
+{
+    Nothing,
+    Begins,
+    Ends,
+    MayHit ///< something fast may hit a sleeper
+};
+struct ContactNews
+{
+    std::int32_t contact;
+    News what;
+};
+
 /// Contact of a dynamic body, or of two, that takes part in a step.
 struct Link
 {
@@ -140,10 +154,12 @@ struct Scratch
     std::vector<std::int32_t> unsound;     ///< bodies whose state is no longer finite
     std::vector<std::int32_t> moved_items; ///< shapes whose fat box changed
     std::vector<FloatBox> moved_boxes;
+    bool sorted_anew = false; ///< the moving layer, in this step
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
+    std::vector<ContactNews> news;
     std::vector<Link> links;
     std::vector<Link> solved_links; ///< those that get rows, by unit
     std::vector<std::int32_t> solved_joints;

@@ -1,0 +1,233 @@
+// Polygon against polygon of up to eight corners, the commonest pair there is: the rules of manifold_hull_hull.cpp, with four edges tested at a
+// time. Where the nearest features are two corners, or nothing is left of the clipped edge, that file decides.
+
+#include "collision/manifold.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int most_corners = 8;
+
+using F4 = float __attribute__((vector_size(16)));
+
+struct Corners
+{
+    Vec2 at[most_corners];
+    int count;
+};
+
+struct Axis
+{
+    int edge = 0;
+    float separation = -3e38f;
+};
+
+F4 load4(const float* p)
+{
+    F4 r;
+    std::memcpy(&r, p, sizeof r);
+    return r;
+}
+
+// x and y of four vectors; those beyond the last are the last.
+void split(const Vec2* v, int first, int count, F4& x, F4& y)
+{
+    if (first + 4 <= count)
+    {
+        const F4 lo = load4(&v[first].x);
+        const F4 hi = load4(&v[first + 2].x);
+        x = __builtin_shufflevector(lo, hi, 0, 2, 4, 6);
+        y = __builtin_shufflevector(lo, hi, 1, 3, 5, 7);
+        return;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+        const Vec2 p = v[first + i < count ? first + i : count - 1];
+        x[i] = p.x;
+        y[i] = p.y;
+    }
+}
+
+// The edge beyond which the other's corners are farthest. Four edges side by side, corner by corner.
+Axis best_axis(const LeafView& reference, const Corners& other, float radii)
+{
+    const int count = reference.leaf->count;
+    Axis best;
+    for (int first = 0; first < count; first += 4)
+    {
+        F4 nx;
+        F4 ny;
+        F4 px;
+        F4 py;
+        split(reference.normals, first, count, nx, ny);
+        split(reference.points, first, count, px, py);
+        F4 low = nx * other.at[0].x + ny * other.at[0].y;
+        for (int j = 1; j < other.count; ++j)
+        {
+            const F4 d = nx * other.at[j].x + ny * other.at[j].y;
+            low = d < low ? d : low;
+        }
+        const F4 separation = low - (nx * px + ny * py) - radii;
+        for (int i = 0; i < 4; ++i)
+        {
+            if (separation[i] > best.separation)
+                best = {first + i, separation[i]};
+        }
+    }
+    return best;
+}
+
+int most_opposed_edge(const LeafView& v, Vec2 n)
+{
+    int edge = 0;
+    float least = 3e38f;
+    for (int i = 0; i < v.leaf->count; ++i)
+    {
+        const float d = dot(n, v.normals[i]);
+        if (d < least)
+        {
+            least = d;
+            edge = i;
+        }
+    }
+    return edge;
+}
+
+struct ClipPoint
+{
+    Vec2 core;
+    int id;
+};
+
+// Keeps what lies on the side where dot(n, p) >= offset; false where nothing is left.
+bool clip(ClipPoint points[2], Vec2 n, float offset)
+{
+    const float d0 = dot(n, points[0].core) - offset;
+    const float d1 = dot(n, points[1].core) - offset;
+    if (d0 < 0 && d1 < 0)
+        return false;
+    if (d0 >= 0 && d1 >= 0)
+        return true;
+    const float t = d0 / (d0 - d1);
+    (d0 < 0 ? points[0] : points[1]).core = points[0].core + t * (points[1].core - points[0].core);
+    return true;
+}
+
+std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
+{
+    return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) |
+           static_cast<std::uint32_t>(incident_point);
+}
+
+class PolygonPair
+{
+public:
+    PolygonPair(const LeafView& a, const LeafView& b, const RelativePose& pose)
+        : m_a(a), m_b(b), m_pose(pose), m_radii(a.leaf->r0 + b.leaf->r0)
+    {
+        m_corners_b.count = b.leaf->count;
+        for (int i = 0; i < b.leaf->count; ++i)
+            m_corners_b.at[i] = pose.to_a(b.points[i]);
+    }
+
+    // False where hull against hull must decide.
+    bool collide(float margin, LocalManifold& out)
+    {
+        const Axis axis_a = best_axis(m_a, m_corners_b, m_radii);
+        if (axis_a.separation > margin)
+            return true;
+        m_corners_a.count = m_a.leaf->count;
+        for (int i = 0; i < m_corners_a.count; ++i)
+            m_corners_a.at[i] = m_pose.to_b(m_a.points[i]);
+        const Axis axis_b = best_axis(m_b, m_corners_a, m_radii);
+        if (axis_b.separation > margin)
+            return true;
+        for (int i = 0; i < m_corners_a.count; ++i)
+            m_corners_a.at[i] = m_a.points[i];
+        const bool flipped = prefers_b(axis_a, axis_b);
+        return clip_to_edge(flipped, flipped ? axis_b : axis_a, margin, out);
+    }
+
+private:
+    // While they overlap a little in favour of the longer edge, or of a, so that the choice (and with it the features that carry impulses)
+    // does not flicker between equals.
+    [[nodiscard]] bool prefers_b(const Axis& a, const Axis& b) const
+    {
+        const float edge_a = edge_length(m_a, a.edge);
+        const float edge_b = edge_length(m_b, b.edge);
+        const float bias = b.separation < 0 ? 2e-4f * (edge_a > edge_b ? edge_a : edge_b) : 0;
+        return b.separation > a.separation + (edge_b > 1.001f * edge_a ? -bias : bias);
+    }
+
+    static float edge_length(const LeafView& v, int edge)
+    {
+        const Vec2 d = v.points[edge + 1 < v.leaf->count ? edge + 1 : 0] - v.points[edge];
+        return std::sqrt(dot(d, d));
+    }
+
+    // All in a's frame.
+    bool clip_to_edge(bool flipped, const Axis& axis, float margin, LocalManifold& out) const
+    {
+        const LeafView& reference = flipped ? m_b : m_a;
+        const LeafView& incident = flipped ? m_a : m_b;
+        const Corners& corners = flipped ? m_corners_b : m_corners_a;
+        const Corners& others = flipped ? m_corners_a : m_corners_b;
+        const Vec2 n = flipped ? rotate(m_pose.rotation, reference.normals[axis.edge]) : reference.normals[axis.edge];
+        const Vec2 start = corners.at[axis.edge];
+        const Vec2 end = corners.at[axis.edge + 1 < corners.count ? axis.edge + 1 : 0];
+        const Vec2 tangent = perp(n);
+        if (axis.separation + m_radii > 1e-6f && !faces_edge(others, n, tangent, start, end))
+            return false;
+        const int i0 = most_opposed_edge(incident, flipped ? n : inverse_rotate(m_pose.rotation, n));
+        const int i1 = i0 + 1 < others.count ? i0 + 1 : 0;
+        ClipPoint points[2] = {{others.at[i0], i0}, {others.at[i1], i1}};
+        if (!clip(points, tangent, dot(tangent, start)) || !clip(points, -tangent, -dot(tangent, end)))
+            return false;
+        const float radius = incident.leaf->r0;
+        const float offset = dot(n, start) + reference.leaf->r0 + radius;
+        out.normal = flipped ? -n : n;
+        for (const ClipPoint& p : points)
+        {
+            const float separation = dot(n, p.core) - offset;
+            if (separation > margin)
+                continue;
+            const Vec2 on_other = p.core - radius * n;
+            const Vec2 on_reference = on_other - separation * n;
+            out.add(flipped ? on_other : on_reference, flipped ? on_reference : on_other, separation,
+                    feature_id(flipped, axis.edge, p.id));
+        }
+        return out.count > 0;
+    }
+
+    // Of what is apart: is the nearest corner ahead of the edge, so that no corner of the edge is nearer to it?
+    static bool faces_edge(const Corners& others, Vec2 n, Vec2 tangent, Vec2 start, Vec2 end)
+    {
+        Vec2 nearest = others.at[0];
+        for (int i = 1; i < others.count; ++i)
+            nearest = dot(n, others.at[i]) < dot(n, nearest) ? others.at[i] : nearest;
+        const float along = dot(tangent, nearest);
+        return along >= dot(tangent, start) && along <= dot(tangent, end);
+    }
+
+    const LeafView& m_a;
+    const LeafView& m_b;
+    const RelativePose& m_pose;
+    float m_radii;
+    Corners m_corners_a; ///< in the frame that is being looked at
+    Corners m_corners_b; ///< in a's frame
+};
+
+} // namespace
+
+void collide_polygons(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
+{
+    const bool small = a.leaf->count <= most_corners && b.leaf->count <= most_corners;
+    if (!small || !PolygonPair(a, b, pose).collide(margin, out))
+        collide_hull_hull(a, b, pose, margin, out);
+}
+
+} // namespace carom::internal
