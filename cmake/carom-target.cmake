@@ -20,13 +20,13 @@ function(carom_target target)
     endif()
 endfunction()
 
-# carom_kernels(<folder>): the contact kernels in it are one source, compiled for what the machine may have; the choice falls at run time
+# carom_kernels(<folder>): the kernels in it are one source, compiled for what the machine may have; the choice falls at run time
 # (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only.
 function(carom_kernels folder)
-    set_source_files_properties("${folder}/contact_kernels_baseline.cpp" PROPERTIES COMPILE_OPTIONS -Wno-psabi)
+    set_source_files_properties("${folder}/kernels_baseline.cpp" PROPERTIES COMPILE_OPTIONS -Wno-psabi)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-        set_source_files_properties("${folder}/contact_kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-mavx2")
-        set_source_files_properties("${folder}/contact_kernels_avx512.cpp" PROPERTIES
+        set_source_files_properties("${folder}/kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-mavx2")
+        set_source_files_properties("${folder}/kernels_avx512.cpp" PROPERTIES
                                     COMPILE_OPTIONS "-Wno-psabi;-mavx512f;-mavx512vl;-mprefer-vector-width=256")
     endif()
 endfunction()

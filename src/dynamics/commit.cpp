@@ -355,6 +355,8 @@ void commit_and_sleep(StepContext& ctx)
         commit_row(ctx, row);
     for (const JointWork& work : scratch.joints)
         commit_joint(ctx, work);
+    for (const WideJoint& joint : scratch.wide_joints)
+        commit_wide_joint(ctx, joint);
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
     note_untold_impacts(ctx);

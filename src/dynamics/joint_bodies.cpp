@@ -52,6 +52,15 @@ JointPose present_pose(const SolverView& view, const JointWork& work)
     return joint_pose(work, {a.delta_position, a.delta_rotation}, {b.delta_position, b.delta_rotation});
 }
 
+void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints)
+{
+    for (JointWork& work : joints)
+    {
+        work.pose = present_pose(view, work);
+        work.rows = rows_of(state.joints[work.joint], work.pose, view.h);
+    }
+}
+
 JointPose pose_ahead(const SolverView& view, const JointWork& work)
 {
     return joint_pose(work, placed_ahead(view, work.a), placed_ahead(view, work.b));
@@ -70,9 +79,8 @@ JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
     return rows;
 }
 
-JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
+JointRows holding(const JointRows& all)
 {
-    const JointRows all = rows_of(joint, pose, 0);
     JointRows holding;
     for (int i = 0; i < all.count; ++i)
     {
@@ -80,6 +88,19 @@ JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
             holding.add(all.rows[i]);
     }
     return holding;
+}
+
+JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
+{
+    JointRows rows;
+    switch (joint.kind)
+    {
+    case JointType::Spring: break;
+    case JointType::Distance: distance_rows(joint, pose, rows); return holding(rows);
+    case JointType::Revolute: revolute_holds(pose, rows); break;
+    case JointType::Prismatic: prismatic_holds(pose, rows); break;
+    }
+    return rows;
 }
 
 bool only_holds(const JointRecord& joint)

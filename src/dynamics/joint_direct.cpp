@@ -53,11 +53,10 @@ bool DirectSolve::collect()
         const JointWork& work = m_joints[i];
         if (is_in_flight(m_view, work))
             continue;
-        const JointPose pose = present_pose(m_view, work);
-        const JointRows rows = holding_rows(m_state->joints[work.joint], pose);
+        const JointRows rows = holding(work.rows);
         if (rows.count == 0)
             continue;
-        if (m_rows.size() + static_cast<std::size_t>(rows.count) > most_rows || !connect(work, pose, rows))
+        if (m_rows.size() + static_cast<std::size_t>(rows.count) > most_rows || !connect(work, work.pose, rows))
             return false;
         for (int r = 0; r < rows.count; ++r)
             m_rows.push_back({static_cast<int>(i), node_of(work.a), node_of(work.b), rows.rows[r]});
@@ -340,10 +339,11 @@ void DirectSolve::push(const Row& r, float impulse)
     turn(r.b, r.row.arm_b, impulse);
 }
 
-void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<const JointWork> joints)
+void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
     for (int i = 0; i < 4; ++i)
     {
+        place_joints(view, state, joints);
         direct.prepare(view, state, joints);
         if (direct.is_ready())
             direct.close_gaps();

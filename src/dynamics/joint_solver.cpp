@@ -148,7 +148,7 @@ void warm_start_joints(const SolverView& view, SceneState& state, std::span<Join
         if (is_in_flight(view, work))
             continue;
         const JointRecord& joint = state.joints[work.joint];
-        const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
+        const JointRows& rows = work.rows;
         const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
         {
@@ -168,7 +168,7 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
         if (is_in_flight(view, work))
             continue;
         JointRecord& joint = state.joints[work.joint];
-        const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
+        const JointRows& rows = work.rows;
         const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
         {
@@ -193,7 +193,7 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
         JointRecord& joint = state.joints[work.joint];
         if (joint.kind != JointType::Revolute || is_in_flight(view, work))
             continue;
-        const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
+        const JointRows& rows = work.rows;
         solve_block(JointBodies(view, work), joint, rows, soft, use_bias);
     }
 }
@@ -205,7 +205,7 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
         const JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
-        const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
+        const JointRows& rows = work.rows;
         const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
         {
@@ -223,7 +223,7 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
         JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
-        const JointRows rows = rows_of(joint, present_pose(view, work), view.h);
+        const JointRows& rows = work.rows;
         const JointBodies bodies(view, work);
         for (int i = 0; i < rows.count; ++i)
         {
@@ -246,8 +246,8 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
         if (is_in_flight(view, work))
             continue;
         const JointRecord& joint = state.joints[work.joint];
-        const JointPose pose = present_pose(view, work);
-        const JointRows rows = rows_of(joint, pose, view.h);
+        const JointPose& pose = work.pose;
+        const JointRows& rows = work.rows;
         for (int i = 0; i < rows.count; ++i)
         {
             const float impulse = joint.impulses[rows.rows[i].slot];

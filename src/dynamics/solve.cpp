@@ -13,6 +13,7 @@
 #include "dynamics/springs.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_energy.h"
+#include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
@@ -88,11 +89,14 @@ public:
                        .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
           m_wide(ctx.scratch.wide_rows.data() + unit.first_wide),
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness},
-          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.flier_count == 0)
+          m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
+          m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
+          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.flier_count == 0)
     {}
 
     void run()
     {
+        place_joints(m_view, m_ctx.state, m_joints);
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
         if (m_ctx.slices > 1)
@@ -119,6 +123,7 @@ private:
         guard_cores();
         fly(k);
         refresh_rows();
+        place_joints(m_view, m_ctx.state, m_joints);
         prepare_direct();
         solve(false);
         if (m_watches_energy)
@@ -232,6 +237,7 @@ private:
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         if (m_starts_by_body && k > 0)
             return;
+        m_kernels.warm_start_joints(m_wide_joints, m_unit.wide_joint_count, m_view.states);
         m_kernels.warm_start(m_wide, m_unit.wide_count, m_view.states);
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
@@ -256,6 +262,8 @@ private:
         {
             if (!m_joints.empty())
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
+            (use_bias ? m_kernels.solve_joints : m_kernels.relax_joints)(m_wide_joints, m_unit.wide_joint_count, m_view.states,
+                                                                         m_joint_softness);
             (use_bias ? m_kernels.solve : m_kernels.relax)(m_wide, m_unit.wide_count, m_view.states, m_softness);
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
@@ -728,6 +736,8 @@ private:
     std::span<JointWork> m_joints;
     WideRow* m_wide;
     WideSoftness m_softness;
+    WideJoint* m_wide_joints;
+    JointSoftness m_joint_softness;
     bool m_starts_by_body;
     const WideKernels& m_kernels = wide_kernels();
 };

@@ -8,11 +8,13 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
+#include "dynamics/joint_direct.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_energy.h"
+#include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
@@ -630,8 +632,7 @@ struct Builder
         unit.wide_count = static_cast<std::int32_t>(scratch.wide_rows.size()) - unit.first_wide;
         unit.core_count = static_cast<std::int32_t>(scratch.cores.size()) - unit.first_core;
         unit.impact_row_count = static_cast<std::int32_t>(scratch.impact_rows.size()) - unit.first_impact_row;
-        for (int i = 0; i < unit.joint_count; ++i)
-            add_joint(unit_ctx, unit, scratch.solved_joints[static_cast<std::size_t>(unit.first_joint + i)]);
+        add_joints(unit_ctx, unit);
     }
 
     // Not what is looked at anew within the step, sliced, or watched for its energy.
@@ -701,22 +702,29 @@ struct Builder
 
     void assign_color(Unit& unit, const Link& l)
     {
+        const int color = free_color(l.a, l.b);
+        state.contacts[l.contact].color = color;
+        if (color == color_limit)
+            ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
+        else
+            unit.colors = std::max(unit.colors, color + 1);
+    }
+
+    // The least that neither moving body has yet; it is theirs then.
+    int free_color(std::int32_t a, std::int32_t b)
+    {
         const auto dynamic = [&](std::int32_t s)
         { return (scratch.states[static_cast<std::size_t>(s)].flags & body_flag::dynamic) != 0; };
         std::uint64_t unused_a = 0;
         std::uint64_t unused_b = 0;
-        std::uint64_t& mask_a = dynamic(l.a) ? scratch.color_masks[static_cast<std::size_t>(l.a)] : unused_a;
-        std::uint64_t& mask_b = dynamic(l.b) ? scratch.color_masks[static_cast<std::size_t>(l.b)] : unused_b;
+        std::uint64_t& mask_a = dynamic(a) ? scratch.color_masks[static_cast<std::size_t>(a)] : unused_a;
+        std::uint64_t& mask_b = dynamic(b) ? scratch.color_masks[static_cast<std::size_t>(b)] : unused_b;
         const int color = std::min(std::countr_one(mask_a | mask_b), color_limit);
-        state.contacts[l.contact].color = color;
         if (color == color_limit)
-        {
-            ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
-            return;
-        }
+            return color;
         mask_a |= std::uint64_t{1} << color;
         mask_b |= std::uint64_t{1} << color;
-        unit.colors = std::max(unit.colors, color + 1);
+        return color;
     }
 
     void add_row(const StepContext& unit_ctx, const Unit& unit, const Link& l)
@@ -740,6 +748,75 @@ struct Builder
         if (place >= 0)
             return scratch.state_of[static_cast<std::size_t>(place)];
         return state_for(unit, place == none ? none : state.awake_bodies[static_cast<std::size_t>(-2 - place)]);
+    }
+
+    // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.
+    void add_joints(const StepContext& unit_ctx, Unit& unit)
+    {
+        const int first = unit.first_joint;
+        const int count = unit.joint_count;
+        const bool wide = is_wide(unit) && count > DirectSolve::most_rows / 2;
+        unit.first_joint = static_cast<std::int32_t>(scratch.joints.size());
+        unit.first_wide_joint = static_cast<std::int32_t>(scratch.wide_joints.size());
+        if (wide)
+            std::fill(scratch.color_masks.begin() + unit.first_state, scratch.color_masks.end(), 0);
+        scratch.joint_lanes.clear();
+        for (int i = first; i < first + count; ++i)
+        {
+            const std::int32_t joint = scratch.solved_joints[static_cast<std::size_t>(i)];
+            if (!wide || !add_wide_joint(unit, joint))
+                add_joint(unit_ctx, unit, joint);
+        }
+        fill_wide_joints(unit);
+        unit.joint_count = static_cast<std::int32_t>(scratch.joints.size()) - unit.first_joint;
+        unit.wide_joint_count = static_cast<std::int32_t>(scratch.wide_joints.size()) - unit.first_wide_joint;
+    }
+
+    // Finds its colour; false where it must stand alone.
+    bool add_wide_joint(const Unit& unit, std::int32_t index)
+    {
+        const JointRecord& joint = state.joints[index];
+        const std::int32_t a = state_for(unit, joint.body_a);
+        const std::int32_t b = state_for(unit, joint.body_b);
+        if (!fits_joint_lane(ctx, joint, a, b) || may_fly(joint.body_a) || may_fly(joint.body_b))
+            return false;
+        const std::int32_t color = free_color(a, b);
+        if (color == color_limit)
+            return false;
+        scratch.joint_lanes.push_back({2 * color + (only_holds(joint) ? 0 : 1), index});
+        return true;
+    }
+
+    // About a hinge to the world.
+    [[nodiscard]] bool may_fly(int body) const
+    {
+        if (!is_moving_dynamic(state, body))
+            return false;
+        const auto place = static_cast<std::size_t>(state.bodies[body].awake_index);
+        return flight[place] != earthbound || grounded[place] != earthbound;
+    }
+
+    void fill_wide_joints(const Unit& unit)
+    {
+        std::stable_sort(scratch.joint_lanes.begin(), scratch.joint_lanes.end(),
+                         [](const JointLane& x, const JointLane& y) { return x.bin < y.bin; });
+        int lane = 0;
+        std::int32_t bin = none;
+        for (const JointLane& l : scratch.joint_lanes)
+        {
+            if (l.bin != bin || lane == lane_count)
+            {
+                scratch.wide_joints.push_back(empty_wide_joint(unit.first_state));
+                lane = 0;
+            }
+            bin = l.bin;
+            const JointRecord& joint = state.joints[l.joint];
+            const std::int32_t a = state_for(unit, joint.body_a);
+            const std::int32_t b = state_for(unit, joint.body_b);
+            fill_joint_lane(ctx, l.joint, a, b, scratch.wide_joints.back(), lane++);
+            if (!only_holds(joint))
+                unbind({none, a, b, false, false});
+        }
     }
 
     void add_joint(const StepContext& unit_ctx, const Unit& unit, std::int32_t joint)
@@ -778,6 +855,7 @@ void build_units(StepContext& ctx)
     ctx.scratch.impact_rows.clear();
     ctx.scratch.joints.clear();
     ctx.scratch.wide_rows.clear();
+    ctx.scratch.wide_joints.clear();
     ctx.scratch.cores.clear();
     Builder builder(ctx);
     builder.find_fliers();

@@ -1,5 +1,7 @@
 #include "dynamics/wide_prepare.h"
 
+#include "dynamics/joint_bodies.h"
+#include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
 #include "dynamics/scene_data.h"
 
@@ -168,6 +170,95 @@ void commit_wide_row(SceneState& state, const WideRow& row)
             if (to.normal_impulse > 0)
                 contact.flags |= contact_flag::loaded;
         }
+    }
+}
+
+bool fits_joint_lane(const StepContext& ctx, const JointRecord& joint, std::int32_t a, std::int32_t b)
+{
+    return joint.kind == JointType::Revolute && joint.limit_restitution == 0 && is_uniform(constants_of(ctx, a)) &&
+           is_uniform(constants_of(ctx, b));
+}
+
+WideJoint empty_wide_joint(std::int32_t fixed)
+{
+    WideJoint empty{};
+    for (int i = 0; i < lane_count; ++i)
+    {
+        empty.a.v[i] = empty.b.v[i] = fixed;
+        empty.joint.v[i] = none;
+    }
+    return empty;
+}
+
+namespace {
+
+constexpr float no_limit = 1e9f; // rad
+
+void fill_angle(const StepContext& ctx, const JointRecord& joint, float start, WideAngle& t, int i)
+{
+    t.start.v[i] = start;
+    t.lower.v[i] = joint.enable_limit ? joint.lower : -no_limit;
+    t.upper.v[i] = joint.enable_limit ? joint.upper : no_limit;
+    t.lower_impulse.v[i] = joint.enable_limit ? joint.impulses[slot_lower] : 0;
+    t.upper_impulse.v[i] = joint.enable_limit ? joint.impulses[slot_upper] : 0;
+    if (joint.enable_motor)
+    {
+        t.motor_speed.v[i] = joint.motor_speed;
+        t.motor_max.v[i] = ctx.h * joint.max_motor;
+        t.motor_impulse.v[i] = joint.impulses[slot_motor];
+    }
+    if (joint.hertz > 0)
+    {
+        const Softness soft = make_softness(joint.hertz, joint.damping_ratio, ctx.h);
+        t.target.v[i] = joint.spring_target;
+        t.spring_bias_rate.v[i] = soft.bias_rate;
+        t.spring_mass_scale.v[i] = soft.mass_scale;
+        t.spring_impulse_scale.v[i] = soft.impulse_scale;
+        t.spring_impulse.v[i] = joint.impulses[slot_spring];
+    }
+}
+
+} // namespace
+
+void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a, std::int32_t b, WideJoint& wide, int i)
+{
+    const JointRecord& joint = ctx.state.joints[index];
+    const JointWork work = prepare_joint(ctx, index, a, b);
+    wide.a.v[i] = a;
+    wide.b.v[i] = b;
+    wide.joint.v[i] = index;
+    wide.inverse_mass_a.v[i] = constants_of(ctx, a).inverse_mass.x;
+    wide.inverse_mass_b.v[i] = constants_of(ctx, b).inverse_mass.x;
+    wide.inverse_inertia_a.v[i] = constants_of(ctx, a).inverse_inertia;
+    wide.inverse_inertia_b.v[i] = constants_of(ctx, b).inverse_inertia;
+    wide.arm_ax.v[i] = work.ra0.x;
+    wide.arm_ay.v[i] = work.ra0.y;
+    wide.arm_bx.v[i] = work.rb0.x;
+    wide.arm_by.v[i] = work.rb0.y;
+    wide.gap_x.v[i] = work.gap0.x;
+    wide.gap_y.v[i] = work.gap0.y;
+    wide.impulse_x.v[i] = joint.impulses[slot_x];
+    wide.impulse_y.v[i] = joint.impulses[slot_y];
+    fill_angle(ctx, joint, work.angle0, wide.angle, i);
+    if (!only_holds(joint))
+        wide.turns = 1;
+}
+
+void commit_wide_joint(StepContext& ctx, const WideJoint& wide)
+{
+    for (int i = 0; i < lane_count; ++i)
+    {
+        if (wide.joint.v[i] == none)
+            continue;
+        JointRecord& joint = ctx.state.joints[wide.joint.v[i]];
+        joint.impulses[slot_x] = wide.impulse_x.v[i];
+        joint.impulses[slot_y] = wide.impulse_y.v[i];
+        joint.impulses[slot_spring] = wide.angle.spring_impulse.v[i];
+        joint.impulses[slot_motor] = wide.angle.motor_impulse.v[i];
+        joint.impulses[slot_lower] = wide.angle.lower_impulse.v[i];
+        joint.impulses[slot_upper] = wide.angle.upper_impulse.v[i];
+        joint.force = {wide.sum_x.v[i] / ctx.dt, wide.sum_y.v[i] / ctx.dt};
+        joint.torque = wide.angle.torque_sum.v[i] / ctx.dt;
     }
 }
 

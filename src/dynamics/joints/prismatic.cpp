@@ -16,11 +16,16 @@ JointRow slider_row(Vec2 d, const JointPose& pose, float error, RowKind kind, Jo
 
 } // namespace
 
-void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
+void prismatic_holds(const JointPose& pose, JointRows& out)
 {
     const Vec2 n = perp(pose.axis);
     out.add(slider_row(n, pose, dot(n, pose.gap), RowKind::Hold, slot_x));
     out.add(angle_row(pose.angle, RowKind::Hold, slot_lock));
+}
+
+void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
+{
+    prismatic_holds(pose, out);
     add_free_axis(joint, slider_row(pose.axis, pose, 0, RowKind::Motor, slot_motor), dot(pose.axis, pose.gap), h, out);
 }
 

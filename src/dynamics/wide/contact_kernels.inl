@@ -1,46 +1,6 @@
-// The contact passes, from equation to lanes; contact_solver.cpp has the same for a row at a time, and the equations. Compiled once per
-// instruction set, each in a namespace of its own, CAROM_ISA.
+// The contact passes, from equation to lanes; contact_solver.cpp has the same for a row at a time, and the equations. Part of kernels.inl.
 
-#include "core/lane_math.h"
-#include "dynamics/wide_rows.h"
-
-#include <cstddef>
-
-namespace carom::internal::CAROM_ISA {
-
-namespace {
-
-// What the eight contacts' bodies have now.
-struct Speeds
-{
-    F8 x, y, w, flags;
-};
-
-struct Poses
-{
-    F8 x, y, c, s;
-};
-
-static_assert(sizeof(BodyState) == 32 && offsetof(BodyState, delta_position) == 16);
-
-CAROM_INLINE Speeds speeds_of(const BodyState* states, const LaneInts& index)
-{
-    Speeds v;
-    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
-    return v;
-}
-
-CAROM_INLINE Poses poses_of(const BodyState* states, const LaneInts& index)
-{
-    Poses p;
-    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]) + 16; }, p.x, p.y, p.c, p.s);
-    return p;
-}
-
-CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v)
-{
-    scatter4([&](int i) { return reinterpret_cast<char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
-}
+namespace contacts {
 
 // The bodies of a group and their relative velocity in the contact's frame.
 struct Group
@@ -318,9 +278,4 @@ void note_approach(WideRow* rows, std::int32_t count, const BodyState* states)
     }
 }
 
-} // namespace
-
-extern const WideKernels kernels;
-const WideKernels kernels = {CAROM_ISA_NAME, prepare, warm_start, solve, relax, note_approach};
-
-} // namespace carom::internal::CAROM_ISA
+} // namespace contacts

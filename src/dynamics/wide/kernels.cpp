@@ -1,6 +1,6 @@
 // Which set of kernels this machine runs.
 
-#include "dynamics/wide_rows.h"
+#include "dynamics/wide_kernels.h"
 
 #include <cstdlib>
 #include <string_view>

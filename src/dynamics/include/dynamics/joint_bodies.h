@@ -57,6 +57,9 @@ struct JointBodies
 
 [[nodiscard]] JointPose present_pose(const SolverView& view, const JointWork& work);
 
+/// Poses and rows as the bodies stand now; of springs the pose alone.
+void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
+
 /// Where the present velocities lead to by the end of the sub-step.
 [[nodiscard]] JointPose pose_ahead(const SolverView& view, const JointWork& work);
 
@@ -65,6 +68,9 @@ struct JointBodies
 
 /// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
 [[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
+
+/// Of all rows, those.
+[[nodiscard]] JointRows holding(const JointRows& all);
 
 /// It holds and does nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);

@@ -13,6 +13,8 @@ namespace carom::internal {
 class DirectSolve
 {
 public:
+    static constexpr int most_rows = 128;
+
     /// At the present pose. Not ready where there is nothing to hold, too much of it, or loops: then the soft rows have to do.
     void prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints);
     [[nodiscard]] bool is_ready() const { return m_ready; }
@@ -25,8 +27,6 @@ public:
     void close_gaps();
 
 private:
-    static constexpr int most_rows = 128;
-
     struct Row
     {
         int joint = 0; ///< place in m_joints
@@ -89,6 +89,6 @@ private:
 };
 
 /// Until none is left to speak of.
-void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<const JointWork> joints);
+void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints);
 
 } // namespace carom::internal

@@ -52,7 +52,29 @@ struct JointPose
     float angle = 0;
 };
 
+/// A joint in the solver: its record and the states of its bodies.
+struct JointWork
+{
+    std::int32_t joint = none;
+    std::int32_t a = 0;
+    std::int32_t b = 0;
+    SpringKick before{}; ///< of a spring, before the bodies move
+    SpringKick after{};  ///< and after
+    Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
+    Vec2 rb0{};
+    Vec2 axis0{};           ///< slider's axis at the start of the step
+    Vec2 gap0{};            ///< anchor b - anchor a at the start of the step
+    float angle0 = 0;       ///< joint angle at the start of the step
+    float approach[2] = {}; ///< towards the lower and upper limit, before a sub-step's forces
+    Vec2 force_sum{};       ///< impulses over the step
+    float torque_sum = 0;
+    JointPose pose{}; ///< as the bodies stand, since place_joints
+    JointRows rows{};
+};
+
 void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
+void revolute_holds(const JointPose& pose, JointRows& out); ///< what is held alone
+void prismatic_holds(const JointPose& pose, JointRows& out);
 void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 

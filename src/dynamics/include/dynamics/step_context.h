@@ -4,8 +4,10 @@
 
 #include "carom/event.h"
 #include "collision/time_of_impact.h"
+#include "dynamics/joint_rows.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
+#include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
 #include <cstdint>
@@ -30,6 +32,8 @@ struct Unit
     std::int32_t row_count = 0;
     std::int32_t first_wide = 0; ///< groups of wide rows, sorted by color: of large units; rows are then what does not fit there
     std::int32_t wide_count = 0;
+    std::int32_t first_wide_joint = 0;
+    std::int32_t wide_joint_count = 0;
     std::int32_t first_core = 0; ///< of its wide rows
     std::int32_t core_count = 0;
     std::int32_t first_joint = 0;
@@ -68,6 +72,13 @@ struct Link
     std::int32_t b;
     bool touching; ///< else it may touch within the step
     bool solved;   ///< gets a row, unless a body flies
+};
+
+/// A hinge and the group it goes to.
+struct JointLane
+{
+    std::int32_t bin; ///< by color, and by whether it does something about its angle
+    std::int32_t joint;
 };
 
 /// What constraints gave to a body in the last sub-step: warm starting of the next.
@@ -171,6 +182,7 @@ struct Scratch
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     std::vector<WideRow> wide_rows;
+    std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
     std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
     std::vector<JointWork> joints;
@@ -181,6 +193,7 @@ struct Scratch
     std::vector<PathPiece> paths; ///< of all units, by body
     std::vector<Crossing> crossings;
     std::vector<std::uint64_t> color_masks;
+    std::vector<JointLane> joint_lanes;
     std::vector<std::int32_t> lanes_of_bin; ///< of wide rows of a unit: by color and number of points
     std::vector<std::int32_t> order;
 };

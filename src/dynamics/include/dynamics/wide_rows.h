@@ -59,21 +59,4 @@ struct WideSoftness
     Softness stiff; ///< against what has infinite mass
 };
 
-/// The passes over wide rows, compiled for one instruction set. Every one of them does the same, bit for bit.
-struct WideKernels
-{
-    const char* name;
-    /// Effective masses, once all lanes are filled.
-    void (*prepare)(WideRow* rows, std::int32_t count);
-    void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
-    /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
-    void (*solve)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
-    void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
-    /// Approach speeds of groups that may be struck.
-    void (*note_approach)(WideRow* rows, std::int32_t count, const BodyState* states);
-};
-
-/// The best that this machine has, or CAROM_ISA asks for (sse2, avx2, avx512); chosen once.
-[[nodiscard]] const WideKernels& wide_kernels();
-
 } // namespace carom::internal

@@ -2,5 +2,5 @@
 #if defined(__x86_64__)
 #define CAROM_ISA avx512
 #define CAROM_ISA_NAME "avx512"
-#include "contact_kernels.inl"
+#include "kernels.inl"
 #endif

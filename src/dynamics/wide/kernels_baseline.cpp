@@ -1,4 +1,4 @@
 // For what every machine of the platform has.
 #define CAROM_ISA baseline
 #define CAROM_ISA_NAME "baseline"
-#include "contact_kernels.inl"
+#include "kernels.inl"

@@ -1,0 +1,62 @@
+#pragma once
+
+// Hinges of large units, eight side by side: no two of a group share a moving body. A hinge holds two anchors together; of some the angle is
+// limited, driven or sprung as well.
+
+#include "core/lanes.h"
+#include "dynamics/rows.h"
+
+#include <cstdint>
+
+namespace carom::internal {
+
+/// What a hinge does about its angle; where it does nothing the numbers are such that no impulse comes of it.
+struct WideAngle
+{
+    LaneFloats start; ///< the angle at the start of the step
+    LaneFloats target;
+    LaneFloats spring_bias_rate;
+    LaneFloats spring_mass_scale;
+    LaneFloats spring_impulse_scale;
+    LaneFloats spring_impulse;
+    LaneFloats motor_speed;
+    LaneFloats motor_max; ///< impulse in a sub-step
+    LaneFloats motor_impulse;
+    LaneFloats lower;
+    LaneFloats upper;
+    LaneFloats lower_impulse;
+    LaneFloats upper_impulse;
+    LaneFloats torque_sum; ///< of impulses over the step
+};
+
+struct WideJoint
+{
+    LaneInts a; ///< states
+    LaneInts b;
+    LaneInts joint; ///< none: the lane is empty
+    LaneFloats inverse_mass_a;
+    LaneFloats inverse_mass_b;
+    LaneFloats inverse_inertia_a;
+    LaneFloats inverse_inertia_b;
+    LaneFloats arm_ax; ///< anchors from the centers of mass at the start of the step, world axes
+    LaneFloats arm_ay;
+    LaneFloats arm_bx;
+    LaneFloats arm_by;
+    LaneFloats gap_x; ///< anchor b - anchor a at the start of the step
+    LaneFloats gap_y;
+    LaneFloats impulse_x;
+    LaneFloats impulse_y;
+    LaneFloats sum_x; ///< over the step
+    LaneFloats sum_y;
+    WideAngle angle;
+    std::int32_t turns; ///< whether any lane does something about its angle
+    std::int32_t padding[7];
+};
+
+struct JointSoftness
+{
+    float inverse_h;
+    Softness soft;
+};
+
+} // namespace carom::internal

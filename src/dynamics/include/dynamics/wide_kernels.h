@@ -1,0 +1,30 @@
+#pragma once
+
+// What is compiled once per instruction set (dynamics/wide/), behind pointers.
+
+#include "dynamics/wide_joints.h"
+#include "dynamics/wide_rows.h"
+
+namespace carom::internal {
+
+/// The passes over wide rows and joints, compiled for one instruction set. Every set does the same, bit for bit.
+struct WideKernels
+{
+    const char* name;
+    /// Effective masses, once all lanes are filled.
+    void (*prepare)(WideRow* rows, std::int32_t count);
+    void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
+    /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
+    void (*solve)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
+    void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
+    /// Approach speeds of groups that may be struck.
+    void (*note_approach)(WideRow* rows, std::int32_t count, const BodyState* states);
+    void (*warm_start_joints)(WideJoint* joints, std::int32_t count, BodyState* states);
+    void (*solve_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
+    void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
+};
+
+/// The best that this machine has, or CAROM_ISA asks for (sse2, avx2, avx512); chosen once.
+[[nodiscard]] const WideKernels& wide_kernels();
+
+} // namespace carom::internal

@@ -1,0 +1,192 @@
+// The hinges' passes; joint_solver.cpp has the same for a joint at a time. Part of kernels.inl.
+//
+//   C = gap,  dC = vb + wb x rb - va - wa x ra            two rows solved as one: K = J M^-1 J^T is 2 x 2
+//   angle = angle at the start + the turn of b against a   a spring, a motor, and limits on either side
+
+namespace joints {
+
+struct Hinge
+{
+    F8 mass_a, mass_b, inertia_a, inertia_b;
+    Speeds a, b;
+    F8 ax, ay, bx, by; ///< arms now
+    F8 gap_x, gap_y;
+    F8 turn_c, turn_s; ///< of b against a within the step
+
+    CAROM_INLINE Hinge(const WideJoint& j, const BodyState* states)
+    {
+        mass_a = load(j.inverse_mass_a);
+        mass_b = load(j.inverse_mass_b);
+        inertia_a = load(j.inverse_inertia_a);
+        inertia_b = load(j.inverse_inertia_b);
+        a = speeds_of(states, j.a);
+        b = speeds_of(states, j.b);
+        const Poses pa = poses_of(states, j.a);
+        const Poses pb = poses_of(states, j.b);
+        const F8 ax0 = load(j.arm_ax);
+        const F8 ay0 = load(j.arm_ay);
+        const F8 bx0 = load(j.arm_bx);
+        const F8 by0 = load(j.arm_by);
+        ax = pa.c * ax0 - pa.s * ay0;
+        ay = pa.s * ax0 + pa.c * ay0;
+        bx = pb.c * bx0 - pb.s * by0;
+        by = pb.s * bx0 + pb.c * by0;
+        gap_x = load(j.gap_x) + (pb.x - pa.x) + (bx - bx0) - (ax - ax0);
+        gap_y = load(j.gap_y) + (pb.y - pa.y) + (by - by0) - (ay - ay0);
+        turn_c = pb.c * pa.c + pb.s * pa.s;
+        turn_s = pb.s * pa.c - pb.c * pa.s;
+    }
+
+    CAROM_INLINE void push(F8 x, F8 y)
+    {
+        a.x -= mass_a * x;
+        a.y -= mass_a * y;
+        a.w -= inertia_a * (ax * y - ay * x);
+        b.x += mass_b * x;
+        b.y += mass_b * y;
+        b.w += inertia_b * (bx * y - by * x);
+    }
+
+    CAROM_INLINE void twist(F8 impulse)
+    {
+        a.w -= inertia_a * impulse;
+        b.w += inertia_b * impulse;
+    }
+
+    CAROM_INLINE void finish(const WideJoint& j, BodyState* states) const
+    {
+        put(states, j.a, a);
+        put(states, j.b, b);
+    }
+
+    // The turn by its quarter, whose arc tangent's series is short: exact to a float's rounding up to a quarter turn in a step.
+    CAROM_INLINE F8 turn() const
+    {
+        const F8 half = turn_s / greatest(1 + turn_c, all(1e-6f));
+        const F8 u = half / (1 + root(1 + half * half));
+        const F8 z = u * u;
+        const F8 series = 1 - z * (1.0f / 3 - z * (1.0f / 5 - z * (1.0f / 7 - z * (1.0f / 9 - z * (1.0f / 11)))));
+        return 4 * (u * series);
+    }
+};
+
+// The anchors stay together.
+CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 impulse_scale)
+{
+    const F8 mass = h.mass_a + h.mass_b;
+    const F8 k11 = mass + h.inertia_a * h.ay * h.ay + h.inertia_b * h.by * h.by;
+    const F8 k12 = -(h.inertia_a * h.ax * h.ay + h.inertia_b * h.bx * h.by);
+    const F8 k22 = mass + h.inertia_a * h.ax * h.ax + h.inertia_b * h.bx * h.bx;
+    const F8 cx = (h.b.x - h.b.w * h.by) - (h.a.x - h.a.w * h.ay) + bias_rate * h.gap_x;
+    const F8 cy = (h.b.y + h.b.w * h.bx) - (h.a.y + h.a.w * h.ax) + bias_rate * h.gap_y;
+    const F8 det = k11 * k22 - k12 * k12;
+    const F8 inverse_det = select(det > all(0), all(1) / det, all(0)); // empty lanes have no mass
+    const F8 old_x = load(j.impulse_x);
+    const F8 old_y = load(j.impulse_y);
+    const F8 x = -mass_scale * (inverse_det * (k22 * cx - k12 * cy)) - impulse_scale * old_x;
+    const F8 y = -mass_scale * (inverse_det * (k11 * cy - k12 * cx)) - impulse_scale * old_y;
+    store(j.impulse_x, old_x + x);
+    store(j.impulse_y, old_y + y);
+    h.push(x, y);
+}
+
+struct AngleMass
+{
+    F8 k, m;
+
+    CAROM_INLINE explicit AngleMass(const Hinge& h)
+    {
+        k = h.inertia_a + h.inertia_b;
+        m = select(k > all(0), all(1) / k, all(0));
+    }
+};
+
+CAROM_INLINE void drive(Hinge& h, WideAngle& t, const AngleMass& mass)
+{
+    const F8 old = load(t.motor_impulse);
+    const F8 most = load(t.motor_max);
+    const F8 updated = clamp(old - mass.m * (h.b.w - h.a.w - load(t.motor_speed)), -most, most);
+    store(t.motor_impulse, updated);
+    h.twist(updated - old);
+}
+
+// One side: room >= 0, and `sign` turns the angle so that it shrinks.
+CAROM_INLINE void limit(Hinge& h, LaneFloats& impulse, const AngleMass& mass, F8 room, float sign, const JointSoftness& s, bool use_bias)
+{
+    const I8 apart = room > all(0);
+    const F8 speed = sign * (h.b.w - h.a.w);
+    const F8 old = load(impulse);
+    const F8 bias = select(apart, room * s.inverse_h, use_bias ? s.soft.bias_rate * room : all(0));
+    const F8 mass_scale = select(apart, all(1), all(use_bias ? s.soft.mass_scale : 1));
+    const F8 impulse_scale = select(apart, all(0), all(use_bias ? s.soft.impulse_scale : 0));
+    const F8 updated = greatest(old - mass.m * mass_scale * (speed + bias) - impulse_scale * old, all(0));
+    store(impulse, updated);
+    h.twist(sign * (updated - old));
+}
+
+CAROM_INLINE void spring(Hinge& h, WideAngle& t, const AngleMass& mass, F8 angle)
+{
+    const F8 old = load(t.spring_impulse);
+    const F8 bias = load(t.spring_bias_rate) * (angle - load(t.target));
+    const F8 change =
+        -(mass.m * load(t.spring_mass_scale) * (h.b.w - h.a.w + bias)) - load(t.spring_impulse_scale) * old;
+    store(t.spring_impulse, old + change);
+    h.twist(change);
+}
+
+CAROM_INLINE void turn(Hinge& h, WideAngle& t, const JointSoftness& s, bool use_bias)
+{
+    const AngleMass mass(h);
+    const F8 angle = load(t.start) + h.turn();
+    if (use_bias)
+        spring(h, t, mass, angle);
+    drive(h, t, mass);
+    limit(h, t.lower_impulse, mass, angle - load(t.lower), 1, s, use_bias);
+    limit(h, t.upper_impulse, mass, load(t.upper) - angle, -1, s, use_bias);
+}
+
+void warm_start(WideJoint* joints, std::int32_t count, BodyState* states)
+{
+    for (WideJoint* j = joints; j < joints + count; ++j)
+    {
+        Hinge h(*j, states);
+        const WideAngle& t = j->angle;
+        if (j->turns != 0)
+            h.twist(load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) - load(t.upper_impulse));
+        h.push(load(j->impulse_x), load(j->impulse_y));
+        h.finish(*j, states);
+    }
+}
+
+void solve(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s)
+{
+    for (WideJoint* j = joints; j < joints + count; ++j)
+    {
+        Hinge h(*j, states);
+        if (j->turns != 0)
+            turn(h, j->angle, s, true);
+        hold(h, *j, all(s.soft.bias_rate), all(s.soft.mass_scale), all(s.soft.impulse_scale));
+        h.finish(*j, states);
+    }
+}
+
+void relax(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s)
+{
+    for (WideJoint* j = joints; j < joints + count; ++j)
+    {
+        Hinge h(*j, states);
+        WideAngle& t = j->angle;
+        if (j->turns != 0)
+        {
+            turn(h, t, s, false);
+            store(t.torque_sum, load(t.torque_sum) + (load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) -
+                                                      load(t.upper_impulse)));
+        }
+        hold(h, *j, all(0), all(1), all(0));
+        store(j->sum_x, load(j->sum_x) + load(j->impulse_x));
+        store(j->sum_y, load(j->sum_y) + load(j->impulse_y));
+        h.finish(*j, states);
+    }
+}
+
+} // namespace joints

@@ -1,0 +1,55 @@
+// All kernels for one instruction set, in a namespace of its own: CAROM_ISA. Every set does the same, bit for bit.
+
+#include "core/lane_math.h"
+#include "dynamics/wide_joints.h"
+#include "dynamics/wide_kernels.h"
+#include "dynamics/wide_rows.h"
+
+#include <cstddef>
+
+namespace carom::internal::CAROM_ISA {
+
+namespace {
+
+// What eight bodies have now.
+struct Speeds
+{
+    F8 x, y, w, flags;
+};
+
+struct Poses
+{
+    F8 x, y, c, s;
+};
+
+static_assert(sizeof(BodyState) == 32 && offsetof(BodyState, delta_position) == 16);
+
+CAROM_INLINE Speeds speeds_of(const BodyState* states, const LaneInts& index)
+{
+    Speeds v;
+    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
+    return v;
+}
+
+CAROM_INLINE Poses poses_of(const BodyState* states, const LaneInts& index)
+{
+    Poses p;
+    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]) + 16; }, p.x, p.y, p.c, p.s);
+    return p;
+}
+
+CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v)
+{
+    scatter4([&](int i) { return reinterpret_cast<char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
+}
+
+#include "contact_kernels.inl"
+#include "joint_kernels.inl"
+
+} // namespace
+
+extern const WideKernels kernels;
+const WideKernels kernels = {CAROM_ISA_NAME,         contacts::prepare,       contacts::warm_start, contacts::solve, contacts::relax,
+                             contacts::note_approach, joints::warm_start, joints::solve,       joints::relax};
+
+} // namespace carom::internal::CAROM_ISA
