@@ -1,5 +1,5 @@
 // Polygon against polygon of up to eight corners, the commonest pair there is: the rules of manifold_hull_hull.cpp, with four edges tested at a
-// time. Where the nearest features are two corners, or nothing is left of the clipped edge, that file decides.
+// time. Where nothing is left of the clipped edge, that file decides.
 
 #include "collision/manifold.h"
 
@@ -180,15 +180,23 @@ private:
         const Vec2 start = corners.at[axis.edge];
         const Vec2 end = corners.at[axis.edge + 1 < corners.count ? axis.edge + 1 : 0];
         const Vec2 tangent = perp(n);
-        if (axis.separation + m_radii > 1e-6f && !faces_edge(others, n, tangent, start, end))
-            return false;
         const int i0 = most_opposed_edge(incident, flipped ? n : inverse_rotate(m_pose.rotation, n));
         const int i1 = i0 + 1 < others.count ? i0 + 1 : 0;
         ClipPoint points[2] = {{others.at[i0], i0}, {others.at[i1], i1}};
-        if (!clip(points, tangent, dot(tangent, start)) || !clip(points, -tangent, -dot(tangent, end)))
-            return false;
+        const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));
         const float radius = incident.leaf->r0;
         const float offset = dot(n, start) + reference.leaf->r0 + radius;
+        const bool apart = axis.separation + m_radii > 1e-6f;
+        if (apart && !faces_edge(others, n, tangent, start, end))
+        {
+            const float d0 = dot(n, points[0].core) - offset;
+            const float d1 = dot(n, points[1].core) - offset;
+            const float clipped = left ? (d0 < d1 ? d0 : d1) : 3e38f;
+            if (add_corners(clipped - 1e-4f * length(end - start), margin, out))
+                return true;
+        }
+        if (!left)
+            return false;
         out.normal = flipped ? -n : n;
         for (const ClipPoint& p : points)
         {
@@ -201,6 +209,37 @@ private:
                     feature_id(flipped, axis.edge, p.id));
         }
         return out.count > 0;
+    }
+
+    // Two corners may be nearest where no edge faces one. False where they are no nearer than this.
+    bool add_corners(float than, float margin, LocalManifold& out) const
+    {
+        int a = 0;
+        int b = 0;
+        float nearest = 3e38f;
+        for (int i = 0; i < m_corners_a.count; ++i)
+        {
+            for (int j = 0; j < m_corners_b.count; ++j)
+            {
+                const Vec2 d = m_corners_b.at[j] - m_corners_a.at[i];
+                if (dot(d, d) >= nearest)
+                    continue;
+                nearest = dot(d, d);
+                a = i;
+                b = j;
+            }
+        }
+        const float distance = std::sqrt(nearest);
+        const float separation = distance - m_radii;
+        if (separation >= than || !(distance > 0))
+            return false;
+        if (separation > margin)
+            return true;
+        const Vec2 n = (1 / distance) * (m_corners_b.at[b] - m_corners_a.at[a]);
+        out.normal = n;
+        out.add(m_corners_a.at[a] + m_a.leaf->r0 * n, m_corners_b.at[b] - m_b.leaf->r0 * n, separation,
+                (0x4000u << 16) | (static_cast<std::uint32_t>(a) << 8) | static_cast<std::uint32_t>(b));
+        return true;
     }
 
     // Of what is apart: is the nearest corner ahead of the edge, so that no corner of the edge is nearer to it?

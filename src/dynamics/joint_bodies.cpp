@@ -20,13 +20,9 @@ float angle_of(Rotation turn)
     return static_cast<float>(arc_tangent(turn.s, turn.c));
 }
 
-struct Placed
-{
-    Vec2 shift{};
-    Rotation turn{};
-};
+} // namespace
 
-JointPose joint_pose(const JointWork& work, const Placed& a, const Placed& b)
+JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b)
 {
     JointPose pose;
     pose.ra = rotate(a.turn, work.ra0);
@@ -37,13 +33,11 @@ JointPose joint_pose(const JointWork& work, const Placed& a, const Placed& b)
     return pose;
 }
 
-Placed placed_ahead(const SolverView& view, std::int32_t state)
+Placement placed_ahead(const SolverView& view, std::int32_t state)
 {
     const BodyState& s = view.states[state];
     return {s.delta_position + drift(view, state), Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation};
 }
-
-} // namespace
 
 JointPose present_pose(const SolverView& view, const JointWork& work)
 {

@@ -303,11 +303,19 @@ void DirectSolve::note_speeds()
 
 void DirectSolve::note_errors_ahead()
 {
+    for (Node& n : m_nodes)
+    {
+        if (n.state != none)
+            n.ahead = placed_ahead(m_view, n.state);
+    }
+    const auto ahead_of = [&](const Node& n, std::int32_t state)
+    { return n.state != none ? n.ahead : placed_ahead(m_view, state); };
     int i = 0;
     while (i < m_count)
     {
         const JointWork& joint = work(row(i));
-        const JointRows ahead = holding_rows(m_state->joints[joint.joint], pose_ahead(m_view, joint));
+        const JointPose pose = joint_pose(joint, ahead_of(node(row(i).a), joint.a), ahead_of(node(row(i).b), joint.b));
+        const JointRows ahead = holding_rows(m_state->joints[joint.joint], pose);
         for (int r = 0; r < ahead.count; ++r)
             m_residual[static_cast<std::size_t>(i++)] = as_double(m_view.inverse_h) * as_double(ahead.rows[r].error);
     }

@@ -55,6 +55,15 @@ struct JointBodies
     return ((view.states[work.a].flags | view.states[work.b].flags) & body_flag::flier) != 0;
 }
 
+/// How far a body has come in the step.
+struct Placement
+{
+    Vec2 shift{};
+    Rotation turn{};
+};
+[[nodiscard]] Placement placed_ahead(const SolverView& view, std::int32_t state);
+[[nodiscard]] JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b);
+
 [[nodiscard]] JointPose present_pose(const SolverView& view, const JointWork& work);
 
 /// Poses and rows as the bodies stand now; of springs the pose alone.

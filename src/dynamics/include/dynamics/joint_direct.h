@@ -43,6 +43,7 @@ private:
         float stretch = 0; ///< (omega h)²
         Vec2 inverse_mass{};
         float inverse_inertia = 0;
+        Placement ahead{};
         Vec2 shift{}; ///< on the way to closed gaps
         float turn = 0;
     };

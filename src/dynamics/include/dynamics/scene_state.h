@@ -84,8 +84,9 @@ struct BodyState
 static_assert(sizeof(BodyState) == 32);
 
 /// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces.
-struct ShapeRecord
+struct alignas(64) ShapeRecord
 {
+    Leaf leaf{}; ///< first: what every contact reads
     std::int32_t body = none;
     std::int32_t owner = none;      ///< the public shape: itself, or the chain
     std::int32_t next_piece = none; ///< of a chain: its first piece; of a piece: the next
@@ -104,7 +105,6 @@ struct ShapeRecord
     double kick_ready = 0; ///< scene time from which the kick may fire again
     Filter filter{};
     Field field{};
-    Leaf leaf{};
 };
 
 struct ManifoldPoint

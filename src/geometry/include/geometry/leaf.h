@@ -30,6 +30,8 @@ struct Leaf
     Sides sides = Sides::Both;
     bool has_previous = false; ///< the seam at the start is shared with the piece before
     bool has_next = false;
+    std::int32_t first = 0; ///< polygon: vertices [first, first + count) of the store
+    std::int32_t count = 0;
     /// Circle: p0 center, r0 radius. Capsule: circles (p0, r0), (p1, r1). Segment: from p0 to p1, r0 = r1 half thickness.
     /// Half-space: p0 normal, r0 offset. Polygon: r0 corner radius. Arc: p0 center, r0 half thickness, p1 unit direction of its middle.
     Vec2 p0{};
@@ -44,8 +46,6 @@ struct Leaf
     Vec2 arc_end{};
     Vec2 previous_tangent{}; ///< direction in which the piece before arrives at the start
     Vec2 next_tangent{};     ///< direction in which the piece after leaves the end
-    std::int32_t first = 0;  ///< polygon: vertices [first, first + count) of the store
-    std::int32_t count = 0;
 };
 
 /// Vertices and outward edge normals of all polygons of a scene (edge i runs from vertex i to i + 1).
