@@ -9,7 +9,7 @@ BuiltScene kinematic_bar(const SceneDef& base)
 {
     BuiltScene built{Scene(base)};
     Scene& scene = built.scene;
-    add_trough(scene, 10, 10);
+    add_trough(scene, 10, 150);
     const BodyId bar = scene.create_body({.type = BodyType::Kinematic, .position = {-4, 4}, .angular_velocity = 3});
     scene.create_shape(bar, Capsule{{-3, 0}, {3, 0}, 0.2f, 0.2f});
     const BodyId piston = scene.create_body({.type = BodyType::Kinematic, .position = {12.5, 0.8}});

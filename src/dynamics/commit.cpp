@@ -70,7 +70,7 @@ bool is_sound(const BodyState& s, double x, double y)
 // size may have been led anywhere.
 bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 {
-    if (!ctx.scene.def.continuous || (s.flags & body_flag::flier) != 0)
+    if (!ctx.scene.def.continuous || (s.flags & (body_flag::flier | body_flag::alone)) != 0)
         return false;
     const float size = ctx.state.sims[static_cast<std::size_t>(body)].size;
     return dot(s.delta_position, s.delta_position) > size * size;

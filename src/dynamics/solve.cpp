@@ -752,6 +752,29 @@ void UnitSolver::record_poses(int k)
     }
 }
 
+// A parabola and an even turn, sub-step by sub-step as everything else; positions add up exactly.
+void fall(const StepContext& ctx, std::int32_t index)
+{
+    BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
+    const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(index)];
+    double x = 0;
+    double y = 0;
+    double angle = 0;
+    for (int k = 0; k < ctx.substeps; ++k)
+    {
+        s.velocity = c.linear_decay * (s.velocity + ctx.h * c.acceleration);
+        s.angular_velocity = c.angular_decay * (s.angular_velocity + ctx.h * c.angular_acceleration);
+        const Vec2 way =
+            ctx.h * s.velocity - (0.5f * ctx.h * ctx.h) * c.acceleration; // the mean of the velocities before and after
+        x += static_cast<double>(way.x);
+        y += static_cast<double>(way.y);
+        angle += static_cast<double>(ctx.h * s.angular_velocity);
+    }
+    s.delta_position = {static_cast<float>(x), static_cast<float>(y)};
+    if (angle != 0)
+        s.delta_rotation = Rotation::from_angle(static_cast<float>(angle));
+}
+
 } // namespace
 
 void solve_units(StepContext& ctx)
@@ -775,15 +798,20 @@ void solve_units(StepContext& ctx)
         starts.push_back(static_cast<std::int32_t>(i) + 1);
         bodies = 0;
     }
-    run_tasks(
-        ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
-        [&](int task)
-        {
-            UnitEnergy energy;
-            for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1]; ++u)
-                UnitSolver(ctx, scratch.units[static_cast<std::size_t>(u)], scratch.outputs[static_cast<std::size_t>(u)], energy)
-                    .run();
-        });
+    run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
+              [&](int task)
+              {
+                  UnitEnergy energy;
+                  for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1];
+                       ++u)
+                  {
+                      const Unit& unit = scratch.units[static_cast<std::size_t>(u)];
+                      if (unit.alone)
+                          fall(ctx, unit.first_state + 1);
+                      else
+                          UnitSolver(ctx, unit, scratch.outputs[static_cast<std::size_t>(u)], energy).run();
+                  }
+              });
 }
 
 } // namespace carom::internal

@@ -528,9 +528,10 @@ struct Builder
             unit.first_law = static_cast<std::int32_t>(scratch.laws.size());
             unit.precise = unit.state_count <= precise_limit;
             unit.dynamic_count = unit.state_count;
+            unit.alone = unit.dynamic_count == 1 && is_alone(sorted[static_cast<std::size_t>(first)]);
             add_fixed_state(none); // stands for every body that does not move, so that units share nothing
             for (int i = first; i < first + unit.state_count; ++i)
-                add_dynamic_state(unit_ctx, unit.precise, sorted[static_cast<std::size_t>(i)]);
+                add_dynamic_state(unit_ctx, unit, sorted[static_cast<std::size_t>(i)]);
             unit.flier_count = static_cast<std::int32_t>(scratch.fliers.size()) - unit.first_flier;
             unit.law_count = static_cast<std::int32_t>(scratch.laws.size()) - unit.first_law;
             for (int i = 0; i < unit.flier_count; ++i)
@@ -540,7 +541,7 @@ struct Builder
         }
     }
 
-    void add_dynamic_state(const StepContext& unit_ctx, bool precise, std::int32_t place)
+    void add_dynamic_state(const StepContext& unit_ctx, const Unit& unit, std::int32_t place)
     {
         const int body = state.awake_bodies[static_cast<std::size_t>(place)];
         const auto index = static_cast<std::int32_t>(scratch.states.size());
@@ -550,7 +551,12 @@ struct Builder
         scratch.state_bodies.push_back(body);
         if (force_law_of(ctx, body) != nullptr)
             scratch.laws.push_back({index, scratch.constants.back().angular_acceleration, scratch.constants.back().acceleration});
-        if (const std::int32_t kind = flight[static_cast<std::size_t>(place)]; kind != earthbound)
+        if (unit.alone)
+        {
+            scratch.states.back().flags |= body_flag::alone;
+            ++ctx.report.flight_bodies;
+        }
+        else if (const std::int32_t kind = flight[static_cast<std::size_t>(place)]; kind != earthbound)
         {
             scratch.states.back().flags |= body_flag::flier;
             ++ctx.report.flight_bodies;
@@ -559,11 +565,25 @@ struct Builder
             scratch.fliers.push_back(make_flier(unit_ctx, index, body, kind));
         }
         else if (const std::int32_t could = grounded[static_cast<std::size_t>(place)];
-                 could != earthbound && (precise || may_take_off(place, could)))
+                 could != earthbound && (unit.precise || may_take_off(place, could)))
         {
             scratch.fliers.push_back(make_flier(unit_ctx, index, body, could));
             scratch.fliers.back().landed = true;
         }
+    }
+
+    [[nodiscard]] bool is_free_of_loads(int body) const
+    {
+        const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+        return sim.force == Vec2{} && sim.torque == 0 && force_law_of(ctx, body) == nullptr;
+    }
+
+    [[nodiscard]] bool is_alone(std::int32_t place) const
+    {
+        const int body = state.awake_bodies[static_cast<std::size_t>(place)];
+        const BodyRecord& record = state.bodies[body];
+        return flight[static_cast<std::size_t>(place)] == none && record.first_contact == none && record.first_joint == none &&
+               is_free_of_loads(body) && !ctx.scene.def.record_substeps;
     }
 
     // In a crowd only what flies, or a law, makes anything fast enough to fly within the step.

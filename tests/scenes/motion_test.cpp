@@ -41,7 +41,7 @@ TEST(KinematicBar, NoBallIsPushedThroughFloorOrWall)
     for (int i = 0; i < 900; ++i)
     {
         run.steps(1);
-        ASSERT_NO_FATAL_FAILURE(expect_inside(run, {{-10, 0}, {10, 30}}));
+        ASSERT_NO_FATAL_FAILURE(expect_inside(run, {{-10, 0}, {10, 150}}));
     }
 }
 

@@ -70,6 +70,7 @@ inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning 
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
 inline constexpr std::uint32_t traced = 32;   ///< its path is recorded: it is near a trigger
 inline constexpr std::uint32_t unsound = 64;  ///< its force law gave what is no force: it is put aside after the step
+inline constexpr std::uint32_t alone = 128;   ///< free, with nothing near that it could meet in this step
 } // namespace body_flag
 
 /// What every solver pass touches. Pose changes count from the start of the step.

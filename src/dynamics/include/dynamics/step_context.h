@@ -46,6 +46,7 @@ struct Unit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
     std::int32_t slices = 1; ///< of each sub-step
+    bool alone = false;      ///< one body with nothing near: it falls
     bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
     bool traced = false;     ///< paths of some of its bodies are recorded
 };
