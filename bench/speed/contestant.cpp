@@ -1,29 +1,12 @@
 #include "speed/contestant.h"
 
+#include "carom/scene.h"
+
 namespace speed {
-namespace {
-
-// The engine's kernels are compiled for what the whole build is compiled for.
-const char* carom_isa()
-{
-#if defined(__AVX512F__)
-    return "avx512";
-#elif defined(__AVX2__)
-    return "avx2";
-#elif defined(__x86_64__)
-    return "sse2";
-#elif defined(__aarch64__)
-    return "neon";
-#else
-    return "scalar";
-#endif
-}
-
-} // namespace
-
 std::vector<Contender> contenders()
 {
-    std::vector<Contender> list{{"carom", std::string("Carom ") + CAROM_VERSION_STRING, carom_isa(), 64, enter_carom}};
+    std::vector<Contender> list{
+        {"carom", std::string("Carom ") + CAROM_VERSION_STRING, carom::instruction_set(), 64, enter_carom}};
     for (const truth::Engine& engine : truth::engines())
     {
         if (engine.peer)

@@ -1,6 +1,7 @@
 // Stage 3, contacts: manifolds of awake pairs, begins and ends. The first pass writes only to its own contact and may run on any thread; the
 // second goes through the results in order.
 
+#include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 
@@ -169,21 +170,43 @@ News news_of(const StepContext& ctx, const Contact& contact)
     return !touching && one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
 
-} // namespace
+constexpr int contacts_per_task = 512;
 
-void update_contacts(StepContext& ctx)
+// Writes to its own contacts alone.
+void update_some(const StepContext& ctx, int first, int last, std::vector<ContactNews>& news)
 {
-    SceneState& state = ctx.state;
-    std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
-    for (const std::int32_t index : state.awake_contacts)
+    for (int i = first; i < last; ++i)
     {
-        Contact& contact = state.contacts[index];
+        const std::int32_t index = ctx.state.awake_contacts[static_cast<std::size_t>(i)];
+        Contact& contact = ctx.state.contacts[index];
         update_manifold(ctx, contact);
         contact.flags &= ~contact_flag::fresh;
         if (const News what = news_of(ctx, contact); what != News::Nothing)
             news.push_back({index, what});
     }
+}
+
+} // namespace
+
+void update_contacts(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    const auto count = static_cast<int>(state.awake_contacts.size());
+    const int tasks = (count + contacts_per_task - 1) / contacts_per_task;
+    std::vector<std::vector<ContactNews>>& parts = ctx.scratch.news_of_task;
+    if (static_cast<int>(parts.size()) < tasks)
+        parts.resize(static_cast<std::size_t>(tasks));
+    run_tasks(ctx.scene.def.tasks, tasks,
+              [&](int task)
+              {
+                  const int first = task * contacts_per_task;
+                  update_some(ctx, first, std::min(first + contacts_per_task, count), parts[static_cast<std::size_t>(task)]);
+              });
+    std::vector<ContactNews>& news = ctx.scratch.news;
+    news.clear();
+    for (int i = 0; i < tasks; ++i)
+        news.insert(news.end(), parts[static_cast<std::size_t>(i)].begin(), parts[static_cast<std::size_t>(i)].end());
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)

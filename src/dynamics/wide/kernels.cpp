@@ -1,7 +1,9 @@
 // Which set of kernels this machine runs.
 
+#include "carom/scene.h"
 #include "dynamics/wide_kernels.h"
 
+#include <array>
 #include <cstdlib>
 #include <string_view>
 
@@ -21,28 +23,59 @@ extern const WideKernels kernels;
 
 namespace {
 
-const WideKernels& choose()
+struct Sets
 {
+    std::array<const WideKernels*, 3> list{&baseline::kernels};
+    std::size_t count = 1;
+
+    Sets()
+    {
 #if defined(__x86_64__)
-    const char* wish = std::getenv("CAROM_ISA");
-    const std::string_view most = wish != nullptr ? wish : "avx512";
-    __builtin_cpu_init();
-    const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-    const bool has_avx512 = __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0;
-    if (most == "avx512" && has_avx512)
-        return avx512::kernels;
-    if (most != "sse2" && has_avx2)
-        return avx2::kernels;
+        __builtin_cpu_init();
+        if (__builtin_cpu_supports("avx2") != 0)
+            list[count++] = &avx2::kernels;
+        if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0)
+            list[count++] = &avx512::kernels;
 #endif
-    return baseline::kernels;
+    }
+};
+
+const Sets& sets()
+{
+    static const Sets all;
+    return all;
+}
+
+// The wish is the most that may be used; what the machine has not, or nobody knows, is no wish.
+const WideKernels* choose()
+{
+    const char* wish = std::getenv("CAROM_ISA");
+    for (std::size_t i = 0; wish != nullptr && i < sets().count; ++i)
+    {
+        if (std::string_view(wish) == sets().list[i]->name)
+            return sets().list[i];
+    }
+    return sets().list[sets().count - 1];
+}
+
+const WideKernels*& chosen()
+{
+    static const WideKernels* kernels = choose();
+    return kernels;
 }
 
 } // namespace
 
-const WideKernels& wide_kernels()
-{
-    static const WideKernels& chosen = choose();
-    return chosen;
-}
+const WideKernels& wide_kernels() { return *chosen(); }
+
+std::span<const WideKernels* const> all_wide_kernels() { return {sets().list.data(), sets().count}; }
+
+void use_wide_kernels(const WideKernels& kernels) { chosen() = &kernels; }
 
 } // namespace carom::internal
+
+namespace carom {
+
+const char* instruction_set() { return internal::wide_kernels().name; }
+
+} // namespace carom

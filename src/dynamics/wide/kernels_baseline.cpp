@@ -1,4 +1,10 @@
 // For what every machine of the platform has.
 #define CAROM_ISA baseline
+#if defined(__x86_64__)
+#define CAROM_ISA_NAME "sse2"
+#elif defined(__aarch64__)
+#define CAROM_ISA_NAME "neon"
+#else
 #define CAROM_ISA_NAME "baseline"
+#endif
 #include "kernels.inl"

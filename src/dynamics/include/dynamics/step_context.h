@@ -172,6 +172,7 @@ struct Scratch
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
+    std::vector<std::vector<ContactNews>> news_of_task;
     std::vector<Link> links;
     std::vector<Link> solved_links; ///< those that get rows, by unit
     std::vector<std::int32_t> solved_joints;

@@ -5,6 +5,8 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
+#include <span>
+
 namespace carom::internal {
 
 /// The passes over wide rows and joints, compiled for one instruction set. Every set does the same, bit for bit.
@@ -24,7 +26,13 @@ struct WideKernels
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
 };
 
-/// The best that this machine has, or CAROM_ISA asks for (sse2, avx2, avx512); chosen once.
+/// The best that this machine has, or that CAROM_ISA allows (sse2, avx2, avx512); chosen once.
 [[nodiscard]] const WideKernels& wide_kernels();
+
+/// All that this machine can run, the best last.
+[[nodiscard]] std::span<const WideKernels* const> all_wide_kernels();
+
+/// For tests, while no scene steps.
+void use_wide_kernels(const WideKernels& kernels);
 
 } // namespace carom::internal

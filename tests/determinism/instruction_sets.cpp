@@ -1,0 +1,71 @@
+// The ten scenes of the benchmark: the same bits with every instruction set and any number of threads.
+
+#include "carom/carom.h"
+#include "dynamics/wide_kernels.h"
+#include "scenes/scenes.h"
+#include "support/slow_build.h"
+
+#include <gtest/gtest.h>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace carom;
+
+namespace {
+
+constexpr int steps = test::slow_build ? 3 : 60;
+
+void run_on_threads(void* user, int count, void (*task)(void*, int), void* context)
+{
+    const int workers = *static_cast<int*>(user);
+    std::vector<std::thread> threads;
+    for (int w = 0; w < workers; ++w)
+        threads.emplace_back(
+            [=]
+            {
+                for (int i = w; i < count; i += workers)
+                    task(context, i);
+            });
+    for (std::thread& t : threads)
+        t.join();
+}
+
+std::uint64_t hash_after(const scenes::SceneEntry& entry, int workers)
+{
+    SceneDef def;
+    if (workers > 1)
+        def.tasks = {.worker_count = workers, .run = run_on_threads, .user = &workers};
+    scenes::BuiltScene built = entry.create(def);
+    for (int i = 0; i < steps; ++i)
+        built.step(entry.h);
+    return built.scene.state_hash();
+}
+
+class TenScenes : public ::testing::TestWithParam<const char*>
+{};
+
+TEST_P(TenScenes, EndInTheSameBits)
+{
+    const scenes::SceneEntry* entry = scenes::find_scene(GetParam());
+    ASSERT_NE(entry, nullptr);
+    const internal::WideKernels& best = internal::wide_kernels();
+    const std::uint64_t want = hash_after(*entry, 1);
+    for (const internal::WideKernels* kernels : internal::all_wide_kernels())
+    {
+        if (kernels == &best)
+            continue;
+        internal::use_wide_kernels(*kernels);
+        EXPECT_EQ(hash_after(*entry, 1), want) << kernels->name << " against " << best.name;
+    }
+    internal::use_wide_kernels(best);
+    for (const int workers : {2, 3, 8})
+        EXPECT_EQ(hash_after(*entry, workers), want) << workers << " threads";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TenScenes,
+                         ::testing::Values("compounds", "joint_grid", "junkyard", "large_pyramid", "many_pyramids", "rain",
+                                           "smash", "spinner", "tumbler", "washer"),
+                         [](const auto& name) { return std::string(name.param); });
+
+} // namespace
