@@ -15,6 +15,7 @@
 #include "dynamics/unit_energy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace carom::internal {
@@ -43,6 +44,7 @@ void UnitOutput::clear()
 namespace {
 
 constexpr int turns = 3;
+constexpr int settle_turns = 16;
 constexpr float follow_turn = 0.03f; // rad
 
 // Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
@@ -203,19 +205,59 @@ private:
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
 
-    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word.
+    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word. Contacts of a few bodies are solved until
+    // they agree: what a wall stops last still comes into its neighbours, and overlap is pushed out against the forces.
     void solve(bool use_bias)
     {
         const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
-        for (int turn = 0; turn < (alternate ? turns : 1); ++turn)
+        const bool settles = m_unit.precise && m_rows.size() + late_rows().size() > 1;
+        const int most = settles ? settle_turns : alternate ? turns : 1;
+        for (int turn = 0; turn < most; ++turn)
         {
+            if (settles)
+                note_velocities();
             if (!m_joints.empty())
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
+            if (settles && have_settled() && (!alternate || turn + 1 >= turns))
+                break;
         }
         if (alternate)
             m_output.direct->solve(use_bias);
+    }
+
+    struct Velocity
+    {
+        Vec2 linear;
+        float angular;
+    };
+
+    void note_velocities()
+    {
+        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            m_velocities[static_cast<std::size_t>(i)] = {s.velocity, s.angular_velocity};
+        }
+    }
+
+    // No body's speed has changed by more than a hundredth of the slop per sub-step.
+    [[nodiscard]] bool have_settled() const
+    {
+        const float tiny = 0.01f * m_ctx.scene.tolerances.slop * m_view.inverse_h;
+        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            const StateConstants& c = m_view.constants[m_unit.first_state + 1 + i];
+            const Velocity& old = m_velocities[static_cast<std::size_t>(i)];
+            const Vec2 dv = s.velocity - old.linear;
+            const float dw = s.angular_velocity - old.angular;
+            const float turning = c.inverse_inertia > 0 ? dw * dw * c.inverse_mass.x / c.inverse_inertia : 0;
+            if (dot(dv, dv) + turning > tiny * tiny)
+                return false;
+        }
+        return true;
     }
 
     // x += h v
@@ -586,6 +628,7 @@ private:
     SolverView m_view;
     std::span<ContactRow> m_rows;
     std::span<JointWork> m_joints;
+    std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise units
 };
 
 void UnitSolver::record_poses(int k)

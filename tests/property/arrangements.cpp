@@ -9,7 +9,7 @@ std::span<const Arrangement> arrangements()
         {"BallAtBody", 5000, ball_at_body},
         {"BallAtArc", 3000, ball_at_arc},
         {"BallAtClosedChain", 3000, ball_at_closed_chain},
-        {"BallInRoom", 5000, ball_in_room, false},
+        {"BallInRoom", 5000, ball_in_room},
         {"BallInRoundRoom", 4000, ball_in_round_room, false},
         {"BallInWedge", 3000, ball_in_wedge, false},
         {"PieceAtWall", 5000, piece_at_wall, false},
