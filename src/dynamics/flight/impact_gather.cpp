@@ -54,7 +54,8 @@ int ImpactSet::member_of(int body)
         m.flier = m_span.flier_at(m.state);
         if (m.flier != nullptr)
         {
-            advance(m_span, *m.flier, m_time);
+            if (!is_capped(*m.flier))
+                advance(m_span, *m.flier, m_time);
             released.assign(m.flier->held, m.flier->held + m.flier->held_count);
             release_holds(m_span, *m.flier, m_time);
             m.changed = !released.empty();

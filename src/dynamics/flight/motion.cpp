@@ -282,9 +282,6 @@ void turn_frame(Rotation q, double angle, FramePath& path)
     path.s = turn.sin * static_cast<double>(q.c) + turn.cos * static_cast<double>(q.s);
 }
 
-// What has hit things too often stays where it is until the sub-step is over.
-bool is_capped(const Flier& f) { return f.impacts >= impact_limit; }
-
 void follow_flier(const Flier& f, const BodySim& sim, double time, FramePath& path)
 {
     const double t = is_capped(f) ? 0 : time - f.time;
