@@ -12,6 +12,7 @@ namespace carom::internal {
 namespace {
 
 constexpr double hold_turn = 0.05; // rad: so far a hold is followed before it is looked at again
+constexpr double at_once = 0.01;   // of a sub-step
 
 } // namespace
 
@@ -29,7 +30,7 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
     std::vector<Pressing> pressing;
     for (std::size_t i = 0; i < m_rows.size(); ++i)
     {
-        if (m_rows[i].kind == ImpactRow::Kind::Hold || std::fabs(gap_rate(m_bodies, m_rows[i])) > 2 * m_span.least_approach)
+        if (m_rows[i].kind == ImpactRow::Kind::Hold || !has_stopped(i))
             continue;
         if (both_give_way(m_rows[i]))
             rest_on_each_other(m_rows[i], m_sources[i]);
@@ -51,6 +52,15 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
     }
     for (std::size_t i = 0; i < m_members.size(); ++i)
         accelerate(m_members[i], accelerations[i], changed);
+}
+
+// Friction on an arm may lift what rests: where the pressing acceleration ends that at once, it is no hop.
+bool ImpactSet::has_stopped(std::size_t i)
+{
+    const double rate = std::fabs(gap_rate(m_bodies, m_rows[i]));
+    if (rate <= 2 * m_span.least_approach)
+        return true;
+    return m_sources[i].rests && rate < -at_once * m_span.h * gap_acceleration(i);
 }
 
 bool ImpactSet::both_give_way(const ImpactRow& row) const

@@ -79,6 +79,7 @@ private:
 
     // What goes on pressing: impact_hold.cpp
     void hold_what_presses(std::vector<std::int32_t>& changed);
+    [[nodiscard]] bool has_stopped(std::size_t i);
     [[nodiscard]] bool both_give_way(const ImpactRow& row) const;
     void rest_on_each_other(const ImpactRow& row, const Source& s);
     void accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const;
