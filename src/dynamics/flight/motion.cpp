@@ -218,12 +218,22 @@ bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, doubl
     return span.h * (std::sqrt(vx * vx + vy * vy) + std::fabs(w) * static_cast<double>(sim.extent)) > 0.5 * f.size;
 }
 
+namespace {
+
+// By something that it runs along: a bend in a wall leads a ball around, out of what lay on its way.
+bool is_led_astray(const FlightSpan& span, const BodySim& sim, const BodyState& s)
+{
+    return span.ctx.dt * length(s.velocity - sim.velocity) > span.ctx.scene.tolerances.box_margin;
+}
+
+} // namespace
+
 bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
 {
-    if (!f.deflected)
-        return false;
     const BodySim& sim = span.sim_of(f.body);
     const BodyState& s = span.state_of(f.state);
+    if (!f.deflected && !is_led_astray(span, sim, s))
+        return false;
     const Rotation q = s.delta_rotation * sim.rotation;
     const Pose pose{sim.center + s.delta_position - rotate(q, sim.local_center), q};
     const float ahead = span.ctx.h * (length(s.velocity) + std::fabs(s.angular_velocity) * sim.extent);
