@@ -356,6 +356,8 @@ private:
 
     void predict_bend(ContactRow& row) const
     {
+        if (row.followed != 0 && is_carried(row))
+            predict_turn(row);
         if (row.refreshed == 0 || row.count != 1)
             return;
         RowPoint& p = row.points[0];
@@ -373,6 +375,30 @@ private:
         p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
     }
 
+    // By a kinematic body that turns.
+    [[nodiscard]] bool is_carried(const ContactRow& row) const
+    {
+        const auto carries = [](const BodyState& s) { return (s.flags & body_flag::dynamic) == 0 && s.angular_velocity != 0; };
+        return carries(m_view.states[row.a]) || carries(m_view.states[row.b]);
+    }
+
+    // Of corners and edges, to second order in the turn: points go around, and the face of a, or of b, turns meanwhile.
+    void predict_turn(ContactRow& row) const
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const float wa = a.angular_velocity;
+        const float wb = b.angular_velocity;
+        const float turning = 0.5f * m_ctx.h * m_ctx.h;
+        for (int i = 0; i < row.count; ++i)
+        {
+            RowPoint& p = row.points[i];
+            const Vec2 v = b.velocity + cross(wb, p.rb) - a.velocity - cross(wa, p.ra);
+            p.predicted_bend =
+                turning * (wa * wa * dot(row.n, p.ra) - wb * wb * dot(row.n, p.rb) + (wa + wb) * dot(perp(row.n), v));
+        }
+    }
+
     void refresh_rows()
     {
         for (const std::span<ContactRow> rows : {m_rows, late_rows()})
@@ -387,12 +413,15 @@ private:
         }
     }
 
-    // Corners and edges that have turned face each other elsewhere. (Rows without points are of bodies that have taken off.)
+    // Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
     void follow(ContactRow& row)
     {
+        if (row.count == 0)
+            return; // of a body that has taken off
         const BodyState& a = m_view.states[row.a];
         const BodyState& b = m_view.states[row.b];
-        if (row.count == 0 || (!has_turned(row.turn_a, a.delta_rotation) && !has_turned(row.turn_b, b.delta_rotation)))
+        const float least = (is_carried(row) ? 0.1f : 1.0f) * follow_turn;
+        if (!has_turned(row.turn_a, a.delta_rotation, least) && !has_turned(row.turn_b, b.delta_rotation, least))
             return;
         Manifold fresh = manifold_of(row.contact, row, 0);
         carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
@@ -400,9 +429,9 @@ private:
         m_ctx.state.contacts[row.contact].manifold = fresh;
     }
 
-    [[nodiscard]] static bool has_turned(Rotation from, Rotation to)
+    [[nodiscard]] static bool has_turned(Rotation from, Rotation to, float least)
     {
-        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > follow_turn;
+        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > least;
     }
 
     void refresh_row(ContactRow& row)
