@@ -11,8 +11,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double hold_turn = 0.05; // rad: so far a hold is followed before it is looked at again
-constexpr double at_once = 0.01;   // of a sub-step
+constexpr double hold_turn = 0.05;       // rad: so far a hold is followed before it is looked at again
+constexpr double at_once = 0.01;         // of a sub-step
+constexpr double least_hold = 1.0 / 256; // of a sub-step
 
 } // namespace
 
@@ -54,13 +55,14 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
         accelerate(m_members[i], accelerations[i], changed);
 }
 
-// Friction on an arm may lift what rests: where the pressing acceleration ends that at once, it is no hop.
+// Friction on an arm may lift what rests, and the way along a bend what is held: where the pressing acceleration ends that at once, it is no hop.
 bool ImpactSet::has_stopped(std::size_t i)
 {
     const double rate = std::fabs(gap_rate(m_bodies, m_rows[i]));
     if (rate <= 2 * m_span.least_approach)
         return true;
-    return m_sources[i].rests && rate < -at_once * m_span.h * gap_acceleration(i);
+    const Source& s = m_sources[i];
+    return (s.rests || was_held(s.own, s.other)) && rate < -at_once * m_span.h * gap_acceleration(i);
 }
 
 bool ImpactSet::both_give_way(const ImpactRow& row) const
@@ -201,7 +203,7 @@ void ImpactSet::set_hold_time(std::size_t i)
     for (const int member : {row.a, row.b})
     {
         if (Flier* f = m_members[static_cast<std::size_t>(member)].flier; f != nullptr && turn > 0)
-            f->hold_until = std::min(f->hold_until, m_time + hold_turn / turn);
+            f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
     }
 }
 
