@@ -287,7 +287,8 @@ Touch touch_of(const Sight& sight, double t, bool probe_on_a)
 {
     const double sign = probe_on_a ? -1 : 1; // n runs from the surface to the probe
     return {t,          sight.point.x,      sight.point.y,   sign * sight.n.x, sign * sight.n.y,
-            sight.rate, sight.acceleration, sight.curvature, sight.feature};
+            sight.rate, sight.acceleration, sight.curvature, sight.feature,    0,
+            probe_on_a};
 }
 
 // Touching, it cannot approach faster than least_approach before the bend has had its time; and hardly before the gap's own acceleration,
@@ -438,14 +439,16 @@ bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, c
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach, double wait)
+                                 double duration, double least_approach, double wait, const ProbeSet& held)
 {
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Touch> first;
     for_each_probe_pair(
         a, b,
-        [&](const Probe& probe, bool on_a)
+        [&](const Probe& probe, int number, bool on_a)
         {
+            if (held.has(number, on_a))
+                return;
             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
             const double left = first ? first->time : duration;
             const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach, wait);
@@ -471,14 +474,16 @@ Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& 
     const double length = std::min(probe_size(a), probe_size(b));
     Touches touches;
     for_each_probe_pair(a, b,
-                        [&](const Probe& probe, bool on_a)
+                        [&](const Probe& probe, int number, bool on_a)
                         {
                             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0,
                                                     length);
                             const Sight sight = approach.look(0);
                             if (!sight.faces || sight.distance > tolerance || touches.count == Touches::capacity)
                                 return;
-                            const Touch t = touch_of(sight, 0, on_a);
+                            Touch t = touch_of(sight, 0, on_a);
+                            t.probe = number;
+                            t.probe_on_a = on_a;
                             if (!is_known(touches, t, length))
                                 touches.list[touches.count++] = t;
                         });

@@ -10,12 +10,19 @@
 
 namespace carom::internal {
 
-bool holds(const Flier& f, std::int32_t own, std::int32_t other)
-{
-    return std::any_of(f.held, f.held + f.held_count, [&](const Hold& h) { return h.own == own && h.other == other; });
-}
-
 namespace {
+
+// Of a pair whose other corners may come down yet: held at one of them it turns about that.
+ProbeSet held_corners(const Flier& f, std::int32_t own, std::int32_t other)
+{
+    ProbeSet held;
+    for (int i = 0; i < f.held_count; ++i)
+    {
+        if (f.held[i].own == own && f.held[i].other == other)
+            held.add(f.held[i].probe, !f.held[i].is_own_probe);
+    }
+    return held;
+}
 
 // Of two that both give way none holds the other; what presses them together is taken in small blows, so often in a sub-step at the most.
 constexpr double press_time = 1.0 / 4;
@@ -161,8 +168,6 @@ private:
 
     void consider(int own, int shape, int contact)
     {
-        if (holds(m_flier, own, shape))
-            return;
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
         if (is_out_of_reach(body))
@@ -177,9 +182,9 @@ private:
         const FramePath own_path = start > m_flier.time ? path_after(m_own_path, start - m_flier.time) : m_own_path;
         if (stays_away(own, shape, target, own_path, contact, left))
             return;
-        const std::optional<Touch> hit =
-            first_touch(leaf_view(state, shape), target, leaf_view(state, own), own_path, left, m_span.least_approach,
-                        state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0);
+        const std::optional<Touch> hit = first_touch(
+            leaf_view(state, shape), target, leaf_view(state, own), own_path, left, m_span.least_approach,
+            state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0, held_corners(m_flier, own, shape));
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.

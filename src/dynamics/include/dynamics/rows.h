@@ -128,6 +128,8 @@ struct Hold
     float friction = 0;         ///< along perp(normal), N
     double start = 0;           ///< time of the sub-step
     std::int32_t solved = none; ///< state of the other body, where the solver has it and not flight
+    std::int32_t probe = 0;     ///< the corner that rests
+    bool is_own_probe = false;  ///< whose that is
 };
 
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
