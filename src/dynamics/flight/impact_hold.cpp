@@ -12,7 +12,8 @@ namespace carom::internal {
 namespace {
 
 constexpr double hold_turn = 0.05;       // rad: so far a hold is followed before it is looked at again
-constexpr double at_once = 0.01;         // of a sub-step
+constexpr double at_once = 0.002;        // of a sub-step
+constexpr double at_once_held = 0.01;    // for what was held already
 constexpr double least_hold = 1.0 / 256; // of a sub-step
 
 } // namespace
@@ -62,7 +63,8 @@ bool ImpactSet::has_stopped(std::size_t i)
     if (rate <= 2 * m_span.least_approach)
         return true;
     const Source& s = m_sources[i];
-    return (s.rests || was_held(s.own, s.other)) && rate < -at_once * m_span.h * gap_acceleration(i);
+    const double part = was_held(s.own, s.other) ? at_once_held : s.rests ? at_once : 0;
+    return part > 0 && rate < -part * m_span.h * gap_acceleration(i);
 }
 
 bool ImpactSet::both_give_way(const ImpactRow& row) const
