@@ -20,7 +20,7 @@ std::span<const Arrangement> arrangements()
         {"StraightPair", 4000, straight_pair},
         {"SpinningPair", 5000, spinning_pair, false},
         {"Tube", 5000, tube, false},
-        {"BallAtPlate", 4000, ball_at_plate, false},
+        {"BallAtPlate", 4000, ball_at_plate},
         {"PieceAtPlate", 3000, piece_at_plate},
         {"BallAtTurningBar", 4000, ball_at_turning_bar},
         {"Drum", 3000, drum, false},
@@ -28,7 +28,7 @@ std::span<const Arrangement> arrangements()
         {"ThroughTrigger", 4000, ball_through_trigger},
         {"Crowd", 4000, crowd, false},
         {"Pile", 3000, pile, false},
-        {"PendulumStruck", 3000, pendulum_struck, false},
+        {"PendulumStruck", 3000, pendulum_struck},
         {"JointsInRoom", 3000, joints_in_room, false},
         {"SpringsInRoom", 1000, springs_in_room, false},
     };

@@ -187,6 +187,11 @@ void ImpactSet::add_hold(Flier& f, const Hold& h) const
 {
     const bool firm = m_state.bodies[m_state.shapes[h.other].body].type != BodyType::Dynamic;
     f.led = firm && (f.led || f.held_count == 0);
+    const BodySim& holder = m_span.sim_of(m_state.shapes[h.other].body);
+    const bool drifts =
+        firm && m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Kinematic && holder.angular_velocity == 0;
+    f.lead_x = drifts ? static_cast<double>(holder.velocity.x) : 0;
+    f.lead_y = drifts ? static_cast<double>(holder.velocity.y) : 0;
     const bool still = m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Static &&
                        m_state.shapes[h.other].surface_speed == 0 && m_state.shapes[h.own].surface_speed == 0;
     f.on_still = still && (f.on_still || f.held_count == 0);

@@ -114,6 +114,10 @@ namespace {
 // speed by both.
 void follow_surface(Flier& f, double t)
 {
+    f.vx -= f.lead_x;
+    f.vy -= f.lead_y;
+    f.x += t * f.lead_x;
+    f.y += t * f.lead_y;
     const double speed = std::sqrt(f.vx * f.vx + f.vy * f.vy);
     const double along = (f.vx * f.ax + f.vy * f.ay) / speed;
     const double turn = t * (f.vx * f.ay - f.vy * f.ax) / (speed * speed);
@@ -127,8 +131,8 @@ void follow_surface(Flier& f, double t)
     f.y += chord * (half.sin * ux + half.cos * uy);
     const SinCos full = sin_cos(turn);
     const double after = speed + t * along;
-    f.vx = after * (full.cos * ux - full.sin * uy);
-    f.vy = after * (full.sin * ux + full.cos * uy);
+    f.vx = after * (full.cos * ux - full.sin * uy) + f.lead_x;
+    f.vy = after * (full.sin * ux + full.cos * uy) + f.lead_y;
     const double ax = f.ax;
     f.ax = full.cos * ax - full.sin * f.ay;
     f.ay = full.sin * ax + full.cos * f.ay;
@@ -146,7 +150,9 @@ void follow_parabola(Flier& f, double t)
 // of the velocity means nothing.
 bool is_led(const Flier& f, double t)
 {
-    return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < f.vx * f.vx + f.vy * f.vy;
+    const double vx = f.vx - f.lead_x;
+    const double vy = f.vy - f.lead_y;
+    return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < vx * vx + vy * vy;
 }
 
 // Twice the energy of motion, less what the free acceleration gives along the way: what a still surface may only take from.
@@ -180,9 +186,41 @@ void take_gain(const FlightSpan& span, Flier& f, double before)
 
 } // namespace
 
+namespace {
+
+// Of a body on a hinge: what even forces give along its way, over the moment of inertia.
+double work_on_hinge(const FlightSpan& span, const Flier& f, double from)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    const BodySim& sim = span.sim_of(f.body);
+    const SinCos p = sin_cos(from);
+    const SinCos q = sin_cos(f.angle);
+    const double x = (q.cos - p.cos) * f.arm_x - (q.sin - p.sin) * f.arm_y;
+    const double y = (q.sin - p.sin) * f.arm_x + (q.cos - p.cos) * f.arm_y;
+    return f.inverse_inertia *
+           (static_cast<double>(sim.mass) *
+                (static_cast<double>(c.acceleration.x) * x + static_cast<double>(c.acceleration.y) * y) +
+            static_cast<double>(sim.inertia) * static_cast<double>(c.angular_acceleration) * (f.angle - from));
+}
+
+// Verlet's speed is off by the third order of the step; that of the energy is not, where it does not turn back.
+void swing(const FlightSpan& span, Flier& f, double t, double from, double before)
+{
+    const double there = turning_acceleration(span, f, f.angle);
+    f.w += 0.5 * t * (there - f.alpha);
+    f.alpha = there;
+    const double square = before * before + 2 * work_on_hinge(span, f, from);
+    if (f.w * before > 0 && square > 0.25 * f.w * f.w)
+        f.w = std::copysign(std::sqrt(square), f.w);
+}
+
+} // namespace
+
 void advance(const FlightSpan& span, Flier& f, double time)
 {
     const double t = time - f.time;
+    const double angle = f.angle;
+    const double w = f.w;
     const bool is_kept = f.held_count > 0 && f.on_still && f.joint == none;
     const double before = is_kept ? energy_of(span, f) : 0;
     is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
@@ -193,9 +231,7 @@ void advance(const FlightSpan& span, Flier& f, double time)
         take_gain(span, f, before);
     if (f.joint == none || f.constrained || t == 0)
         return;
-    const double there = turning_acceleration(span, f, f.angle);
-    f.w += 0.5 * t * (there - f.alpha);
-    f.alpha = there;
+    swing(span, f, t, angle, w);
 }
 
 CenterMotion center_of(const Flier& f)

@@ -173,8 +173,10 @@ struct Flier
     static constexpr int most_held = 12;
     Hold held[most_held];
     std::int32_t held_count = 0;
-    bool rests = false;    ///< against something that gives way
-    bool led = false;      ///< what holds it does not give way
+    bool rests = false; ///< against something that gives way
+    bool led = false;   ///< what holds it does not give way
+    double lead_x = 0;  ///< velocity of that where it does not turn
+    double lead_y = 0;
     bool on_still = false; ///< what holds it does not move at all, nor does its surface
     double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 
