@@ -13,7 +13,7 @@ std::span<const Arrangement> arrangements()
         {"BallInRoundRoom", 4000, ball_in_round_room, false},
         {"BallInWedge", 3000, ball_in_wedge, false},
         {"PieceAtWall", 5000, piece_at_wall},
-        {"PieceInRoom", 5000, piece_in_room, false},
+        {"PieceInRoom", 5000, piece_in_room},
         {"PieceInRoundRoom", 4000, piece_in_round_room, false},
         {"PieceInWedge", 3000, piece_in_wedge, false},
         {"BallPair", 5000, ball_pair},

@@ -171,13 +171,13 @@ void ImpactSet::hold(const Pressing& p)
            static_cast<float>(p.friction),
            m_time,
            a == nullptr ? m_members[static_cast<std::size_t>(row.a)].state : none,
-           s.touch.probe,
-           !s.touch.probe_on_a};
+           s.touch.probes.of_b,
+           s.touch.probes.of_a};
     if (b != nullptr)
         add_hold(*b, h);
     std::swap(h.own, h.other);
     h.normal = -h.normal;
-    h.is_own_probe = !h.is_own_probe;
+    std::swap(h.own_corners, h.other_corners);
     h.solved = b == nullptr ? m_members[static_cast<std::size_t>(row.b)].state : none;
     if (a != nullptr)
         add_hold(*a, h);

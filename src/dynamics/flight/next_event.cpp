@@ -18,8 +18,11 @@ ProbeSet held_corners(const Flier& f, std::int32_t own, std::int32_t other)
     ProbeSet held;
     for (int i = 0; i < f.held_count; ++i)
     {
-        if (f.held[i].own == own && f.held[i].other == other)
-            held.add(f.held[i].probe, !f.held[i].is_own_probe);
+        const Hold& h = f.held[i];
+        if (h.own != own || h.other != other)
+            continue;
+        held.of_a |= h.other_corners;
+        held.of_b |= h.own_corners;
     }
     return held;
 }

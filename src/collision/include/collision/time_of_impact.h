@@ -40,6 +40,16 @@ struct FramePath
 /// The same path run backwards from t = 0.
 [[nodiscard]] FramePath run_back(const FramePath& path);
 
+/// Corners of both leaves, a bit each.
+struct ProbeSet
+{
+    std::uint32_t of_a = 0;
+    std::uint32_t of_b = 0;
+
+    void add(int probe, bool on_a) { (on_a ? of_a : of_b) |= std::uint32_t{1} << (probe & 31); }
+    [[nodiscard]] bool has(int probe, bool on_a) const { return (((on_a ? of_a : of_b) >> (probe & 31)) & 1) != 0; }
+};
+
 struct Touch
 {
     double time = 0;
@@ -51,18 +61,7 @@ struct Touch
     double acceleration = 0; ///< of the gap while the paths go on, m/s²; negative: they press
     double curvature = 0;    ///< of the surface as seen from the probe, see Surface
     int feature = 0;
-    int probe = 0;           ///< which of its leaf's corners touches
-    bool probe_on_a = false; ///< whose that is
-};
-
-/// Corners of both leaves, a bit each.
-struct ProbeSet
-{
-    std::uint32_t of_a = 0;
-    std::uint32_t of_b = 0;
-
-    void add(int probe, bool on_a) { (on_a ? of_a : of_b) |= std::uint32_t{1} << (probe & 31); }
-    [[nodiscard]] bool has(int probe, bool on_a) const { return (((on_a ? of_a : of_b) >> (probe & 31)) & 1) != 0; }
+    ProbeSet probes{}; ///< the corners that touch: one, or two on each other
 };
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and

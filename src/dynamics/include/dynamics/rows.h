@@ -122,14 +122,14 @@ struct Hold
 {
     std::int32_t own = none;
     std::int32_t other = none;
-    Vec2 point{};               ///< in the world
-    Vec2 normal{};              ///< from the other to the own shape
-    float force = 0;            ///< on the own shape, along the normal, N
-    float friction = 0;         ///< along perp(normal), N
-    double start = 0;           ///< time of the sub-step
-    std::int32_t solved = none; ///< state of the other body, where the solver has it and not flight
-    std::int32_t probe = 0;     ///< the corner that rests
-    bool is_own_probe = false;  ///< whose that is
+    Vec2 point{};                  ///< in the world
+    Vec2 normal{};                 ///< from the other to the own shape
+    float force = 0;               ///< on the own shape, along the normal, N
+    float friction = 0;            ///< along perp(normal), N
+    double start = 0;              ///< time of the sub-step
+    std::int32_t solved = none;    ///< state of the other body, where the solver has it and not flight
+    std::uint32_t own_corners = 0; ///< that rest, a bit each
+    std::uint32_t other_corners = 0;
 };
 
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
