@@ -11,7 +11,7 @@ std::span<const Arrangement> arrangements()
         {"BallAtClosedChain", 3000, ball_at_closed_chain},
         {"BallInRoom", 5000, ball_in_room},
         {"BallInRoundRoom", 4000, ball_in_round_room, false},
-        {"BallInWedge", 3000, ball_in_wedge, false},
+        {"BallInWedge", 3000, ball_in_wedge},
         {"PieceAtWall", 5000, piece_at_wall},
         {"PieceInRoom", 5000, piece_in_room},
         {"PieceInRoundRoom", 4000, piece_in_round_room, false},
