@@ -210,7 +210,8 @@ private:
     void solve(bool use_bias)
     {
         const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
-        const bool settles = m_unit.precise && m_rows.size() + late_rows().size() > 1;
+        const std::size_t contacts = m_rows.size() + late_rows().size();
+        const bool settles = m_unit.precise && contacts > 0 && contacts + m_joints.size() > 1;
         const int most = settles ? settle_turns : alternate ? turns : 1;
         for (int turn = 0; turn < most; ++turn)
         {
