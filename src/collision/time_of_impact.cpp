@@ -287,7 +287,7 @@ Touch touch_of(const Sight& sight, double t, bool probe_on_a)
 {
     const double sign = probe_on_a ? -1 : 1; // n runs from the surface to the probe
     return {t,          sight.point.x,      sight.point.y,   sign * sight.n.x, sign * sight.n.y,
-            sight.rate, sight.acceleration, sight.curvature, sight.feature};
+            sight.rate, sight.acceleration, sight.curvature, sight.feature,    {}};
 }
 
 // Touching, it cannot approach faster than least_approach before the bend has had its time; and hardly before the gap's own acceleration,
@@ -438,14 +438,16 @@ bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, c
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach, double wait)
+                                 double duration, double least_approach, double wait, const ProbeSet& held)
 {
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Touch> first;
     for_each_probe_pair(
         a, b,
-        [&](const Probe& probe, bool on_a)
+        [&](const Probe& probe, int number, bool on_a)
         {
+            if (held.has(number, on_a))
+                return;
             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
             const double left = first ? first->time : duration;
             const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach, wait);
@@ -457,11 +459,29 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
 
 namespace {
 
-// A corner on a corner is seen from both sides.
-bool is_known(const Touches& touches, const Touch& t, double length)
+// A corner on a corner is seen from both sides: it counts once, as the one that approaches.
+Touch* find_twin(Touches& touches, const Touch& t, double length)
 {
-    return std::any_of(touches.begin(), touches.end(), [&](const Touch& o)
-                       { return size({o.x - t.x, o.y - t.y}) < 1e-3 * length && o.nx * t.nx + o.ny * t.ny > 0.99; });
+    Touch* end = touches.list + touches.count;
+    Touch* twin = std::find_if(touches.list, end, [&](const Touch& o)
+                               { return size({o.x - t.x, o.y - t.y}) < 1e-3 * length && o.nx * t.nx + o.ny * t.ny > 0.99; });
+    return twin != end ? twin : nullptr;
+}
+
+void add_touch(Touches& touches, const Touch& t, double length)
+{
+    Touch* twin = find_twin(touches, t, length);
+    if (twin == nullptr)
+    {
+        if (touches.count < Touches::capacity)
+            touches.list[touches.count++] = t;
+        return;
+    }
+    const ProbeSet probes = twin->probes;
+    if (t.rate < twin->rate)
+        *twin = t;
+    twin->probes.of_a |= probes.of_a | t.probes.of_a;
+    twin->probes.of_b |= probes.of_b | t.probes.of_b;
 }
 
 } // namespace
@@ -471,16 +491,16 @@ Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& 
     const double length = std::min(probe_size(a), probe_size(b));
     Touches touches;
     for_each_probe_pair(a, b,
-                        [&](const Probe& probe, bool on_a)
+                        [&](const Probe& probe, int number, bool on_a)
                         {
                             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0,
                                                     length);
                             const Sight sight = approach.look(0);
-                            if (!sight.faces || sight.distance > tolerance || touches.count == Touches::capacity)
+                            if (!sight.faces || sight.distance > tolerance)
                                 return;
-                            const Touch t = touch_of(sight, 0, on_a);
-                            if (!is_known(touches, t, length))
-                                touches.list[touches.count++] = t;
+                            Touch t = touch_of(sight, 0, on_a);
+                            t.probes.add(number, on_a);
+                            add_touch(touches, t, length);
                         });
     return touches;
 }

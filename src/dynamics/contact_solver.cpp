@@ -90,9 +90,10 @@ NormalTarget normal_target(const SolverView& view, const ContactRow& row, const 
     if (ahead > 0)
         return {ahead * view.inverse_h, 1, 0};
     const float soft = std::max(row.softness.bias_rate * std::min(separation, 0.0f), -view.push_speed);
+    const float bent = soft + (separation > 0 ? ahead : p.predicted_bend) * view.inverse_h;
     if (row.refreshed)
-        return {soft + (separation > 0 ? ahead : p.predicted_bend) * view.inverse_h, 1, 0};
-    return {soft, row.softness.mass_scale, row.softness.impulse_scale};
+        return {bent, 1, 0};
+    return {bent, row.softness.mass_scale, row.softness.impulse_scale};
 }
 
 void set_normal_impulse(const Pair& pair, const ContactRow& row, RowPoint& p, float impulse)

@@ -190,13 +190,20 @@ bool touches_elsewhere(const SceneState& state, int index)
     const int owner_b = state.shapes[contact.shape_b].owner;
     if (owner_a == contact.shape_a && owner_b == contact.shape_b)
         return false;
+    // Lines come before what touches them in the table, arcs after it.
+    const auto is_same = [&](const Contact& other)
+    {
+        const int a = state.shapes[other.shape_a].owner;
+        const int b = state.shapes[other.shape_b].owner;
+        return (a == owner_a && b == owner_b) || (a == owner_b && b == owner_a);
+    };
     // The body without the chain has the shorter list.
     const int body = owner_a == contact.shape_a ? contact.body_a : contact.body_b;
     for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
     {
         const Contact& other = state.contacts[edge >> 1];
         if ((edge >> 1) != index && (other.flags & (contact_flag::touching | contact_flag::begun)) == contact_flag::touching &&
-            state.shapes[other.shape_a].owner == owner_a && state.shapes[other.shape_b].owner == owner_b)
+            is_same(other))
             return true;
     }
     return false;

@@ -17,6 +17,7 @@
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -46,6 +47,7 @@ void UnitOutput::clear()
 namespace {
 
 constexpr int turns = 3;
+constexpr int settle_turns = 16;
 constexpr float follow_turn = 0.03f; // rad
 
 // Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
@@ -254,22 +256,64 @@ private:
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
 
-    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word.
+    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word. Contacts of a few bodies are solved until
+    // they agree: what a wall stops last still comes into its neighbours, and overlap is pushed out against the forces.
     void solve(bool use_bias)
     {
         const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
-        for (int turn = 0; turn < (alternate ? turns : 1); ++turn)
+        const std::size_t contacts = m_rows.size() + late_rows().size();
+        const bool settles = m_unit.precise && contacts > 0 && contacts + m_joints.size() > 1;
+        const int most = settles ? settle_turns : alternate ? turns : 1;
+        for (int turn = 0; turn < most; ++turn)
         {
+            if (settles)
+                note_velocities();
             if (!m_joints.empty())
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
+            m_softness.share = m_joint_softness.share = turn + 1 == most ? 1 : 0;
             (use_bias ? m_kernels.solve_joints : m_kernels.relax_joints)(m_wide_joints, m_unit.wide_joint_count, m_view.states,
                                                                          m_joint_softness);
             (use_bias ? m_kernels.solve : m_kernels.relax)(m_wide, m_unit.wide_count, m_view.states, m_softness);
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
+            if (settles && have_settled() && (!alternate || turn + 1 >= turns))
+                break;
         }
         if (alternate)
             m_output.direct->solve(use_bias);
+    }
+
+    struct Velocity
+    {
+        Vec2 linear;
+        float angular;
+    };
+
+    void note_velocities()
+    {
+        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            m_velocities[static_cast<std::size_t>(i)] = {s.velocity, s.angular_velocity};
+        }
+    }
+
+    // No body's speed has changed by more than a hundredth of the slop per sub-step.
+    [[nodiscard]] bool have_settled() const
+    {
+        const float tiny = 0.01f * m_ctx.scene.tolerances.slop * m_view.inverse_h;
+        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            const StateConstants& c = m_view.constants[m_unit.first_state + 1 + i];
+            const Velocity& old = m_velocities[static_cast<std::size_t>(i)];
+            const Vec2 dv = s.velocity - old.linear;
+            const float dw = s.angular_velocity - old.angular;
+            const float turning = c.inverse_inertia > 0 ? dw * dw * c.inverse_mass.x / c.inverse_inertia : 0;
+            if (dot(dv, dv) + turning > tiny * tiny)
+                return false;
+        }
+        return true;
     }
 
     // x += h v
@@ -394,6 +438,8 @@ private:
 
     void predict_bend(ContactRow& row) const
     {
+        if (row.followed != 0 && is_carried(row))
+            predict_turn(row);
         if (row.refreshed == 0 || row.count != 1)
             return;
         RowPoint& p = row.points[0];
@@ -411,6 +457,30 @@ private:
         p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
     }
 
+    // By a kinematic body that turns.
+    [[nodiscard]] bool is_carried(const ContactRow& row) const
+    {
+        const auto carries = [](const BodyState& s) { return (s.flags & body_flag::dynamic) == 0 && s.angular_velocity != 0; };
+        return carries(m_view.states[row.a]) || carries(m_view.states[row.b]);
+    }
+
+    // Of corners and edges, to second order in the turn: points go around, and the face of a, or of b, turns meanwhile.
+    void predict_turn(ContactRow& row) const
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const float wa = a.angular_velocity;
+        const float wb = b.angular_velocity;
+        const float turning = 0.5f * m_ctx.h * m_ctx.h;
+        for (int i = 0; i < row.count; ++i)
+        {
+            RowPoint& p = row.points[i];
+            const Vec2 v = b.velocity + cross(wb, p.rb) - a.velocity - cross(wa, p.ra);
+            p.predicted_bend =
+                turning * (wa * wa * dot(row.n, p.ra) - wb * wb * dot(row.n, p.rb) + (wa + wb) * dot(perp(row.n), v));
+        }
+    }
+
     void refresh_rows()
     {
         for (const std::span<ContactRow> rows : {m_rows, late_rows()})
@@ -425,12 +495,15 @@ private:
         }
     }
 
-    // Corners and edges that have turned face each other elsewhere. (Rows without points are of bodies that have taken off.)
+    // Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
     void follow(ContactRow& row)
     {
+        if (row.count == 0)
+            return; // of a body that has taken off
         const BodyState& a = m_view.states[row.a];
         const BodyState& b = m_view.states[row.b];
-        if (row.count == 0 || (!has_turned(row.turn_a, a.delta_rotation) && !has_turned(row.turn_b, b.delta_rotation)))
+        const float least = (is_carried(row) ? 0.1f : 1.0f) * follow_turn;
+        if (!has_turned(row.turn_a, a.delta_rotation, least) && !has_turned(row.turn_b, b.delta_rotation, least))
             return;
         Manifold fresh = manifold_of(row.contact, row, 0);
         carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
@@ -438,9 +511,9 @@ private:
         m_ctx.state.contacts[row.contact].manifold = fresh;
     }
 
-    [[nodiscard]] static bool has_turned(Rotation from, Rotation to)
+    [[nodiscard]] static bool has_turned(Rotation from, Rotation to, float least)
     {
-        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > follow_turn;
+        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > least;
     }
 
     void refresh_row(ContactRow& row)
@@ -740,6 +813,7 @@ private:
     JointSoftness m_joint_softness;
     bool m_starts_by_body;
     const WideKernels& m_kernels = wide_kernels();
+    std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise units
 };
 
 void UnitSolver::record_poses(int k)

@@ -59,8 +59,12 @@ public:
     void expect(const char* law, std::function<std::string()> holds) { m_expectations.push_back({law, std::move(holds)}); }
     /// The torque acts on the body through every step, N m.
     void drive(BodyId body, float torque) { m_torques.push_back({body, torque}); }
-    /// Work that motors and applied torques have done since the start, J.
-    void account_work(std::function<double()> work) { m_work = std::move(work); }
+    /// Work that motors and applied torques have done since the start, J, and how far off it may be read.
+    void account_work(std::function<double()> work, double resolution)
+    {
+        m_work = std::move(work);
+        m_work_resolution = resolution;
+    }
     void energy_in(Frame frame) { m_frame = frame; }
     /// Something does work that the trial cannot account for.
     void skip_energy() { m_check_energy = false; }
@@ -112,6 +116,7 @@ private:
     std::vector<Expectation> m_expectations;
     std::vector<std::pair<BodyId, float>> m_torques;
     std::function<double()> m_work = [] { return 0.0; };
+    double m_work_resolution = 0;
     Frame m_frame{};
     bool m_check_energy = true;
     bool m_check_momentum = false;

@@ -38,6 +38,13 @@ void reconsider_neighbours(const FlightSpan& span, std::int32_t struck)
     }
 }
 
+// What stays where it is looks for nothing: the others must see it there.
+void reconsider_all(const FlightSpan& span)
+{
+    for (Flier& f : span.fliers())
+        find_next_event(span, f);
+}
+
 void process(const FlightSpan& span, Flier& f)
 {
     if (f.event_version != version_of(span, f.event_state))
@@ -55,7 +62,7 @@ void process(const FlightSpan& span, Flier& f)
     for (const std::int32_t s : changed)
     {
         if (Flier* flier = span.flier_at(s))
-            find_next_event(span, *flier);
+            is_capped(*flier) ? reconsider_all(span) : find_next_event(span, *flier);
         else
             reconsider_neighbours(span, s);
     }

@@ -23,7 +23,9 @@ constexpr int crowd_limit = 8; // impacts of a body in a sub-step
 } // namespace
 
 ImpactSet::ImpactSet(const FlightSpan& span, Flier& first)
-    : m_span(span), m_state(span.state), m_first(first), m_time(first.event_time), m_origin(span.sim_of(first.body).center)
+    : m_span(span), m_state(span.state), m_first(first),
+      m_renews(first.held_count > 0 && first.event_shape == none && first.event_time == first.hold_until),
+      m_time(first.event_time), m_origin(span.sim_of(first.body).center)
 {}
 
 void ImpactSet::run(std::vector<std::int32_t>& changed)
@@ -142,6 +144,8 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     if (!struck)
         return;
     f.deflected = true;
+    if (m_renews)
+        return;
     f.crowded |= !m_span.unit.precise || f.impacts >= crowd_limit;
     ++f.impacts;
     m_span.output.capped |= f.impacts >= impact_limit;

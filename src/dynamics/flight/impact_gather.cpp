@@ -54,7 +54,8 @@ int ImpactSet::member_of(int body)
         m.flier = m_span.flier_at(m.state);
         if (m.flier != nullptr)
         {
-            advance(m_span, *m.flier, m_time);
+            if (!is_capped(*m.flier))
+                advance(m_span, *m.flier, m_time);
             released.assign(m.flier->held, m.flier->held + m.flier->held_count);
             release_holds(m_span, *m.flier, m_time);
             m.changed = !released.empty();
@@ -203,10 +204,15 @@ void ImpactSet::add_touches(int member, std::int32_t own, std::int32_t other, st
 // What was held or is in the solver's hands touches with its overlap or gap.
 double ImpactSet::nearness(int member, std::int32_t own, std::int32_t other, int other_body) const
 {
-    const auto is_it = [&](const Hold& h) { return (h.own == own && h.other == other) || (h.own == other && h.other == own); };
     const bool solved = m_members[static_cast<std::size_t>(member)].flier == nullptr &&
                         m_span.flier_at(m_span.state_in_unit(other_body)) == nullptr;
-    return solved || std::any_of(m_released.begin(), m_released.end(), is_it) ? still_held : touching;
+    return solved || was_held(own, other) ? still_held : touching;
+}
+
+bool ImpactSet::was_held(std::int32_t own, std::int32_t other) const
+{
+    return std::any_of(m_released.begin(), m_released.end(),
+                       [&](const Hold& h) { return (h.own == own && h.other == other) || (h.own == other && h.other == own); });
 }
 
 ImpactRow ImpactSet::row_of(const Touch& t, int a, int b) const

@@ -11,7 +11,10 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double hold_turn = 0.05; // rad: so far a hold is followed before it is looked at again
+constexpr double hold_turn = 0.05;       // rad: so far a hold is followed before it is looked at again
+constexpr double at_once = 0.002;        // of a sub-step
+constexpr double at_once_held = 0.01;    // for what was held already
+constexpr double least_hold = 1.0 / 256; // of a sub-step
 
 } // namespace
 
@@ -29,7 +32,7 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
     std::vector<Pressing> pressing;
     for (std::size_t i = 0; i < m_rows.size(); ++i)
     {
-        if (m_rows[i].kind == ImpactRow::Kind::Hold || std::fabs(gap_rate(m_bodies, m_rows[i])) > 2 * m_span.least_approach)
+        if (m_rows[i].kind == ImpactRow::Kind::Hold || !has_stopped(i))
             continue;
         if (both_give_way(m_rows[i]))
             rest_on_each_other(m_rows[i], m_sources[i]);
@@ -51,6 +54,17 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
     }
     for (std::size_t i = 0; i < m_members.size(); ++i)
         accelerate(m_members[i], accelerations[i], changed);
+}
+
+// Friction on an arm may lift what rests, and the way along a bend what is held: where the pressing acceleration ends that at once, it is no hop.
+bool ImpactSet::has_stopped(std::size_t i)
+{
+    const double rate = std::fabs(gap_rate(m_bodies, m_rows[i]));
+    if (rate <= 2 * m_span.least_approach)
+        return true;
+    const Source& s = m_sources[i];
+    const double part = was_held(s.own, s.other) ? at_once_held : s.rests ? at_once : 0;
+    return part > 0 && rate < -part * m_span.h * gap_acceleration(i);
 }
 
 bool ImpactSet::both_give_way(const ImpactRow& row) const
@@ -156,11 +170,14 @@ void ImpactSet::hold(const Pressing& p)
            static_cast<float>(p.force),
            static_cast<float>(p.friction),
            m_time,
-           a == nullptr ? m_members[static_cast<std::size_t>(row.a)].state : none};
+           a == nullptr ? m_members[static_cast<std::size_t>(row.a)].state : none,
+           s.touch.probes.of_b,
+           s.touch.probes.of_a};
     if (b != nullptr)
         add_hold(*b, h);
     std::swap(h.own, h.other);
     h.normal = -h.normal;
+    std::swap(h.own_corners, h.other_corners);
     h.solved = b == nullptr ? m_members[static_cast<std::size_t>(row.b)].state : none;
     if (a != nullptr)
         add_hold(*a, h);
@@ -170,6 +187,11 @@ void ImpactSet::add_hold(Flier& f, const Hold& h) const
 {
     const bool firm = m_state.bodies[m_state.shapes[h.other].body].type != BodyType::Dynamic;
     f.led = firm && (f.led || f.held_count == 0);
+    const BodySim& holder = m_span.sim_of(m_state.shapes[h.other].body);
+    const bool drifts =
+        firm && m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Kinematic && holder.angular_velocity == 0;
+    f.lead_x = drifts ? static_cast<double>(holder.velocity.x) : 0;
+    f.lead_y = drifts ? static_cast<double>(holder.velocity.y) : 0;
     const bool still = m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Static &&
                        m_state.shapes[h.other].surface_speed == 0 && m_state.shapes[h.own].surface_speed == 0;
     f.on_still = still && (f.on_still || f.held_count == 0);
@@ -191,7 +213,7 @@ void ImpactSet::set_hold_time(std::size_t i)
     for (const int member : {row.a, row.b})
     {
         if (Flier* f = m_members[static_cast<std::size_t>(member)].flier; f != nullptr && turn > 0)
-            f->hold_until = std::min(f->hold_until, m_time + hold_turn / turn);
+            f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
     }
 }
 

@@ -113,16 +113,6 @@ void land(const FlightSpan& span, Flier& f)
     Landing(span, held).run();
 }
 
-// Struck too often: it stays where it is for the rest of the sub-step, while forces go on.
-void wait(const FlightSpan& span, Flier& f)
-{
-    const double left = span.h - f.time;
-    f.vx += left * f.ax;
-    f.vy += left * f.ay;
-    f.w += left * f.alpha;
-    f.time = span.h;
-}
-
 // m dv = reaction + contacts + m a h
 void sum_reaction(const FlightSpan& span, Flier& f, const CenterMotion& center)
 {
@@ -141,10 +131,10 @@ void finish_flight(const FlightSpan& span, Flier& f)
 {
     if (f.landed)
         return;
-    if (f.impacts < impact_limit)
-        advance(span, f, span.h);
+    if (is_capped(f))
+        f.time = span.h; // where and as it is: what forces did to it on no way at all would be energy from nowhere
     else
-        wait(span, f);
+        advance(span, f, span.h);
     const CenterMotion center = center_of(f);
     BodyState& s = span.state_of(f.state);
     s.velocity = {static_cast<float>(center.vx), static_cast<float>(center.vy)};

@@ -115,6 +115,10 @@ namespace {
 // speed by both.
 void follow_surface(Flier& f, double t)
 {
+    f.vx -= f.lead_x;
+    f.vy -= f.lead_y;
+    f.x += t * f.lead_x;
+    f.y += t * f.lead_y;
     const double speed = std::sqrt(f.vx * f.vx + f.vy * f.vy);
     const double along = (f.vx * f.ax + f.vy * f.ay) / speed;
     const double turn = t * (f.vx * f.ay - f.vy * f.ax) / (speed * speed);
@@ -128,8 +132,8 @@ void follow_surface(Flier& f, double t)
     f.y += chord * (half.sin * ux + half.cos * uy);
     const SinCos full = sin_cos(turn);
     const double after = speed + t * along;
-    f.vx = after * (full.cos * ux - full.sin * uy);
-    f.vy = after * (full.sin * ux + full.cos * uy);
+    f.vx = after * (full.cos * ux - full.sin * uy) + f.lead_x;
+    f.vy = after * (full.sin * ux + full.cos * uy) + f.lead_y;
     const double ax = f.ax;
     f.ax = full.cos * ax - full.sin * f.ay;
     f.ay = full.sin * ax + full.cos * f.ay;
@@ -147,7 +151,9 @@ void follow_parabola(Flier& f, double t)
 // of the velocity means nothing.
 bool is_led(const Flier& f, double t)
 {
-    return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < f.vx * f.vx + f.vy * f.vy;
+    const double vx = f.vx - f.lead_x;
+    const double vy = f.vy - f.lead_y;
+    return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < vx * vx + vy * vy;
 }
 
 // Twice the energy of motion, less what the free acceleration gives along the way: what a still surface may only take from.
@@ -181,9 +187,41 @@ void take_gain(const FlightSpan& span, Flier& f, double before)
 
 } // namespace
 
+namespace {
+
+// Of a body on a hinge: what even forces give along its way, over the moment of inertia.
+double work_on_hinge(const FlightSpan& span, const Flier& f, double from)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    const BodySim& sim = span.sim_of(f.body);
+    const SinCos p = sin_cos(from);
+    const SinCos q = sin_cos(f.angle);
+    const double x = (q.cos - p.cos) * f.arm_x - (q.sin - p.sin) * f.arm_y;
+    const double y = (q.sin - p.sin) * f.arm_x + (q.cos - p.cos) * f.arm_y;
+    return f.inverse_inertia *
+           (static_cast<double>(sim.mass) *
+                (static_cast<double>(c.acceleration.x) * x + static_cast<double>(c.acceleration.y) * y) +
+            static_cast<double>(sim.inertia) * static_cast<double>(c.angular_acceleration) * (f.angle - from));
+}
+
+// Verlet's speed is off by the third order of the step; that of the energy is not, where it does not turn back.
+void swing(const FlightSpan& span, Flier& f, double t, double from, double before)
+{
+    const double there = turning_acceleration(span, f, f.angle);
+    f.w += 0.5 * t * (there - f.alpha);
+    f.alpha = there;
+    const double square = before * before + 2 * work_on_hinge(span, f, from);
+    if (f.w * before > 0 && square > 0.25 * f.w * f.w)
+        f.w = std::copysign(std::sqrt(square), f.w);
+}
+
+} // namespace
+
 void advance(const FlightSpan& span, Flier& f, double time)
 {
     const double t = time - f.time;
+    const double angle = f.angle;
+    const double w = f.w;
     const bool is_kept = f.held_count > 0 && f.on_still && f.joint == none;
     const double before = is_kept ? energy_of(span, f) : 0;
     is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
@@ -194,9 +232,7 @@ void advance(const FlightSpan& span, Flier& f, double time)
         take_gain(span, f, before);
     if (f.joint == none || f.constrained || t == 0)
         return;
-    const double there = turning_acceleration(span, f, f.angle);
-    f.w += 0.5 * t * (there - f.alpha);
-    f.alpha = there;
+    swing(span, f, t, angle, w);
 }
 
 CenterMotion center_of(const Flier& f)
@@ -219,12 +255,22 @@ bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, doubl
     return span.h * (std::sqrt(vx * vx + vy * vy) + std::fabs(w) * static_cast<double>(sim.extent)) > 0.5 * f.size;
 }
 
+namespace {
+
+// By something that it runs along: a bend in a wall leads a ball around, out of what lay on its way.
+bool is_led_astray(const FlightSpan& span, const BodySim& sim, const BodyState& s)
+{
+    return span.ctx.dt * length(s.velocity - sim.velocity) > span.ctx.scene.tolerances.box_margin;
+}
+
+} // namespace
+
 bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
 {
-    if (!f.deflected)
-        return false;
     const BodySim& sim = span.sim_of(f.body);
     const BodyState& s = span.state_of(f.state);
+    if (!f.deflected && !is_led_astray(span, sim, s))
+        return false;
     const Rotation q = s.delta_rotation * sim.rotation;
     const Pose pose{sim.center + s.delta_position - rotate(q, sim.local_center), q};
     const float ahead = span.ctx.h * (length(s.velocity) + std::fabs(s.angular_velocity) * sim.extent);
@@ -287,9 +333,6 @@ void turn_frame(Rotation q, double angle, FramePath& path)
     path.c = turn.cos * static_cast<double>(q.c) - turn.sin * static_cast<double>(q.s);
     path.s = turn.sin * static_cast<double>(q.c) + turn.cos * static_cast<double>(q.s);
 }
-
-// What has hit things too often stays where it is until the sub-step is over.
-bool is_capped(const Flier& f) { return f.impacts >= impact_limit; }
 
 void follow_flier(const Flier& f, const BodySim& sim, double time, FramePath& path)
 {

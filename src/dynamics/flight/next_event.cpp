@@ -10,12 +10,22 @@
 
 namespace carom::internal {
 
-bool holds(const Flier& f, std::int32_t own, std::int32_t other)
-{
-    return std::any_of(f.held, f.held + f.held_count, [&](const Hold& h) { return h.own == own && h.other == other; });
-}
-
 namespace {
+
+// Of a pair whose other corners may come down yet: held at one of them it turns about that.
+ProbeSet held_corners(const Flier& f, std::int32_t own, std::int32_t other)
+{
+    ProbeSet held;
+    for (int i = 0; i < f.held_count; ++i)
+    {
+        const Hold& h = f.held[i];
+        if (h.own != own || h.other != other)
+            continue;
+        held.of_a |= h.other_corners;
+        held.of_b |= h.own_corners;
+    }
+    return held;
+}
 
 // Of two that both give way none holds the other; what presses them together is taken in small blows, so often in a sub-step at the most.
 constexpr double press_time = 1.0 / 4;
@@ -161,20 +171,24 @@ private:
 
     void consider(int own, int shape, int contact)
     {
-        if (holds(m_flier, own, shape))
-            return;
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
         if (is_out_of_reach(body))
             return;
-        const FramePath target = path_from(m_span, body, m_flier.time, m_origin);
-        const double left = std::min(m_span.h, m_flier.event_time) - m_flier.time;
-        if (stays_away(own, shape, target, contact, left))
+        // Before its last change the other's path is not this one; until then the two have not met.
+        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
+        const double start = other != nullptr ? std::max(m_flier.time, other->time) : m_flier.time;
+        const double left = std::min(m_span.h, m_flier.event_time) - start;
+        if (left < 0)
             return;
-        const std::optional<Touch> hit =
-            first_touch(leaf_view(state, shape), target, leaf_view(state, own), m_own_path, left, m_span.least_approach,
-                        state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0);
-        if (!hit || m_flier.time + hit->time >= m_flier.event_time)
+        const FramePath target = path_from(m_span, body, start, m_origin);
+        const FramePath own_path = start > m_flier.time ? path_after(m_own_path, start - m_flier.time) : m_own_path;
+        if (stays_away(own, shape, target, own_path, contact, left))
+            return;
+        const std::optional<Touch> hit = first_touch(
+            leaf_view(state, shape), target, leaf_view(state, own), own_path, left, m_span.least_approach,
+            state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0, held_corners(m_flier, own, shape));
+        if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.
         if (lets_pass(m_span.ctx.scene, shape, own, {static_cast<float>(hit->nx), static_cast<float>(hit->ny)}))
@@ -183,7 +197,7 @@ private:
                 state.contacts[contact].flags |= contact_flag::passing;
             return;
         }
-        m_flier.event_time = m_flier.time + hit->time;
+        m_flier.event_time = start + hit->time;
         m_flier.event_own = own;
         m_flier.event_shape = shape;
         m_flier.event_state = m_span.state_in_unit(body);
@@ -191,7 +205,8 @@ private:
     }
 
     // Along the line of their centers, or the normal at the start of the step: a look at every corner is dear.
-    [[nodiscard]] bool stays_away(int own, int shape, const FramePath& target, int contact, double left) const
+    [[nodiscard]] bool stays_away(int own, int shape, const FramePath& target, const FramePath& own_path, int contact,
+                                  double left) const
     {
         const SceneState& state = m_span.state;
         const LeafView a = leaf_view(state, shape);
@@ -200,13 +215,13 @@ private:
         {
             const double sign = state.contacts[contact].shape_a == shape ? 1 : -1;
             const Vec2 n = state.contacts[contact].manifold.normal;
-            if (stay_apart(a, target, b, m_own_path, sign * static_cast<double>(n.x), sign * static_cast<double>(n.y), left))
+            if (stay_apart(a, target, b, own_path, sign * static_cast<double>(n.x), sign * static_cast<double>(n.y), left))
                 return true;
         }
-        const double dx = m_own_path.center.x - target.center.x;
-        const double dy = m_own_path.center.y - target.center.y;
+        const double dx = own_path.center.x - target.center.x;
+        const double dy = own_path.center.y - target.center.y;
         const double l = std::sqrt(dx * dx + dy * dy);
-        return l > 0 && stay_apart(a, target, b, m_own_path, dx / l, dy / l, left);
+        return l > 0 && stay_apart(a, target, b, own_path, dx / l, dy / l, left);
     }
 
     // Two moving bodies that stay apart whatever they turn: most of a crowd.

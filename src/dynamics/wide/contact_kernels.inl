@@ -193,12 +193,12 @@ CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftnes
     else
         solve_normal(g, row.points[0], t);
     for (int i = 0; i < points; ++i)
-        store(row.points[i].total_impulse, load(row.points[i].total_impulse) + load(row.points[i].normal_impulse));
+        store(row.points[i].total_impulse, load(row.points[i].total_impulse) + s.share * load(row.points[i].normal_impulse));
     const F8 friction = load(row.friction);
     for (int i = 0; i < points; ++i)
     {
         const F8 tangent = solve_friction(g, row.points[i], friction);
-        store(row.points[i].total_tangent, load(row.points[i].total_tangent) + tangent);
+        store(row.points[i].total_tangent, load(row.points[i].total_tangent) + s.share * tangent);
     }
     g.finish(row, states);
 }

@@ -179,12 +179,12 @@ void relax(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
         if (j->turns != 0)
         {
             turn(h, t, s, false);
-            store(t.torque_sum, load(t.torque_sum) + (load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) -
+            store(t.torque_sum, load(t.torque_sum) + s.share * (load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) -
                                                       load(t.upper_impulse)));
         }
         hold(h, *j, all(0), all(1), all(0));
-        store(j->sum_x, load(j->sum_x) + load(j->impulse_x));
-        store(j->sum_y, load(j->sum_y) + load(j->impulse_y));
+        store(j->sum_x, load(j->sum_x) + s.share * load(j->impulse_x));
+        store(j->sum_y, load(j->sum_y) + s.share * load(j->impulse_y));
         h.finish(*j, states);
     }
 }

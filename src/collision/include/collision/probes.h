@@ -87,16 +87,18 @@ void for_each_probe(const LeafView& v, Visit&& visit)
     }
 }
 
-/// Probes of a meet the surface of b and probes of b that of a; a circle is one probe and needs no others.
+/// Probes of a meet the surface of b and probes of b that of a; a circle is one probe and needs no others. Calls visit(probe, number, on_a).
 template <class Visit>
 void for_each_probe_pair(const LeafView& a, const LeafView& b, Visit&& visit)
 {
     const bool a_is_circle = a.leaf->type == LeafType::Circle;
     const bool b_is_circle = b.leaf->type == LeafType::Circle;
+    int number = 0;
     if (!b_is_circle || a_is_circle)
-        for_each_probe(a, [&](const Probe& p) { visit(p, true); });
+        for_each_probe(a, [&](const Probe& p) { visit(p, number++, true); });
+    number = 0;
     if (!a_is_circle)
-        for_each_probe(b, [&](const Probe& p) { visit(p, false); });
+        for_each_probe(b, [&](const Probe& p) { visit(p, number++, false); });
 }
 
 } // namespace carom::internal

@@ -9,6 +9,7 @@
 #include "carom/math.h"
 #include "geometry/leaf.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace carom::internal {
@@ -39,6 +40,16 @@ struct FramePath
 /// The same path run backwards from t = 0.
 [[nodiscard]] FramePath run_back(const FramePath& path);
 
+/// Corners of both leaves, a bit each.
+struct ProbeSet
+{
+    std::uint32_t of_a = 0;
+    std::uint32_t of_b = 0;
+
+    void add(int probe, bool on_a) { (on_a ? of_a : of_b) |= std::uint32_t{1} << (probe & 31); }
+    [[nodiscard]] bool has(int probe, bool on_a) const { return (((on_a ? of_a : of_b) >> (probe & 31)) & 1) != 0; }
+};
+
 struct Touch
 {
     double time = 0;
@@ -50,13 +61,15 @@ struct Touch
     double acceleration = 0; ///< of the gap while the paths go on, m/s²; negative: they press
     double curvature = 0;    ///< of the surface as seen from the probe, see Surface
     int feature = 0;
+    ProbeSet probes{}; ///< the corners that touch: one, or two on each other
 };
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
 /// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew only when it has pressed
-/// for `wait` seconds.
+/// for `wait` seconds. The corners of `held` are left out.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
-                                               const FramePath& path_b, double duration, double least_approach, double wait = 0);
+                                               const FramePath& path_b, double duration, double least_approach, double wait = 0,
+                                               const ProbeSet& held = {});
 
 /// True where nothing of the two can meet in that time: along an axis (from a to b, unit length) they stay apart. False says nothing.
 [[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,

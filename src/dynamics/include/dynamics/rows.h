@@ -104,12 +104,14 @@ struct Hold
 {
     std::int32_t own = none;
     std::int32_t other = none;
-    Vec2 point{};               ///< in the world
-    Vec2 normal{};              ///< from the other to the own shape
-    float force = 0;            ///< on the own shape, along the normal, N
-    float friction = 0;         ///< along perp(normal), N
-    double start = 0;           ///< time of the sub-step
-    std::int32_t solved = none; ///< state of the other body, where the solver has it and not flight
+    Vec2 point{};                  ///< in the world
+    Vec2 normal{};                 ///< from the other to the own shape
+    float force = 0;               ///< on the own shape, along the normal, N
+    float friction = 0;            ///< along perp(normal), N
+    double start = 0;              ///< time of the sub-step
+    std::int32_t solved = none;    ///< state of the other body, where the solver has it and not flight
+    std::uint32_t own_corners = 0; ///< that rest, a bit each
+    std::uint32_t other_corners = 0;
 };
 
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
@@ -153,8 +155,10 @@ struct Flier
     static constexpr int most_held = 12;
     Hold held[most_held];
     std::int32_t held_count = 0;
-    bool rests = false;    ///< against something that gives way
-    bool led = false;      ///< what holds it does not give way
+    bool rests = false; ///< against something that gives way
+    bool led = false;   ///< what holds it does not give way
+    double lead_x = 0;  ///< velocity of that where it does not turn
+    double lead_y = 0;
     bool on_still = false; ///< what holds it does not move at all, nor does its surface
     double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 

@@ -57,6 +57,7 @@ struct JointSoftness
 {
     float inverse_h;
     Softness soft;
+    float share = 1; ///< of the impulses, that relaxing adds to the sums
 };
 
 } // namespace carom::internal

@@ -56,7 +56,8 @@ struct WideSoftness
     float inverse_h;
     float push_speed;
     Softness contact;
-    Softness stiff; ///< against what has infinite mass
+    Softness stiff;  ///< against what has infinite mass
+    float share = 1; ///< of the impulses, that relaxing adds to the sums
 };
 
 } // namespace carom::internal

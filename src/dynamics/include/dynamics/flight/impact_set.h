@@ -56,6 +56,7 @@ private:
     [[nodiscard]] bool is_known(int contact) const;
     void add_touches(int member, std::int32_t own, std::int32_t other, std::int32_t contact);
     [[nodiscard]] double nearness(int member, std::int32_t own, std::int32_t other, int other_body) const;
+    [[nodiscard]] bool was_held(std::int32_t own, std::int32_t other) const;
     [[nodiscard]] ImpactRow row_of(const Touch& t, int a, int b) const;
     void add_limits(int index);
     void add_limit(int index, double turn);
@@ -79,6 +80,7 @@ private:
 
     // What goes on pressing: impact_hold.cpp
     void hold_what_presses(std::vector<std::int32_t>& changed);
+    [[nodiscard]] bool has_stopped(std::size_t i);
     [[nodiscard]] bool both_give_way(const ImpactRow& row) const;
     void rest_on_each_other(const ImpactRow& row, const Source& s);
     void accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const;
@@ -91,6 +93,7 @@ private:
     const FlightSpan& m_span;
     SceneState& m_state;
     Flier& m_first;
+    bool m_renews; ///< a hold, and nothing strikes
     double m_time;
     Position m_origin;
     std::vector<Hold> m_released{};

@@ -58,6 +58,9 @@ void advance(const FlightSpan& span, Flier& f, double time);
 /// From the solver's hands into flight, at a time of the sub-step; its rows are dropped.
 void take_off(const FlightSpan& span, Flier& f, double time);
 
+/// What has hit things too often stays where it is until the sub-step is over.
+[[nodiscard]] inline bool is_capped(const Flier& f) { return f.impacts >= impact_limit; }
+
 /// Center of mass and its velocity.
 struct CenterMotion
 {

@@ -8,8 +8,6 @@ namespace carom::internal {
 
 void find_next_event(const FlightSpan& span, Flier& f);
 
-[[nodiscard]] bool holds(const Flier& f, std::int32_t own, std::int32_t other);
-
 /// How often the path of a state has changed in this sub-step.
 [[nodiscard]] inline std::int32_t version_of(const FlightSpan& span, std::int32_t state)
 {
