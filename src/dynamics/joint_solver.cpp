@@ -133,7 +133,8 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     const Position pb = place(joint.body_b, joint.anchor_b, work.rb0, qb);
     work.gap0 = pb - pa;
     work.axis0 = rotate(qa, joint.axis_a);
-    work.angle0 = hinge_angle(ctx.state, joint);
+    if (joint.kind == JointType::Prismatic || (joint.kind == JointType::Revolute && !only_holds(joint)))
+        work.angle0 = hinge_angle(ctx.state, joint);
     if (joint.kind == JointType::Spring)
         fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, ctx.state, work);
     return work;
