@@ -4,6 +4,7 @@
 // Pieces of chains have two rules more. A normal that leans over a seam belongs to the neighbour, so it is replaced by the piece's own
 // (no ghost bumps); and a one-sided piece looks only at hulls whose center is on its solid side.
 
+#include "collision/edge_rules.h"
 #include "collision/hull.h"
 #include "collision/manifold.h"
 
@@ -42,28 +43,6 @@ Axis best_axis(const Hull& reference, const Hull& other)
             best = {i, support, s};
     }
     return best;
-}
-
-int most_opposed_edge(const Hull& hull, Vec2 n)
-{
-    int edge = 0;
-    float least = 3e38f;
-    for (int i = 0; i < hull.count(); ++i)
-    {
-        const float d = dot(n, hull.normal(i));
-        if (d < least)
-        {
-            least = d;
-            edge = i;
-        }
-    }
-    return edge;
-}
-
-std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
-{
-    return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) |
-           static_cast<std::uint32_t>(incident_point);
 }
 
 // A point of the incident edge: its core and the radius there.
@@ -107,7 +86,7 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     const Vec2 end = ref.hull.point(next) + ref.hull.radius(next) * n;
     const Vec2 tangent = normalize(end - start);
     // Incident edge, clipped to the reference's ends.
-    const int i0 = most_opposed_edge(ref.other, n);
+    const int i0 = most_opposed_edge(ref.other.count(), [&](int i) { return ref.other.normal(i); }, n);
     const int i1 = ref.other.next(i0);
     ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
     // Where corners overlap deeply nothing of the incident edge may be left: then its own lowest corner is the contact.
@@ -199,12 +178,9 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
 {
     const Axis axis_a = best_axis(a, b);
     const Axis axis_b = best_axis(b, a);
-    // While they overlap a little in favour of the longer edge, or of a, so that the choice (and with it the features that carry impulses) does
-    // not flicker between equals: rounding alone tips a stack of boxes.
     const float edge_a = edge_length(a, axis_a.edge);
     const float edge_b = edge_length(b, axis_b.edge);
-    const float bias = axis_b.separation < 0 ? 2e-4f * std::max(edge_a, edge_b) : 0;
-    const bool flipped = axis_b.separation > axis_a.separation + (edge_b > 1.001f * edge_a ? -bias : bias);
+    const bool flipped = prefers_b(axis_a.separation, edge_a, axis_b.separation, edge_b);
     const Hull& reference = flipped ? b : a;
     const Hull& incident = flipped ? a : b;
     const Axis axis = flipped ? axis_b : axis_a;

@@ -1,6 +1,7 @@
 // Polygon against polygon of up to eight corners, the commonest pair there is: the rules of manifold_hull_hull.cpp, with four edges tested at a
 // time. Where nothing is left of the clipped edge, that file decides.
 
+#include "collision/edge_rules.h"
 #include "collision/manifold.h"
 
 #include <cmath>
@@ -81,22 +82,6 @@ Axis best_axis(const LeafView& reference, const Corners& other, float radii)
     return best;
 }
 
-int most_opposed_edge(const LeafView& v, Vec2 n)
-{
-    int edge = 0;
-    float least = 3e38f;
-    for (int i = 0; i < v.leaf->count; ++i)
-    {
-        const float d = dot(n, v.normals[i]);
-        if (d < least)
-        {
-            least = d;
-            edge = i;
-        }
-    }
-    return edge;
-}
-
 struct ClipPoint
 {
     Vec2 core;
@@ -115,12 +100,6 @@ bool clip(ClipPoint points[2], Vec2 n, float offset)
     const float t = d0 / (d0 - d1);
     (d0 < 0 ? points[0] : points[1]).core = points[0].core + t * (points[1].core - points[0].core);
     return true;
-}
-
-std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
-{
-    return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) |
-           static_cast<std::uint32_t>(incident_point);
 }
 
 class PolygonPair
@@ -148,21 +127,12 @@ public:
             return true;
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_a.points[i];
-        const bool flipped = prefers_b(axis_a, axis_b);
+        const bool flipped =
+            prefers_b(axis_a.separation, edge_length(m_a, axis_a.edge), axis_b.separation, edge_length(m_b, axis_b.edge));
         return clip_to_edge(flipped, flipped ? axis_b : axis_a, margin, out);
     }
 
 private:
-    // While they overlap a little in favour of the longer edge, or of a, so that the choice (and with it the features that carry impulses)
-    // does not flicker between equals.
-    [[nodiscard]] bool prefers_b(const Axis& a, const Axis& b) const
-    {
-        const float edge_a = edge_length(m_a, a.edge);
-        const float edge_b = edge_length(m_b, b.edge);
-        const float bias = b.separation < 0 ? 2e-4f * (edge_a > edge_b ? edge_a : edge_b) : 0;
-        return b.separation > a.separation + (edge_b > 1.001f * edge_a ? -bias : bias);
-    }
-
     static float edge_length(const LeafView& v, int edge)
     {
         const Vec2 d = v.points[edge + 1 < v.leaf->count ? edge + 1 : 0] - v.points[edge];
@@ -180,7 +150,8 @@ private:
         const Vec2 start = corners.at[axis.edge];
         const Vec2 end = corners.at[axis.edge + 1 < corners.count ? axis.edge + 1 : 0];
         const Vec2 tangent = perp(n);
-        const int i0 = most_opposed_edge(incident, flipped ? n : inverse_rotate(m_pose.rotation, n));
+        const int i0 = most_opposed_edge(
+            others.count, [&](int i) { return incident.normals[i]; }, flipped ? n : inverse_rotate(m_pose.rotation, n));
         const int i1 = i0 + 1 < others.count ? i0 + 1 : 0;
         ClipPoint points[2] = {{others.at[i0], i0}, {others.at[i1], i1}};
         const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));

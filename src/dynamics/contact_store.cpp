@@ -147,6 +147,26 @@ void follow_again(SceneState& state, int index)
     state.box_pairs.push_back({contact.shape_a, contact.shape_b, index});
 }
 
+// Along both bodies' lists at once: one may be the ground's.
+bool has_contact(const SceneState& state, int shape_a, int shape_b)
+{
+    int edge_a = state.bodies[state.shapes[shape_a].body].first_contact;
+    int edge_b = state.bodies[state.shapes[shape_b].body].first_contact;
+    const auto is_it = [&](int edge)
+    {
+        const Contact& c = state.contacts[edge >> 1];
+        return (c.shape_a == shape_a && c.shape_b == shape_b) || (c.shape_a == shape_b && c.shape_b == shape_a);
+    };
+    while (edge_a != none && edge_b != none)
+    {
+        if (is_it(edge_a) || is_it(edge_b))
+            return true;
+        edge_a = state.contacts[edge_a >> 1].next[edge_a & 1];
+        edge_b = state.contacts[edge_b >> 1].next[edge_b & 1];
+    }
+    return false;
+}
+
 void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
 {
     SceneState& state = scene.state;

@@ -4,7 +4,6 @@
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
-
 #include "dynamics/material.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"

@@ -55,11 +55,6 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
     }
 }
 
-JointPose pose_ahead(const SolverView& view, const JointWork& work)
-{
-    return joint_pose(work, placed_ahead(view, work.a), placed_ahead(view, work.b));
-}
-
 JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
 {
     JointRows rows;

@@ -197,8 +197,7 @@ private:
             const StateConstants& c = m_scratch.constants[static_cast<std::size_t>(i)];
             if ((s.flags & body_flag::dynamic) == 0 || (s.flags & body_flag::flier) != 0)
                 continue;
-            s.velocity = c.linear_decay * (s.velocity + m_ctx.h * c.acceleration);
-            s.angular_velocity = c.angular_decay * (s.angular_velocity + m_ctx.h * c.angular_acceleration);
+            accelerate(s, c, m_ctx.h);
         }
     }
 
@@ -213,11 +212,14 @@ private:
             BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
             if ((s.flags & body_flag::dynamic) == 0)
                 continue;
-            const Vec2 v = c.linear_decay * (s.velocity + m_ctx.h * c.acceleration);
-            const float w = c.angular_decay * (s.angular_velocity + m_ctx.h * c.angular_acceleration);
-            s.velocity = k == 0 ? v : v + push.velocity;
-            s.angular_velocity = k == 0 ? w : w + push.angular_velocity;
-            push = {v, w};
+            accelerate(s, c, m_ctx.h);
+            const BodyPush before{s.velocity, s.angular_velocity};
+            if (k > 0)
+            {
+                s.velocity += push.velocity;
+                s.angular_velocity += push.angular_velocity;
+            }
+            push = before;
         }
     }
 
@@ -836,8 +838,7 @@ void fall(const StepContext& ctx, std::int32_t index)
     double angle = 0;
     for (int k = 0; k < ctx.substeps; ++k)
     {
-        s.velocity = c.linear_decay * (s.velocity + ctx.h * c.acceleration);
-        s.angular_velocity = c.angular_decay * (s.angular_velocity + ctx.h * c.angular_acceleration);
+        accelerate(s, c, ctx.h);
         const Vec2 way =
             ctx.h * s.velocity - (0.5f * ctx.h * ctx.h) * c.acceleration; // the mean of the velocities before and after
         x += static_cast<double>(way.x);

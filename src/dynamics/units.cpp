@@ -713,7 +713,7 @@ struct Builder
             Contact& contact = state.contacts[links[i].contact];
             contact.wide = filled[bin_of(contact)]++;
             fill_lane(ctx, links[i], contact.wide);
-            unbind(links[i]);
+            unbind(links[i].a, links[i].b);
         }
         wide_kernels().prepare(scratch.wide_rows.data() + unit.first_wide, lane / lane_count - unit.first_wide);
         for (const std::int32_t i : narrow)
@@ -754,13 +754,13 @@ struct Builder
         follow_closely(contact, unit, scratch.rows.back());
         if ((contact.flags & contact_flag::loaded) == 0)
             scratch.impact_rows.push_back(static_cast<std::int32_t>(scratch.rows.size()) - 1);
-        unbind(l);
+        unbind(l.a, l.b);
     }
 
-    void unbind(const Link& l)
+    void unbind(std::int32_t a, std::int32_t b)
     {
-        scratch.states[static_cast<std::size_t>(l.a)].flags &= ~body_flag::unbound;
-        scratch.states[static_cast<std::size_t>(l.b)].flags &= ~body_flag::unbound;
+        scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
+        scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
     }
 
     [[nodiscard]] std::int32_t state_at(const Unit& unit, std::int32_t place)
@@ -803,7 +803,7 @@ struct Builder
         const std::int32_t color = free_color(a, b);
         if (color == color_limit)
             return false;
-        scratch.joint_lanes.push_back({2 * color + (only_holds(joint) ? 0 : 1), index});
+        scratch.joint_lanes.push_back({2 * color + (only_holds(joint) ? 0 : 1), index, a, b});
         return true;
     }
 
@@ -830,12 +830,9 @@ struct Builder
                 lane = 0;
             }
             bin = l.bin;
-            const JointRecord& joint = state.joints[l.joint];
-            const std::int32_t a = state_for(unit, joint.body_a);
-            const std::int32_t b = state_for(unit, joint.body_b);
-            fill_joint_lane(ctx, l.joint, a, b, scratch.wide_joints.back(), lane++);
-            if (!only_holds(joint))
-                unbind({none, a, b, false, false});
+            fill_joint_lane(ctx, l.joint, l.a, l.b, scratch.wide_joints.back(), lane++);
+            if (!only_holds(state.joints[l.joint]))
+                unbind(l.a, l.b);
         }
     }
 
@@ -847,8 +844,7 @@ struct Builder
         scratch.joints.push_back(prepare_joint(unit_ctx, joint, a, b));
         if (only_holds(record) || record.kind == JointType::Spring)
             return;
-        scratch.states[static_cast<std::size_t>(a)].flags &= ~body_flag::unbound;
-        scratch.states[static_cast<std::size_t>(b)].flags &= ~body_flag::unbound;
+        unbind(a, b);
     }
 
     void index_fliers()

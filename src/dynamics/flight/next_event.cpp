@@ -134,19 +134,7 @@ private:
     [[nodiscard]] bool is_new(int own, int shape) const
     {
         const SceneState& state = m_span.state;
-        return !state.shapes[shape].trigger && !has_contact(own, shape) && may_collide(state, own, shape);
-    }
-
-    [[nodiscard]] bool has_contact(int own, int shape) const
-    {
-        const SceneState& state = m_span.state;
-        for (int edge = state.bodies[m_flier.body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = state.contacts[edge >> 1];
-            if ((contact.shape_a == own && contact.shape_b == shape) || (contact.shape_a == shape && contact.shape_b == own))
-                return true;
-        }
-        return false;
+        return !state.shapes[shape].trigger && !has_contact(state, own, shape) && may_collide(state, own, shape);
     }
 
     void look_beyond_box(int own, const FloatBox& path)

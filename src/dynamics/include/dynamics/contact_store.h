@@ -25,6 +25,9 @@ void mix_materials(const SceneData& scene, Contact& contact);
 void add_awake_contact(SceneState& state, int contact);
 void remove_awake_contact(SceneState& state, int contact);
 
+/// Have the two shapes a contact?
+[[nodiscard]] bool has_contact(const SceneState& state, int shape_a, int shape_b);
+
 /// Puts its pair back into SceneState::box_pairs, where it is not.
 void follow_again(SceneState& state, int contact);
 

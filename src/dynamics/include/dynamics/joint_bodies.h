@@ -61,6 +61,7 @@ struct Placement
     Vec2 shift{};
     Rotation turn{};
 };
+/// Where the present velocities lead it to by the end of the sub-step.
 [[nodiscard]] Placement placed_ahead(const SolverView& view, std::int32_t state);
 [[nodiscard]] JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b);
 
@@ -68,9 +69,6 @@ struct Placement
 
 /// Poses and rows as the bodies stand now; of springs the pose alone.
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
-
-/// Where the present velocities lead to by the end of the sub-step.
-[[nodiscard]] JointPose pose_ahead(const SolverView& view, const JointWork& work);
 
 /// All rows of a joint; a spring has none.
 [[nodiscard]] JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h);

@@ -80,6 +80,8 @@ struct JointLane
 {
     std::int32_t bin; ///< by color, and by whether it does something about its angle
     std::int32_t joint;
+    std::int32_t a; ///< states
+    std::int32_t b;
 };
 
 /// What constraints gave to a body in the last sub-step: warm starting of the next.
