@@ -1,5 +1,6 @@
 #include "dynamics/body_store.h"
 
+#include "dynamics/contact_store.h"
 #include "geometry/bounds.h"
 #include "geometry/mass.h"
 #include "geometry/surface.h"
@@ -34,10 +35,14 @@ LeafMass total_mass(const SceneState& state, int body)
     return total;
 }
 
-void move_center(BodySim& sim, Vec2 local_center)
+} // namespace
+
+void move_center(SceneState& state, int body, Vec2 local_center)
 {
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     if (local_center == sim.local_center)
         return;
+    for_each_contact(state, body, [&](int contact) { state.contacts[contact].flags |= contact_flag::fresh; });
     const Pose pose = sim.pose();
     const Position center = transform(pose, local_center);
     const Vec2 shift = center - sim.center;
@@ -46,8 +51,6 @@ void move_center(BodySim& sim, Vec2 local_center)
     sim.center = center;
     sim.local_center = local_center;
 }
-
-} // namespace
 
 void update_inverse_mass(SceneState& state, int body)
 {
@@ -78,7 +81,7 @@ void update_mass(SceneState& state, int body)
         // Static and kinematic bodies turn about the origin of their frame.
         sim.mass = 0;
         sim.inertia = 0;
-        move_center(sim, {});
+        move_center(state, body, {});
     }
     else if (!record.mass_overridden)
     {
@@ -86,7 +89,7 @@ void update_mass(SceneState& state, int body)
         // A dynamic body without mass weighs 1 kg and does not turn, so that it can be moved before it gets its shapes.
         sim.mass = total.mass > 0 ? static_cast<float>(total.mass) : 1;
         sim.inertia = static_cast<float>(total.inertia);
-        move_center(sim, {static_cast<float>(total.center_x), static_cast<float>(total.center_y)});
+        move_center(state, body, {static_cast<float>(total.center_x), static_cast<float>(total.center_y)});
     }
     update_inverse_mass(state, body);
     sim.extent = 0;

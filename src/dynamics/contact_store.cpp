@@ -187,8 +187,11 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     contact.flags = contact_flag::fresh | (trigger ? contact_flag::trigger : 0u);
     if (a->leaf.type == LeafType::Circle || b->leaf.type == LeafType::Circle)
         contact.flags |= contact_flag::round;
+    if (a->one_way != Vec2{} || b->one_way != Vec2{})
+        contact.flags |= contact_flag::one_way;
     contact.pair = pair;
     const int index = state.contacts.create(contact);
+    state.kept_manifolds.resize(static_cast<std::size_t>(state.contacts.capacity()));
     state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
     link_contact(state, index);
     mix_materials(scene, state.contacts[index]);

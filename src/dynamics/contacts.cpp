@@ -4,6 +4,7 @@
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
+#include "dynamics/kept_manifold.h"
 #include "dynamics/material.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
@@ -54,11 +55,6 @@ void carry_impulses(const Manifold& old, Manifold& fresh)
 
 namespace {
 
-bool is_one_way(const SceneState& state, const Contact& contact)
-{
-    return state.shapes[contact.shape_a].one_way != Vec2{} || state.shapes[contact.shape_b].one_way != Vec2{};
-}
-
 // What comes from behind passes until it is free of the shape; so does what already overlaps deeply.
 void update_passing(const StepContext& ctx, Contact& contact)
 {
@@ -80,15 +76,25 @@ float relative_motion(const SceneState& state, const Contact& contact)
     return length(b.shift - a.shift) + a.any_way + b.any_way;
 }
 
-void update_manifold(const StepContext& ctx, Contact& contact)
+void find_manifold(const StepContext& ctx, Contact& contact, float reach)
 {
     const SceneState& state = ctx.state;
-    const float margin = ctx.scene.tolerances.speculation + relative_motion(state, contact);
     const Manifold old = contact.manifold;
-    contact.manifold =
-        world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), margin);
+    contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b),
+                                      ctx.scene.tolerances.speculation + reach);
     carry_impulses(old, contact.manifold);
-    if (is_one_way(state, contact))
+    contact.flags &= ~contact_flag::kept;
+}
+
+void update_manifold(const StepContext& ctx, int index)
+{
+    Contact& contact = ctx.state.contacts[index];
+    const float reach = relative_motion(ctx.state, contact);
+    if (in_crowd(ctx.state, contact))
+        follow_manifold(ctx, index, reach);
+    else
+        find_manifold(ctx, contact, reach);
+    if ((contact.flags & contact_flag::one_way) != 0)
         update_passing(ctx, contact);
 }
 
@@ -179,7 +185,7 @@ void update_some(const StepContext& ctx, int first, int last, std::vector<Contac
     {
         const std::int32_t index = ctx.state.awake_contacts[static_cast<std::size_t>(i)];
         Contact& contact = ctx.state.contacts[index];
-        update_manifold(ctx, contact);
+        update_manifold(ctx, index);
         contact.flags &= ~contact_flag::fresh;
         if (const News what = news_of(ctx, contact); what != News::Nothing)
             news.push_back({index, what});

@@ -549,6 +549,7 @@ struct Builder
         scratch.states.push_back(initial_state(state, body));
         scratch.constants.push_back(state_constants(unit_ctx, body));
         scratch.state_bodies.push_back(body);
+        state.bodies[body].crowded = !unit.precise;
         if (force_law_of(ctx, body) != nullptr)
             scratch.laws.push_back({index, scratch.constants.back().angular_acceleration, scratch.constants.back().acceleration});
         if (unit.alone)

@@ -481,12 +481,8 @@ void Body::set_mass(const MassData& mass)
         !check.holds(t.record().type == BodyType::Dynamic, "the body", "not dynamic", "only dynamic bodies have mass"))
         return;
     // The center moves through the same door as when shapes give it: the velocity of the material stays.
+    move_center(m_data->state, t.slot, mass.center);
     BodySim& sim = t.sim();
-    const Position center = transform(sim.pose(), mass.center);
-    sim.velocity += cross(sim.angular_velocity, center - sim.center);
-    sim.previous_center += center - sim.center;
-    sim.center = center;
-    sim.local_center = mass.center;
     sim.mass = mass.mass;
     sim.inertia = mass.inertia;
     t.record().mass_overridden = true;

@@ -45,6 +45,7 @@ private:
         if (manifold.count == 0)
             return;
         m_span.state.contacts[index].manifold = manifold; // the row's points are these
+        m_span.state.contacts[index].flags &= ~contact_flag::kept;
         const bool flier_is_a = contact.body_a == m_flier.body;
         ContactRow row =
             prepare_row(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other, flier_is_a ? other : m_flier.state);

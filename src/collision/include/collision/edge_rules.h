@@ -42,4 +42,8 @@ template <class Normal>
            static_cast<std::uint32_t>(incident_point);
 }
 
+/// Between two corners, or of a surface without edges: no edge's normal.
+[[nodiscard]] inline bool is_of_edge(std::uint32_t feature) { return (feature & (0x4000u << 16)) == 0; }
+[[nodiscard]] inline bool edge_is_of_b(std::uint32_t feature) { return (feature & (1u << 31)) != 0; }
+
 } // namespace carom::internal

@@ -26,6 +26,7 @@ struct BodyRecord
     bool enabled = true;
     bool can_sleep = true;
     bool mass_overridden = false;
+    bool crowded = false;            ///< was solved in a large unit in the last step
     bool has_target = false;         ///< kinematic: BodySim::target is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
@@ -129,13 +130,15 @@ struct Manifold
 };
 
 namespace contact_flag {
-inline constexpr std::uint32_t trigger = 1;  ///< b visits trigger a
-inline constexpr std::uint32_t touching = 2; ///< begun and not ended; for triggers: inside
-inline constexpr std::uint32_t passing = 4;  ///< one-way: went through from behind, until it is free
-inline constexpr std::uint32_t fresh = 8;    ///< never updated
-inline constexpr std::uint32_t round = 16;   ///< a circle takes part
-inline constexpr std::uint32_t loaded = 32;  ///< had an impulse at the end of the last step
-inline constexpr std::uint32_t begun = 64;   ///< began to touch while the units were solved, and this is not yet told
+inline constexpr std::uint32_t trigger = 1;   ///< b visits trigger a
+inline constexpr std::uint32_t touching = 2;  ///< begun and not ended; for triggers: inside
+inline constexpr std::uint32_t passing = 4;   ///< one-way: went through from behind, until it is free
+inline constexpr std::uint32_t fresh = 8;     ///< never updated
+inline constexpr std::uint32_t round = 16;    ///< a circle takes part
+inline constexpr std::uint32_t loaded = 32;   ///< had an impulse at the end of the last step
+inline constexpr std::uint32_t begun = 64;    ///< began to touch while the units were solved, and this is not yet told
+inline constexpr std::uint32_t one_way = 128; ///< a one-way shape takes part
+inline constexpr std::uint32_t kept = 256;    ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
 } // namespace contact_flag
 
 struct Contact
@@ -155,6 +158,17 @@ struct Contact
     std::int32_t color = none;
     std::int32_t wide = none; ///< during a step: where its wide row is, group * lane_count + lane
     Manifold manifold{};
+};
+
+/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies; points and features are those of its manifold.
+struct alignas(64) KeptManifold
+{
+    Vec2 on_a[2]; ///< from a's center of mass, in a's axes
+    Vec2 on_b[2];
+    Vec2 normal{}; ///< from a to b, in the axes of the body whose edge it is normal to
+    Vec2 center{}; ///< where b's center of mass was seen from a
+    Rotation rotation{};
+    float margin = 0; ///< up to this separation nothing was left out
 };
 
 /// Two shapes whose fat boxes overlap, one of which is awake. They have a contact while they may meet in the step.
@@ -227,6 +241,7 @@ struct SceneState
     VertexStore vertices;
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
+    std::vector<KeptManifold> kept_manifolds; ///< by contact slot
     std::vector<BoxPair> box_pairs;
     PairSet ignored; ///< body pairs that never touch
     BroadPhase broad_phase;

@@ -1,0 +1,19 @@
+#pragma once
+
+// In crowds most pairs move together: boxes that lie on each other, a pile that a drum turns as a whole. What the narrow phase found of such a
+// pair is kept, fixed to the two bodies, and followed instead of found again, until one has moved against the other (the idea is Box2D 3.2's
+// contact recycling; there anchors and normal stay as they were in the world, here they turn with their bodies, so that separations are exact).
+// Few bodies alone are always looked at anew: there a contact decides where a ball goes.
+
+#include "dynamics/step_context.h"
+
+namespace carom::internal {
+
+/// Both bodies were solved in a crowd in the last step, or do not count.
+[[nodiscard]] bool in_crowd(const SceneState& state, const Contact& contact);
+
+/// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over. `reach`: how much nearer
+/// the two may come in this step.
+void follow_manifold(const StepContext& ctx, int index, float reach);
+
+} // namespace carom::internal

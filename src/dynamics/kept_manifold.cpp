@@ -1,0 +1,112 @@
+#include "dynamics/kept_manifold.h"
+
+#include "collision/edge_rules.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/scene_data.h"
+
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+// An edge's normal belongs to the body of the edge; what is nearest at two corners, or round, has a normal of its own.
+bool can_keep(const SceneState& state, const Contact& contact)
+{
+    const auto has_edges = [&](int shape)
+    {
+        const LeafType type = state.shapes[shape].leaf.type;
+        return type == LeafType::Polygon || type == LeafType::Capsule;
+    };
+    const Manifold& m = contact.manifold;
+    return (contact.flags & contact_flag::one_way) == 0 && has_edges(contact.shape_a) && has_edges(contact.shape_b) &&
+           (m.count == 0 || is_of_edge(m.points[0].feature));
+}
+
+bool is_kept(const Contact& contact)
+{
+    return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
+}
+
+const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
+
+Vec2 place_of_b(const BodySim& a, const BodySim& b) { return inverse_rotate(a.rotation, b.center - a.center); }
+
+// How far any point of b has moved against a since the manifold was found.
+float way_since(const KeptManifold& kept, const BodySim& a, const BodySim& b)
+{
+    const Rotation turn = inverse(a.rotation) * b.rotation * inverse(kept.rotation);
+    return turn.c > 0 ? length(place_of_b(a, b) - kept.center) + b.extent * std::fabs(turn.s) : 3e38f;
+}
+
+void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const Manifold& m, float margin)
+{
+    kept.center = place_of_b(a, b);
+    kept.rotation = inverse(a.rotation) * b.rotation;
+    kept.margin = margin;
+    for (int i = 0; i < m.count; ++i)
+    {
+        kept.on_a[i] = inverse_rotate(a.rotation, m.points[i].anchor_a);
+        kept.on_b[i] = inverse_rotate(b.rotation, m.points[i].anchor_b);
+    }
+    if (m.count > 0)
+        kept.normal = inverse_rotate(edge_is_of_b(m.points[0].feature) ? b.rotation : a.rotation, m.normal);
+}
+
+// The point of the other body stays where it is on it; opposite, on the edge, it slides along.
+void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifold& m)
+{
+    if (m.count == 0)
+        return;
+    const bool of_b = edge_is_of_b(m.points[0].feature);
+    const Vec2 apart = b.center - a.center;
+    m.normal = rotate(of_b ? b.rotation : a.rotation, kept.normal);
+    for (int i = 0; i < m.count; ++i)
+    {
+        ManifoldPoint& p = m.points[i];
+        p.anchor_a = rotate(a.rotation, kept.on_a[i]);
+        p.anchor_b = rotate(b.rotation, kept.on_b[i]);
+        const Vec2 gap = apart + (p.anchor_b - p.anchor_a);
+        p.separation = dot(m.normal, gap);
+        const Vec2 slid = gap - p.separation * m.normal;
+        (of_b ? p.anchor_b : p.anchor_a) += of_b ? -slid : slid;
+    }
+}
+
+} // namespace
+
+bool in_crowd(const SceneState& state, const Contact& contact)
+{
+    const auto is = [&](int body) { return state.bodies[body].type != BodyType::Dynamic || state.bodies[body].crowded; };
+    return is(contact.body_a) && is(contact.body_b);
+}
+
+void follow_manifold(const StepContext& ctx, int index, float reach)
+{
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
+    KeptManifold& kept = state.kept_manifolds[static_cast<std::size_t>(index)];
+    const BodySim& a = sim_of(state, contact.body_a);
+    const BodySim& b = sim_of(state, contact.body_b);
+    const Tolerances& t = ctx.scene.tolerances;
+    const float margin = t.speculation + reach;
+    const float way = is_kept(contact) ? way_since(kept, a, b) : 3e38f;
+    // What has two points gets no third.
+    if (way < t.keep && (contact.manifold.count == 2 || margin + way <= kept.margin))
+    {
+        follow(kept, a, b, contact.manifold);
+        return;
+    }
+    const float wide_margin = margin + 0.5f * t.keep;
+    const Manifold old = contact.manifold;
+    contact.manifold =
+        world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), wide_margin);
+    carry_impulses(old, contact.manifold);
+    contact.flags &= ~contact_flag::kept;
+    if (!can_keep(state, contact))
+        return;
+    contact.flags |= contact_flag::kept;
+    keep(kept, a, b, contact.manifold, wide_margin);
+}
+
+} // namespace carom::internal
