@@ -167,6 +167,16 @@ bool has_contact(const SceneState& state, int shape_a, int shape_b)
     return false;
 }
 
+namespace {
+
+bool is_plain(const Leaf& leaf)
+{
+    const bool of_chain = leaf.has_previous || leaf.has_next || leaf.sides != Sides::Both;
+    return leaf.type != LeafType::Arc && !of_chain;
+}
+
+} // namespace
+
 void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
 {
     SceneState& state = scene.state;
@@ -187,6 +197,8 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     contact.flags = contact_flag::fresh | (trigger ? contact_flag::trigger : 0u);
     if (a->leaf.type == LeafType::Circle || b->leaf.type == LeafType::Circle)
         contact.flags |= contact_flag::round;
+    if (is_plain(a->leaf) && is_plain(b->leaf))
+        contact.flags |= contact_flag::plain;
     if (a->one_way != Vec2{} || b->one_way != Vec2{})
         contact.flags |= contact_flag::one_way;
     contact.pair = pair;

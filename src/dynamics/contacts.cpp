@@ -68,14 +68,6 @@ void update_passing(const StepContext& ctx, Contact& contact)
         contact.flags |= contact_flag::passing;
 }
 
-// How much nearer the two may come in this step, if nothing strikes them.
-float relative_motion(const SceneState& state, const Contact& contact)
-{
-    const BoxPath& a = state.broad_phase.path(contact.shape_a);
-    const BoxPath& b = state.broad_phase.path(contact.shape_b);
-    return length(b.shift - a.shift) + a.any_way + b.any_way;
-}
-
 void find_manifold(const StepContext& ctx, Contact& contact, float reach)
 {
     const SceneState& state = ctx.state;

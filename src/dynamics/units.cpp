@@ -583,8 +583,21 @@ struct Builder
     {
         const int body = state.awake_bodies[static_cast<std::size_t>(place)];
         const BodyRecord& record = state.bodies[body];
-        return flight[static_cast<std::size_t>(place)] == none && record.first_contact == none && record.first_joint == none &&
+        return flight[static_cast<std::size_t>(place)] == none && record.first_joint == none && meets_nothing(record) &&
                is_free_of_loads(body) && !ctx.scene.def.record_substeps;
+    }
+
+    // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
+    [[nodiscard]] bool meets_nothing(const BodyRecord& record) const
+    {
+        for (int edge = record.first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if (contact.manifold.count > 0 ||
+                (contact.flags & (contact_flag::trigger | contact_flag::plain)) != contact_flag::plain)
+                return false;
+        }
+        return true;
     }
 
     // In a crowd only what flies, or a law, makes anything fast enough to fly within the step.
@@ -852,8 +865,12 @@ struct Builder
     {
         scratch.flier_of_state.assign(scratch.states.size(), none);
         scratch.versions.assign(scratch.states.size(), 0);
+        scratch.holds.resize(std::max(scratch.holds.size(), scratch.fliers.size() * Flier::most_held));
         for (std::size_t i = 0; i < scratch.fliers.size(); ++i)
+        {
             scratch.flier_of_state[static_cast<std::size_t>(scratch.fliers[i].state)] = static_cast<std::int32_t>(i);
+            scratch.fliers[i].held = scratch.holds.data() + i * Flier::most_held;
+        }
     }
 
     void count()

@@ -2,6 +2,7 @@
 
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/material.h"
 
@@ -161,10 +162,10 @@ private:
     {
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
-        if (is_out_of_reach(body))
+        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
+        if (was_found_apart(contact, body, other) || is_out_of_reach(body))
             return;
         // Before its last change the other's path is not this one; until then the two have not met.
-        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
         const double start = other != nullptr ? std::max(m_flier.time, other->time) : m_flier.time;
         const double left = std::min(m_span.h, m_flier.event_time) - start;
         if (left < 0)
@@ -190,6 +191,20 @@ private:
         m_flier.event_shape = shape;
         m_flier.event_state = m_span.state_in_unit(body);
         m_flier.event_version = version_of(m_span, m_flier.event_state);
+    }
+
+    // On the ways that both set out on they do not meet within the step.
+    [[nodiscard]] bool was_found_apart(int contact, int body, const Flier* other) const
+    {
+        if (contact == none || m_flier.deflected)
+            return false;
+        if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->landed || other->deflected))
+            return false;
+        const Contact& c = m_span.state.contacts[contact];
+        if ((c.flags & contact_flag::plain) == 0)
+            return false;
+        return c.manifold.count == 0 ||
+               least_separation(c.manifold) > relative_motion(m_span.state, c) + 0.1f * m_span.ctx.scene.tolerances.speculation;
     }
 
     // Along the line of their centers, or the normal at the start of the step: a look at every corner is dear.

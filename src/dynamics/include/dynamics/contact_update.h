@@ -30,6 +30,14 @@ void carry_impulses(const Manifold& old, Manifold& fresh);
     return {sim.center, sim.rotation, sim.local_center};
 }
 
+/// How much nearer the two may come in this step, if nothing strikes them.
+[[nodiscard]] inline float relative_motion(const SceneState& state, const Contact& contact)
+{
+    const BoxPath& a = state.broad_phase.path(contact.shape_a);
+    const BoxPath& b = state.broad_phase.path(contact.shape_b);
+    return length(b.shift - a.shift) + a.any_way + b.any_way;
+}
+
 [[nodiscard]] inline float least_separation(const Manifold& m)
 {
     float least = 3e38f;

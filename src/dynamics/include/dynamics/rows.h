@@ -153,7 +153,7 @@ struct Flier
     float limit_reaction = 0; ///< N m s, of the limits, over the step
 
     static constexpr int most_held = 12;
-    Hold held[most_held];
+    Hold* held = nullptr; ///< its place in Scratch::holds
     std::int32_t held_count = 0;
     bool rests = false; ///< against something that gives way
     bool led = false;   ///< what holds it does not give way

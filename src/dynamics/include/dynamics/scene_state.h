@@ -138,6 +138,7 @@ inline constexpr std::uint32_t round = 16;    ///< a circle takes part
 inline constexpr std::uint32_t loaded = 32;   ///< had an impulse at the end of the last step
 inline constexpr std::uint32_t begun = 64;    ///< began to touch while the units were solved, and this is not yet told
 inline constexpr std::uint32_t one_way = 128; ///< a one-way shape takes part
+inline constexpr std::uint32_t plain = 512;   ///< no points means apart; pieces of chains and arcs may also face elsewhere
 inline constexpr std::uint32_t kept = 256;    ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
 } // namespace contact_flag
 

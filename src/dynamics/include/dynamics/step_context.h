@@ -191,6 +191,7 @@ struct Scratch
     std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
+    std::vector<Hold> holds; ///< Flier::most_held of each flier
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
     std::vector<UnitOutput> outputs;
