@@ -139,19 +139,6 @@ void commit_row(StepContext& ctx, const ContactRow& row)
     }
 }
 
-void clear_unsolved_impulses(StepContext& ctx)
-{
-    for (const std::int32_t index : ctx.state.awake_contacts)
-    {
-        Contact& contact = ctx.state.contacts[index];
-        if (contact.color != none)
-            continue;
-        contact.flags &= ~contact_flag::loaded;
-        for (ManifoldPoint& p : contact.manifold.points)
-            p.normal_impulse = p.tangent_impulse = p.total_impulse = p.total_tangent = 0;
-    }
-}
-
 void commit_joint(StepContext& ctx, const JointWork& work)
 {
     JointRecord& joint = ctx.state.joints[work.joint];
@@ -348,7 +335,6 @@ void commit_and_sleep(StepContext& ctx)
     }
     for (std::size_t i = 0; i < scratch.states.size(); ++i)
         commit_state(ctx, static_cast<std::int32_t>(i));
-    clear_unsolved_impulses(ctx);
     for (const WideRow& row : scratch.wide_rows)
         commit_wide_row(ctx.state, row);
     for (const ContactRow& row : scratch.rows)

@@ -4,6 +4,7 @@
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_solver.h"
+#include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/flight.h"
 #include "dynamics/force_laws.h"
@@ -83,7 +84,7 @@ public:
     UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy)
         : m_ctx(unit.slices > 1 ? sliced(ctx, unit.slices) : ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
           m_energy(energy),
-          m_watches_energy(unit.precise || (unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
+          m_watches_energy(unit.precise || (!unit.heap && unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
           m_rows(std::span(ctx.scratch.rows)
                      .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
@@ -535,6 +536,7 @@ private:
             return;
         m_ctx.state.contacts[now.contact].color = m_ctx.state.contacts[row.contact].color;
         m_ctx.state.contacts[row.contact].color = none;
+        forget_impulses(m_ctx.state.contacts[row.contact]);
         row.contact = now.contact;
     }
 

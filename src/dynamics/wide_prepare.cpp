@@ -31,31 +31,36 @@ const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
 
 } // namespace
 
-bool fits_lane(const StepContext& ctx, const Contact& contact, const Link& states)
+bool fits_lane(const StepContext& ctx, const Link& link)
 {
-    return contact.rolling_resistance == 0 && contact.surface_speed == 0 && is_uniform(constants_of(ctx, states.a)) &&
-           is_uniform(constants_of(ctx, states.b));
+    return link.plain && is_uniform(constants_of(ctx, link.a)) && is_uniform(constants_of(ctx, link.b));
 }
 
-void add_empty_rows(Scratch& scratch, std::int32_t fixed, std::int32_t groups)
+void start_wide_row(WideRow& row)
 {
-    WideRow empty{};
-    for (int i = 0; i < lane_count; ++i)
+    for (WidePoint& p : row.points)
     {
-        empty.a.v[i] = empty.b.v[i] = fixed;
-        empty.contact.v[i] = none;
+        p.total_impulse = {};
+        p.total_tangent = {};
+        p.approach = {};
     }
-    for (WidePoint& p : empty.points)
-        std::fill(std::begin(p.k.v), std::end(p.k.v), 1.0f);
-    empty.count = 1;
-    scratch.wide_rows.resize(static_cast<std::size_t>(groups), empty);
+    row.coupling = {};
+    row.may_hit = row.untold = 0;
 }
 
-void fill_lane(const StepContext& ctx, const Link& states, std::int32_t index)
+void empty_wide_row(std::int32_t fixed, WideRow& row)
 {
-    const Lane lane(ctx.scratch, index);
-    WideRow& row = lane.row;
-    const int i = lane.i;
+    row = {};
+    std::fill(std::begin(row.a.v), std::end(row.a.v), fixed);
+    std::fill(std::begin(row.b.v), std::end(row.b.v), fixed);
+    std::fill(std::begin(row.contact.v), std::end(row.contact.v), none);
+    for (WidePoint& p : row.points)
+        std::fill(std::begin(p.k.v), std::end(p.k.v), 1.0f);
+    row.count = 1;
+}
+
+void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
+{
     const Contact& contact = ctx.state.contacts[states.contact];
     const Manifold& m = contact.manifold;
     const StateConstants& a = constants_of(ctx, states.a);
@@ -89,12 +94,6 @@ void fill_lane(const StepContext& ctx, const Link& states, std::int32_t index)
         row.may_hit |= 1u << i;
     if ((contact.flags & contact_flag::touching) == 0)
         row.untold |= 1u << i;
-    if (stiff && (contact.flags & contact_flag::round) != 0 && m.count == 1)
-    {
-        const Leaf& leaf = ctx.state.shapes[a.inverse_mass.x != 0 ? contact.shape_a : contact.shape_b].leaf;
-        if (leaf.type == LeafType::Circle)
-            ctx.scratch.cores.push_back({index, 0.5f * leaf.r0});
-    }
 }
 
 ContactRow row_of_lane(const StepContext& ctx, std::int32_t index)

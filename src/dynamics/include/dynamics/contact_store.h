@@ -45,6 +45,14 @@ void for_each_contact(SceneState& state, int body, Visit&& visit)
     }
 }
 
+/// Of a contact that nothing solves any more.
+inline void forget_impulses(Contact& contact)
+{
+    contact.flags &= ~contact_flag::loaded;
+    for (ManifoldPoint& p : contact.manifold.points)
+        p.normal_impulse = p.tangent_impulse = p.total_impulse = p.total_tangent = 0;
+}
+
 [[nodiscard]] inline int other_body(const Contact& contact, int body)
 {
     return contact.body_a == body ? contact.body_b : contact.body_a;

@@ -28,7 +28,9 @@ struct Unit
     std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
     std::int32_t state_count = 0;
     std::int32_t dynamic_count = 0; ///< of these, after the first one
-    std::int32_t first_row = 0;     ///< contact rows, sorted by color
+    std::int32_t first_link = 0;
+    std::int32_t link_count = 0;
+    std::int32_t first_row = 0; ///< contact rows, sorted by color
     std::int32_t row_count = 0;
     std::int32_t first_wide = 0; ///< groups of wide rows, sorted by color: of large units; rows are then what does not fit there
     std::int32_t wide_count = 0;
@@ -48,6 +50,7 @@ struct Unit
     std::int32_t slices = 1; ///< of each sub-step
     bool alone = false;      ///< one body with nothing near: it falls
     bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
+    bool heap = false;       ///< joints that lie on something, of several islands
     bool traced = false;     ///< paths of some of its bodies are recorded
 };
 
@@ -68,20 +71,55 @@ struct ContactNews
 /// Contact of a dynamic body, or of two, that takes part in a step.
 struct Link
 {
-    std::int32_t contact;
-    std::int32_t a; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
-    std::int32_t b;
-    bool touching; ///< else it may touch within the step
-    bool solved;   ///< gets a row, unless a body flies
+    std::int32_t contact = none;
+    std::int32_t a = none; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
+    std::int32_t b = none;
+    bool touching = false; ///< else it may touch within the step
+    bool solved = false;   ///< gets a row, unless a body flies
+    bool bears = false;    ///< bore a load in the last step
+    bool grounds = false;  ///< what it bears, or pushes out, does not fly
+    bool plain = false;    ///< neither rolling resistance nor surface speed
+    bool round = false;    ///< a circle takes part
+    bool in_lane = false;
+    std::uint8_t points = 0;
+    std::uint8_t color = 0;
 };
 
-/// A hinge and the group it goes to.
+/// What a unit is made of.
+struct UnitTally
+{
+    std::int32_t bodies = 0;
+    std::int32_t fliers = 0;
+    std::int32_t joints = 0;
+    std::int32_t bearing = 0; ///< contacts that bore a load in the last step
+};
+
+inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
+
+/// A joint and the states of its bodies.
+struct JointPlace
+{
+    std::int32_t joint;
+    std::int32_t a;
+    std::int32_t b;
+};
+
+/// A hinge among the wide ones.
 struct JointLane
 {
-    std::int32_t bin; ///< by color, and by whether it does something about its angle
-    std::int32_t joint;
-    std::int32_t a; ///< states
-    std::int32_t b;
+    std::int32_t bin;   ///< by color, and by whether it does something about its angle
+    std::int32_t lane;  ///< group * lane_count + lane
+    std::int32_t fixed; ///< the unit's state of what does not move
+    JointPlace place;
+};
+
+/// A body that flies in this step, or may take off.
+struct FlierSeed
+{
+    std::int32_t state;
+    std::int32_t body;
+    std::int32_t kind; ///< none, or the hinge it turns on
+    bool landed;
 };
 
 /// What constraints gave to a body in the last sub-step: warm starting of the next.
@@ -175,9 +213,18 @@ struct Scratch
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
     std::vector<std::vector<ContactNews>> news_of_task;
+    std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
+    std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
+    std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
+    std::vector<std::vector<Link>> links_of_task;
     std::vector<Link> links;
+    std::vector<UnitTally> tallies;
+    std::vector<std::int32_t> unit_starts;
     std::vector<Link> solved_links; ///< those that get rows, by unit
     std::vector<std::int32_t> solved_joints;
+    std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by unit
+    std::vector<std::int32_t> lane_links;    ///< link in each lane; none: empty
+    std::vector<std::int32_t> row_links;     ///< link of each row
     std::vector<Unit> units;
     std::vector<BodyState> states; ///< [0] stands for every static body
     std::vector<StateConstants> constants;
@@ -198,8 +245,9 @@ struct Scratch
     std::vector<PathPiece> paths; ///< of all units, by body
     std::vector<Crossing> crossings;
     std::vector<std::uint64_t> color_masks;
+    std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
-    std::vector<std::int32_t> lanes_of_bin; ///< of wide rows of a unit: by color and number of points
+    std::vector<FlierSeed> flier_seeds;
     std::vector<std::int32_t> order;
 };
 

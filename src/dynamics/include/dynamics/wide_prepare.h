@@ -7,13 +7,16 @@
 namespace carom::internal {
 
 /// Contacts that roll, convey, or hold a body that may not move along every axis have rows of their own.
-[[nodiscard]] bool fits_lane(const StepContext& ctx, const Contact& contact, const Link& states);
+[[nodiscard]] bool fits_lane(const StepContext& ctx, const Link& link);
 
-/// Appends empty groups until there are so many. `fixed` is the unit's state of what does not move.
-void add_empty_rows(Scratch& scratch, std::int32_t fixed, std::int32_t groups);
+/// All lanes will be filled.
+void start_wide_row(WideRow& row);
 
-/// Writes the contact into a lane; WideKernels::prepare does the rest.
-void fill_lane(const StepContext& ctx, const Link& states, std::int32_t lane);
+/// No lane pushes anything. `fixed` is the unit's state of what does not move.
+void empty_wide_row(std::int32_t fixed, WideRow& row);
+
+/// Writes the contact of a link between states into a lane; WideKernels::prepare does the rest.
+void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int lane);
 
 /// The lane as a row of its own, at the start of the step.
 [[nodiscard]] ContactRow row_of_lane(const StepContext& ctx, std::int32_t lane);

@@ -1,0 +1,19 @@
+#pragma once
+
+// Who is solved together in this step, and what a body does in it: the first half of the units stage.
+
+#include "dynamics/step_context.h"
+
+namespace carom::internal {
+
+inline constexpr int precise_limit = 32; ///< bodies: beyond it a contact more or less does not decide where a ball goes
+
+/// Fills Scratch::units with how many states, links and joints each has, solved_links and solved_joints in their order, and who flies.
+void build_unit_graph(StepContext& ctx);
+
+[[nodiscard]] inline bool is_moving_dynamic(const SceneState& state, int body)
+{
+    return body != none && state.bodies[body].type == BodyType::Dynamic && state.bodies[body].awake_index != none;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,630 @@
+// Islands (touching contacts and joints between dynamic bodies) persist until the graph changes; units are islands joined further where rows
+// or flight paths may meet in this step. A unit's kind depends on its content alone, never on threads or the order of other units.
+
+#include "dynamics/unit_graph.h"
+
+#include "core/task_pool.h"
+#include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/force_laws.h"
+#include "dynamics/unit_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float slice_turn = 0.02f;  // rad
+constexpr float slice_swing = 0.25f; // rad, of a joint's arm
+constexpr int slice_limit = 32;
+constexpr int contacts_per_task = 1024;
+constexpr int heap_bodies = 256; // in a batch
+
+// --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
+
+std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i)
+{
+    while (parent[static_cast<std::size_t>(i)] != i)
+    {
+        std::int32_t& up = parent[static_cast<std::size_t>(i)];
+        up = parent[static_cast<std::size_t>(up)];
+        i = up;
+    }
+    return i;
+}
+
+// The lesser place becomes the root: the result does not depend on the order of the links. False where they were linked already.
+bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b)
+{
+    a = find_root(parent, a);
+    b = find_root(parent, b);
+    if (a == b)
+        return false;
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    return true;
+}
+
+bool link_bodies(StepContext& ctx, int a, int b)
+{
+    return is_moving_dynamic(ctx.state, a) && is_moving_dynamic(ctx.state, b) &&
+           link(ctx.scratch.parent, ctx.state.bodies[a].awake_index, ctx.state.bodies[b].awake_index);
+}
+
+void reset_parents(StepContext& ctx)
+{
+    std::vector<std::int32_t>& parent = ctx.scratch.parent;
+    parent.resize(ctx.state.awake_bodies.size());
+    for (std::size_t i = 0; i < parent.size(); ++i)
+        parent[i] = static_cast<std::int32_t>(i);
+}
+
+// --- what is solved in this step --------------------------------------------------------------------------------------------------
+
+bool gets_rows(const SceneState& state, const Contact& contact)
+{
+    return contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0 &&
+           (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
+}
+
+// What may fly: a body without joints, or one on a single hinge to the world that nothing drives.
+std::int32_t flight_of(const SceneState& state, int body)
+{
+    const BodyRecord& record = state.bodies[body];
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    const int edge = record.first_joint;
+    if (edge == none)
+        return sim.inverse_mass != Vec2{} || sim.inverse_inertia != 0 ? none : earthbound;
+    const JointRecord& joint = state.joints[edge >> 1];
+    const int other = joint.body_a == body ? joint.body_b : joint.body_a;
+    const bool hinged = joint.kind == JointType::Revolute && !joint.enable_motor && joint.hertz == 0 &&
+                        joint.next[edge & 1] == none && (other == none || state.bodies[other].type == BodyType::Static) &&
+                        sim.inverse_inertia > 0;
+    if (!hinged)
+        return earthbound;
+    // A body that may not move along is held twice: it turns only if the pivot is its center of mass.
+    const Vec2 anchor = joint.body_a == body ? joint.anchor_a : joint.anchor_b;
+    const bool centered = anchor == sim.local_center;
+    return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
+}
+
+// The hinge's two points must be in one place; flight does not pull them together.
+bool is_closed(const StepContext& ctx, int index, int body)
+{
+    const JointRecord& joint = ctx.state.joints[index];
+    const auto world = [&](int b, Vec2 anchor)
+    { return b == none ? Position(anchor) : transform(ctx.state.sims[static_cast<std::size_t>(b)].pose(), anchor); };
+    const Vec2 gap = world(joint.body_b, joint.anchor_b) - world(joint.body_a, joint.anchor_a);
+    return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
+}
+
+// Is it borne, or does it overlap something that must be pushed out? Then it does not fly. What will be apart by itself within the step need not
+// be pushed.
+bool is_loaded(const StepContext& ctx, const Contact& contact)
+{
+    const float separation = least_separation(contact.manifold);
+    const bool loaded = separation <= ctx.scene.tolerances.speculation && (contact.flags & contact_flag::loaded) != 0;
+    return loaded || (separation < -ctx.scene.tolerances.slop &&
+                      motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) < -4 * separation);
+}
+
+// --- the graph --------------------------------------------------------------------------------------------------------------------
+
+class UnitGraph
+{
+public:
+    explicit UnitGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+
+    void find_fliers()
+    {
+        scratch.flight.assign(state.awake_bodies.size(), earthbound);
+        scratch.grounded.assign(state.awake_bodies.size(), earthbound);
+        if (!ctx.scene.def.continuous)
+            return;
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
+        {
+            const int body = state.awake_bodies[i];
+            if (state.bodies[body].type != BodyType::Dynamic)
+                continue;
+            const std::int32_t kind = flight_of(state, body);
+            if (kind != earthbound && (kind == none || is_closed(ctx, kind, body)))
+                scratch.flight[i] = kind;
+        }
+    }
+
+    // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
+    void gather_links()
+    {
+        const auto count = static_cast<int>(state.awake_contacts.size());
+        const int tasks = (count + contacts_per_task - 1) / contacts_per_task;
+        if (static_cast<int>(scratch.links_of_task.size()) < tasks)
+            scratch.links_of_task.resize(static_cast<std::size_t>(tasks));
+        run_tasks(ctx.scene.def.tasks, tasks,
+                  [&](int task)
+                  {
+                      const int first = task * contacts_per_task;
+                      gather_some(first, std::min(first + contacts_per_task, count),
+                                  scratch.links_of_task[static_cast<std::size_t>(task)]);
+                  });
+        scratch.links.clear();
+        for (int i = 0; i < tasks; ++i)
+        {
+            const std::vector<Link>& some = scratch.links_of_task[static_cast<std::size_t>(i)];
+            scratch.links.insert(scratch.links.end(), some.begin(), some.end());
+        }
+        for (const Link& l : scratch.links)
+        {
+            ctx.report.touching += l.touching ? 1 : 0;
+            if (!l.grounds)
+                continue;
+            ground(l.a);
+            ground(l.b);
+        }
+    }
+
+    // Writes to its own contacts alone.
+    void gather_some(int first, int last, std::vector<Link>& links) const
+    {
+        links.clear();
+        for (int i = first; i < last; ++i)
+        {
+            const std::int32_t index = state.awake_contacts[static_cast<std::size_t>(i)];
+            Contact& contact = state.contacts[index];
+            contact.color = contact.wide = none;
+            const bool touching = (contact.flags & contact_flag::touching) != 0;
+            const bool solved = contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
+            if (!solved)
+                forget_impulses(contact);
+            if (!touching && !solved)
+                continue;
+            Link l{.contact = index, .a = place_of(contact.body_a), .b = place_of(contact.body_b)};
+            if (l.a < 0 && l.b < 0)
+                continue;
+            l.touching = touching;
+            l.solved = solved;
+            l.bears = (contact.flags & contact_flag::loaded) != 0;
+            l.grounds = solved && is_loaded(ctx, contact);
+            l.plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
+            l.round = (contact.flags & contact_flag::round) != 0;
+            l.points = static_cast<std::uint8_t>(contact.manifold.count);
+            links.push_back(l);
+        }
+    }
+
+    [[nodiscard]] std::int32_t place_of(int body) const
+    {
+        const BodyRecord& record = state.bodies[body];
+        if (record.awake_index == none || record.type == BodyType::Static)
+            return none;
+        return record.type == BodyType::Dynamic ? record.awake_index : -2 - record.awake_index;
+    }
+
+    void ground(std::int32_t place)
+    {
+        if (place < 0 || scratch.flight[static_cast<std::size_t>(place)] == earthbound)
+            return;
+        scratch.grounded[static_cast<std::size_t>(place)] = scratch.flight[static_cast<std::size_t>(place)];
+        scratch.flight[static_cast<std::size_t>(place)] = earthbound;
+    }
+
+    // Islands: relabelled only when the graph has changed.
+    void label_islands()
+    {
+        if (!state.graph_dirty)
+            return;
+        reset_parents(ctx);
+        for (const Link& l : scratch.links)
+        {
+            if (l.touching && l.a >= 0 && l.b >= 0)
+                link(scratch.parent, l.a, l.b);
+        }
+        for (int j = 0; j < state.joints.capacity(); ++j)
+        {
+            if (state.joints.is_live(j))
+                link_bodies(ctx, state.joints[j].body_a, state.joints[j].body_b);
+        }
+        for (const std::int32_t body : state.awake_bodies)
+        {
+            const std::int32_t root = find_root(scratch.parent, state.bodies[body].awake_index);
+            state.bodies[body].island = state.awake_bodies[static_cast<std::size_t>(root)];
+        }
+        state.graph_dirty = false;
+    }
+
+    // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
+    // way.
+    void ground_crowds()
+    {
+        std::vector<std::int32_t> fliers(scratch.units.size(), 0);
+        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
+        {
+            if (scratch.flight[i] != earthbound)
+                ++fliers[static_cast<std::size_t>(scratch.unit_of[i])];
+        }
+        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
+        {
+            if (scratch.flight[i] == earthbound || fliers[static_cast<std::size_t>(scratch.unit_of[i])] <= precise_limit)
+                continue;
+            if (!shoots(state.awake_bodies[i]))
+                std::swap(scratch.flight[i], scratch.grounded[i]);
+        }
+    }
+
+    // Goes half its size or more in a sub-step, also as its neighbours see it.
+    [[nodiscard]] bool shoots(int body) const
+    {
+        const float limit = 0.5f * state.sims[static_cast<std::size_t>(body)].size / ctx.h;
+        const Vec2 v = state.sims[static_cast<std::size_t>(body)].velocity;
+        bool shoots = length(v) > limit;
+        for (int edge = state.bodies[body].first_contact; shoots && edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            const int other = other_body(contact, body);
+            shoots = !gets_rows(state, contact) || state.bodies[other].type != BodyType::Dynamic ||
+                     length(v - state.sims[static_cast<std::size_t>(other)].velocity) > limit;
+        }
+        return shoots;
+    }
+
+    // What units are made of, before anything is laid out.
+    void count_members()
+    {
+        std::vector<UnitTally>& tallies = scratch.tallies;
+        tallies.assign(scratch.units.size(), {});
+        for (std::size_t i = 0; i < scratch.unit_of.size(); ++i)
+        {
+            if (scratch.unit_of[i] == none)
+                continue;
+            UnitTally& t = tally(scratch.unit_of[i]);
+            ++t.bodies;
+            t.fliers += scratch.flight[i] != earthbound ? 1 : 0;
+        }
+        for (const Link& l : scratch.links)
+        {
+            if (l.solved && l.bears)
+                ++tally(unit_of_link(l)).bearing;
+        }
+    }
+
+    [[nodiscard]] UnitTally& tally(std::int32_t unit) { return scratch.tallies[static_cast<std::size_t>(unit)]; }
+    [[nodiscard]] std::int32_t unit_of_link(const Link& l) const
+    {
+        return scratch.unit_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
+    }
+
+    // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
+    void choose_slices()
+    {
+        const auto slice = [&](std::int32_t unit, float rate, float most_turn)
+        {
+            const auto wanted = static_cast<int>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(slice_limit))));
+            std::int32_t& slices = scratch.units[static_cast<std::size_t>(unit)].slices;
+            slices = std::max(slices, wanted);
+        };
+        for (const Link& l : scratch.links)
+        {
+            if (l.solved && tally(unit_of_link(l)).bodies <= precise_limit)
+                slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn);
+        }
+        for (int j = 0; j < state.joints.capacity(); ++j)
+        {
+            if (!state.joints.is_live(j))
+                continue;
+            const JointRecord& joint = state.joints[j];
+            const std::int32_t unit = unit_of_pair(joint.body_a, joint.body_b);
+            if (unit == none)
+                continue;
+            ++tally(unit).joints;
+            if (tally(unit).bodies <= UnitEnergy::most_bodies)
+                slice(unit, swing_rate(joint), slice_swing);
+        }
+    }
+
+    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others.
+    void batch_heaps()
+    {
+        std::vector<std::int32_t>& place = scratch.order; // of each unit, among those that remain
+        place.resize(scratch.units.size());
+        std::int32_t count = 0;
+        std::int32_t batch = none;
+        int bodies = 0;
+        for (std::size_t u = 0; u < scratch.units.size(); ++u)
+        {
+            const bool heap = is_heap(static_cast<std::int32_t>(u));
+            if (heap && batch != none && bodies < heap_bodies)
+            {
+                bodies += scratch.tallies[u].bodies;
+                place[u] = batch;
+                continue;
+            }
+            if (heap)
+            {
+                batch = count;
+                bodies = scratch.tallies[u].bodies;
+            }
+            place[u] = count;
+            scratch.units[static_cast<std::size_t>(count)] = scratch.units[u];
+            scratch.units[static_cast<std::size_t>(count)].heap = heap;
+            ++count;
+        }
+        ctx.report.units = static_cast<int>(scratch.units.size());
+        if (count == static_cast<std::int32_t>(scratch.units.size()))
+            return;
+        scratch.units.resize(static_cast<std::size_t>(count));
+        for (std::int32_t& u : scratch.unit_of)
+            u = u == none ? none : place[static_cast<std::size_t>(u)];
+    }
+
+    // Joints that lie on something: nearly as many contacts bear a load. What they hold exactly otherwise is held softly here, as in piles.
+    [[nodiscard]] bool is_heap(std::int32_t unit)
+    {
+        const UnitTally& t = tally(unit);
+        return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && 4 * t.bearing >= 3 * t.joints && t.fliers == 0 &&
+               scratch.units[static_cast<std::size_t>(unit)].slices == 1;
+    }
+
+    // How fast a joint's arms turn, in rad/s.
+    [[nodiscard]] float swing_rate(const JointRecord& joint) const
+    {
+        if (joint.kind == JointType::Spring)
+            return 0;
+        const auto spin = [&](int body, Vec2 anchor)
+        {
+            const bool turns = body != none && (anchor != state.sims[static_cast<std::size_t>(body)].local_center ||
+                                                joint.kind == JointType::Prismatic);
+            return turns ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
+        };
+        return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
+    }
+
+    // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
+    // is followed exactly in flight.
+    [[nodiscard]] float turn_rate(const Contact& contact) const
+    {
+        const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));
+        if (driven * ctx.h < 0.1f * slice_turn)
+            return 0;
+        const BodySim& a = state.sims[static_cast<std::size_t>(contact.body_a)];
+        const BodySim& b = state.sims[static_cast<std::size_t>(contact.body_b)];
+        const Vec2 arm = b.center - a.center;
+        const Vec2 slide = b.velocity - a.velocity - cross(a.angular_velocity, arm);
+        const float radius = std::max(state.shapes[contact.shape_a].leaf.r0, state.shapes[contact.shape_b].leaf.r0);
+        return driven + ((contact.flags & contact_flag::round) != 0 && radius > 0 ? length(slide) / radius : 0);
+    }
+
+    [[nodiscard]] float driven_spin(int body) const
+    {
+        const bool driven =
+            state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
+        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
+                      : 0;
+    }
+
+    [[nodiscard]] bool flies(int body) const
+    {
+        return is_moving_dynamic(state, body) &&
+               scratch.flight[static_cast<std::size_t>(state.bodies[body].awake_index)] != earthbound;
+    }
+
+    // Islands first, then what this step adds.
+    void link_units()
+    {
+        reset_parents(ctx);
+        for (const std::int32_t body : state.awake_bodies)
+        {
+            if (state.bodies[body].type == BodyType::Dynamic)
+                link_bodies(ctx, body, state.bodies[body].island);
+        }
+        for (const Link& l : scratch.links)
+        {
+            if (l.solved && l.a >= 0 && l.b >= 0)
+                link(scratch.parent, l.a, l.b);
+        }
+    }
+
+    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
+    // two would meet in different times. True where units have become one.
+    bool link_deflected()
+    {
+        struct Reach
+        {
+            FloatBox box;
+            int body;
+        };
+        std::vector<Reach> reaches;
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
+        {
+            const int body = state.awake_bodies[i];
+            if (scratch.flight[i] == earthbound || !may_be_deflected(body))
+                continue;
+            const Position c = state.sims[static_cast<std::size_t>(body)].center;
+            const double r =
+                static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
+            reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
+        }
+        bool linked = false;
+        scratch.may_be_struck.assign(state.awake_bodies.size(), 0);
+        for (const Reach& reach : reaches)
+        {
+            state.broad_phase.query(Layer::Moving, reach.box,
+                                    [&](int shape)
+                                    {
+                                        const int body = state.shapes[shape].body;
+                                        linked |= link_bodies(ctx, reach.body, body);
+                                        scratch.may_be_struck[static_cast<std::size_t>(state.bodies[body].awake_index)] = 1;
+                                        return true;
+                                    });
+        }
+        // Two that are both deflected: reach against reach, by a sweep along x.
+        std::sort(reaches.begin(), reaches.end(),
+                  [](const Reach& a, const Reach& b) { return a.box.lx != b.box.lx ? a.box.lx < b.box.lx : a.body < b.body; });
+        for (std::size_t i = 0; i < reaches.size(); ++i)
+        {
+            for (std::size_t j = i + 1; j < reaches.size() && reaches[j].box.lx <= reaches[i].box.ux; ++j)
+            {
+                if (overlaps(reaches[i].box, reaches[j].box))
+                    linked |= link_bodies(ctx, reaches[i].body, reaches[j].body);
+            }
+        }
+        return linked;
+    }
+
+    [[nodiscard]] bool may_be_deflected(int body) const
+    {
+        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            if (gets_rows(state, state.contacts[edge >> 1]))
+                return scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] >
+                       ctx.scene.tolerances.speculation;
+        }
+        return false;
+    }
+
+    // Units in the order of their first body; every dynamic body gets its unit.
+    void number_units()
+    {
+        const std::size_t n = state.awake_bodies.size();
+        scratch.units.clear();
+        scratch.unit_of.assign(n, none);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            if (state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
+                continue;
+            const auto root = static_cast<std::size_t>(find_root(scratch.parent, static_cast<std::int32_t>(i)));
+            if (root == i)
+            {
+                scratch.unit_of[i] = static_cast<std::int32_t>(scratch.units.size());
+                scratch.units.emplace_back();
+            }
+            else
+            {
+                scratch.unit_of[i] = scratch.unit_of[root];
+            }
+        }
+    }
+
+    [[nodiscard]] std::int32_t unit_of_pair(int a, int b) const
+    {
+        const int body = is_moving_dynamic(state, a) ? a : b;
+        return is_moving_dynamic(state, body) ? scratch.unit_of[static_cast<std::size_t>(state.bodies[body].awake_index)] : none;
+    }
+
+    // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count).
+    template <class Item, class UnitOf, class SetRange>
+    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, UnitOf&& unit_of, SetRange&& set_range)
+    {
+        std::vector<std::int32_t>& starts = scratch.unit_starts;
+        starts.assign(scratch.units.size() + 1, 0);
+        for (const Item& item : items)
+        {
+            if (const std::int32_t unit = unit_of(item); unit != none)
+                ++starts[static_cast<std::size_t>(unit) + 1];
+        }
+        for (std::size_t u = 0; u < scratch.units.size(); ++u)
+        {
+            set_range(scratch.units[u], starts[u], starts[u + 1]);
+            starts[u + 1] += starts[u];
+        }
+        sorted.resize(static_cast<std::size_t>(starts.back()));
+        for (const Item& item : items)
+        {
+            if (const std::int32_t unit = unit_of(item); unit != none)
+                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(unit)]++)] = item;
+        }
+    }
+
+    // Bodies in flight meet things at their own time; a row would stop them early.
+    [[nodiscard]] bool gets_row(const Link& l) const { return l.solved && !in_flight(l.a) && !in_flight(l.b); }
+    [[nodiscard]] bool in_flight(std::int32_t place) const
+    {
+        return place >= 0 && scratch.flight[static_cast<std::size_t>(place)] != earthbound;
+    }
+
+    void sort_links()
+    {
+        for (const Link& l : scratch.links)
+        {
+            if (l.solved && !gets_row(l))
+                forget_impulses(state.contacts[l.contact]);
+        }
+        sort_by_unit(
+            scratch.links, scratch.solved_links, [&](const Link& l) { return gets_row(l) ? unit_of_link(l) : none; },
+            [](Unit& unit, int first, int count)
+            {
+                unit.first_link = first;
+                unit.link_count = count;
+            });
+    }
+
+    void sort_joints()
+    {
+        std::vector<std::int32_t>& chosen = scratch.order;
+        chosen.clear();
+        for (int j = 0; j < state.joints.capacity(); ++j)
+        {
+            if (!state.joints.is_live(j))
+                continue;
+            const JointRecord& joint = state.joints[j];
+            const bool enabled = (joint.body_a == none || state.bodies[joint.body_a].enabled) &&
+                                 (joint.body_b == none || state.bodies[joint.body_b].enabled);
+            if (enabled && (is_moving_dynamic(state, joint.body_a) || is_moving_dynamic(state, joint.body_b)))
+                chosen.push_back(j);
+        }
+        sort_by_unit(
+            chosen, scratch.solved_joints, [&](int j) { return unit_of_pair(state.joints[j].body_a, state.joints[j].body_b); },
+            [](Unit& unit, int first, int count)
+            {
+                unit.first_joint = first;
+                unit.joint_count = count;
+            });
+    }
+
+    // By place in awake_bodies.
+    void sort_bodies()
+    {
+        std::vector<std::int32_t>& places = scratch.order;
+        places.resize(state.awake_bodies.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = static_cast<std::int32_t>(i);
+        sort_by_unit(
+            places, scratch.solved_bodies, [&](int i) { return scratch.unit_of[static_cast<std::size_t>(i)]; },
+            [](Unit& unit, int first, int count)
+            {
+                unit.first_state = first;
+                unit.dynamic_count = count;
+            });
+    }
+
+private:
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+};
+
+} // namespace
+
+void build_unit_graph(StepContext& ctx)
+{
+    UnitGraph graph(ctx);
+    graph.find_fliers();
+    graph.gather_links();
+    graph.label_islands();
+    graph.link_units();
+    graph.number_units();
+    graph.ground_crowds();
+    if (graph.link_deflected())
+    {
+        graph.number_units();
+        graph.ground_crowds();
+    }
+    graph.count_members();
+    graph.choose_slices();
+    graph.batch_heaps();
+    graph.sort_links();
+    graph.sort_joints();
+    graph.sort_bodies();
+}
+
+} // namespace carom::internal

@@ -1,0 +1,591 @@
+// Everything that a unit needs is laid side by side: its states, copies of the kinematic bodies it meets, its rows sorted by colour. Places are
+// given out one after the other, which is little work; then all threads fill them.
+
+#include "dynamics/unit_layout.h"
+
+#include "core/task_pool.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/force_laws.h"
+#include "dynamics/joint_direct.h"
+#include "dynamics/joint_solver.h"
+#include "dynamics/prepare.h"
+#include "dynamics/unit_energy.h"
+#include "dynamics/unit_graph.h"
+#include "dynamics/wide_kernels.h"
+#include "dynamics/wide_prepare.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
+constexpr int items_per_task = 512;
+
+std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+class UnitLayout
+{
+public:
+    explicit UnitLayout(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch) {}
+
+    // --- places of states -------------------------------------------------------------------------------------------------------------
+
+    void place_states()
+    {
+        m_scratch.state_bodies.clear();
+        m_scratch.state_of.assign(m_state.awake_bodies.size(), none);
+        m_scratch.flier_seeds.clear();
+        for (Unit& unit : m_scratch.units)
+            place_states_of(unit);
+        m_scratch.states.resize(m_scratch.state_bodies.size());
+        m_scratch.constants.resize(m_scratch.state_bodies.size());
+    }
+
+    void fill_states()
+    {
+        for_items(
+            m_scratch.state_bodies.size(), [](const Unit& unit) { return unit.first_state; },
+            [&](const StepContext& unit_ctx, const Unit& unit, std::int32_t i) { fill_state(unit_ctx, unit, i); });
+    }
+
+    // --- fliers and laws --------------------------------------------------------------------------------------------------------------
+
+    void add_fliers()
+    {
+        m_scratch.fliers.resize(m_scratch.flier_seeds.size());
+        m_scratch.holds.resize(std::max(m_scratch.holds.size(), m_scratch.fliers.size() * Flier::most_held));
+        m_scratch.flier_of_state.assign(m_scratch.state_bodies.size(), none);
+        m_scratch.versions.assign(m_scratch.state_bodies.size(), 0);
+        for_items(
+            m_scratch.fliers.size(), [](const Unit& unit) { return unit.first_flier; },
+            [&](const StepContext& unit_ctx, const Unit&, std::int32_t i) { add_flier(unit_ctx, i); });
+    }
+
+    void add_laws()
+    {
+        m_scratch.laws.clear();
+        for (Unit& unit : m_scratch.units)
+        {
+            unit.first_law = static_cast<std::int32_t>(m_scratch.laws.size());
+            for (std::int32_t s = unit.first_state + 1; m_ctx.scene.law_count > 0 && s <= unit.first_state + unit.dynamic_count;
+                 ++s)
+            {
+                const StateConstants& c = m_scratch.constants[as_index(s)];
+                if (force_law_of(m_ctx, m_scratch.state_bodies[as_index(s)]) != nullptr)
+                    m_scratch.laws.push_back({s, c.angular_acceleration, c.acceleration});
+            }
+            unit.law_count = static_cast<std::int32_t>(m_scratch.laws.size()) - unit.first_law;
+        }
+    }
+
+    // --- rows -------------------------------------------------------------------------------------------------------------------------
+
+    void place_rows()
+    {
+        m_scratch.color_masks.assign(m_scratch.state_bodies.size(), 0);
+        m_scratch.row_links.clear();
+        m_scratch.lane_links.clear();
+        m_scratch.impact_rows.clear();
+        m_scratch.cores.clear();
+        for (Unit& unit : m_scratch.units)
+            place_rows_of(unit);
+    }
+
+    void fill_rows()
+    {
+        const std::size_t groups = m_scratch.lane_links.size() / lane_count;
+        m_scratch.wide_rows.resize(groups);
+        m_scratch.rows.resize(m_scratch.row_links.size());
+        for_items(
+            groups, [](const Unit& unit) { return unit.first_wide; },
+            [&](const StepContext&, const Unit& unit, std::int32_t g) { fill_group(unit, g); });
+        for_items(
+            m_scratch.rows.size(), [](const Unit& unit) { return unit.first_row; },
+            [&](const StepContext& unit_ctx, const Unit& unit, std::int32_t i) { fill_row(unit_ctx, unit, i); });
+    }
+
+    // --- joints -----------------------------------------------------------------------------------------------------------------------
+
+    void place_joints()
+    {
+        m_scratch.joint_places.clear();
+        m_scratch.joint_lanes.clear();
+        m_groups = 0;
+        for (Unit& unit : m_scratch.units)
+            place_joints_of(unit);
+    }
+
+    void fill_joints()
+    {
+        m_scratch.joints.resize(m_scratch.joint_places.size());
+        m_scratch.wide_joints.resize(as_index(m_groups));
+        for_items(
+            m_scratch.joints.size(), [](const Unit& unit) { return unit.first_joint; },
+            [&](const StepContext& unit_ctx, const Unit&, std::int32_t i)
+            {
+                const JointPlace& place = m_scratch.joint_places[as_index(i)];
+                m_scratch.joints[as_index(i)] = prepare_joint(unit_ctx, place.joint, place.a, place.b);
+            });
+        fill_joint_lanes();
+    }
+
+    void count()
+    {
+        for (const Unit& unit : m_scratch.units)
+            m_ctx.report.colors = std::max(m_ctx.report.colors, static_cast<int>(unit.colors));
+    }
+
+private:
+    // Items stand unit by unit; on all threads, with the step of the item's unit.
+    template <class First, class Visit>
+    void for_items(std::size_t total, const First& first_of, const Visit& visit)
+    {
+        const auto count = static_cast<std::int32_t>(total);
+        const std::vector<Unit>& units = m_scratch.units;
+        run_tasks(m_ctx.scene.def.tasks, (count + items_per_task - 1) / items_per_task,
+                  [&](int task)
+                  {
+                      const std::int32_t begin = task * items_per_task;
+                      const std::int32_t end = std::min(begin + items_per_task, count);
+                      auto unit = std::upper_bound(units.begin(), units.end(), begin,
+                                                   [&](std::int32_t i, const Unit& u) { return i < first_of(u); }) -
+                                  1;
+                      for (std::int32_t i = begin; i < end; ++unit)
+                      {
+                          const std::int32_t last = unit + 1 != units.end() ? std::min(end, first_of(*(unit + 1))) : end;
+                          if (last <= i)
+                              continue;
+                          const StepContext unit_ctx = unit->slices > 1 ? sliced(m_ctx, unit->slices) : m_ctx;
+                          for (; i < last; ++i)
+                              visit(unit_ctx, *unit, i);
+                      }
+                  });
+    }
+
+    // The first state stands for every body that does not move, so that units share nothing; then the dynamic bodies in awake order, then copies
+    // of kinematic ones.
+    void place_states_of(Unit& unit)
+    {
+        const std::int32_t first = unit.first_state;
+        unit.first_state = add_state(none);
+        unit.precise = unit.dynamic_count <= precise_limit && !unit.heap;
+        unit.alone = unit.dynamic_count == 1 && is_alone(m_scratch.solved_bodies[as_index(first)]);
+        unit.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
+        for (std::int32_t i = first; i < first + unit.dynamic_count; ++i)
+        {
+            const std::int32_t place = m_scratch.solved_bodies[as_index(i)];
+            const int body = m_state.awake_bodies[as_index(place)];
+            m_scratch.state_of[as_index(place)] = add_state(body);
+            m_state.bodies[body].crowded = !unit.precise;
+            seed_flier(unit, place);
+        }
+        unit.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - unit.first_flier;
+        m_ctx.report.flight_bodies += unit.alone ? 1 : 0;
+        copy_kinematic_bodies(unit);
+        unit.state_count = static_cast<std::int32_t>(m_scratch.state_bodies.size()) - unit.first_state;
+    }
+
+    std::int32_t add_state(int body)
+    {
+        m_scratch.state_bodies.push_back(body);
+        return static_cast<std::int32_t>(m_scratch.state_bodies.size()) - 1;
+    }
+
+    void seed_flier(const Unit& unit, std::int32_t place)
+    {
+        if (unit.alone)
+            return;
+        const std::int32_t kind = m_scratch.flight[as_index(place)];
+        const std::int32_t could = m_scratch.grounded[as_index(place)];
+        const int body = m_state.awake_bodies[as_index(place)];
+        const std::int32_t s = m_scratch.state_of[as_index(place)];
+        if (kind != earthbound)
+        {
+            ++m_ctx.report.flight_bodies;
+            if (kind != none)
+                forget_impulses(m_state.joints[kind]);
+            m_scratch.flier_seeds.push_back({s, body, kind, false});
+        }
+        else if (could != earthbound && (unit.precise || may_take_off(place, could)))
+        {
+            m_scratch.flier_seeds.push_back({s, body, could, true});
+        }
+    }
+
+    // In a crowd only what flies, or a law, makes anything fast enough to fly within the step.
+    [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t kind) const
+    {
+        return m_scratch.may_be_struck[as_index(place)] != 0 || kind != none ||
+               force_law_of(m_ctx, m_state.awake_bodies[as_index(place)]) != nullptr;
+    }
+
+    [[nodiscard]] bool is_alone(std::int32_t place) const
+    {
+        const int body = m_state.awake_bodies[as_index(place)];
+        const BodyRecord& record = m_state.bodies[body];
+        return m_scratch.flight[as_index(place)] == none && record.first_joint == none && meets_nothing(record) &&
+               is_free_of_loads(body) && !m_ctx.scene.def.record_substeps;
+    }
+
+    [[nodiscard]] bool is_free_of_loads(int body) const
+    {
+        const BodySim& sim = m_state.sims[as_index(body)];
+        return sim.force == Vec2{} && sim.torque == 0 && force_law_of(m_ctx, body) == nullptr;
+    }
+
+    // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
+    [[nodiscard]] bool meets_nothing(const BodyRecord& record) const
+    {
+        for (int edge = record.first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = m_state.contacts[edge >> 1];
+            if (contact.manifold.count > 0 ||
+                (contact.flags & (contact_flag::trigger | contact_flag::plain)) != contact_flag::plain)
+                return false;
+        }
+        return true;
+    }
+
+    // Kinematic bodies are copied into every unit they meet: their path is a function of time alone, and units then share nothing that is
+    // written. A flier may land on one. Links name states from here on.
+    void copy_kinematic_bodies(const Unit& unit)
+    {
+        for (Link& l : links_of(unit))
+        {
+            l.a = state_at(unit, l.a);
+            l.b = state_at(unit, l.b);
+        }
+        for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
+        {
+            const JointRecord& joint = m_state.joints[m_scratch.solved_joints[as_index(i)]];
+            static_cast<void>(state_for(unit, joint.body_a));
+            static_cast<void>(state_for(unit, joint.body_b));
+        }
+        for (std::int32_t i = unit.first_flier; i < unit.first_flier + unit.flier_count; ++i)
+        {
+            const int body = m_scratch.flier_seeds[as_index(i)].body;
+            for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+            {
+                const int other = other_body(m_state.contacts[edge >> 1], body);
+                if (m_state.bodies[other].type == BodyType::Kinematic)
+                    static_cast<void>(state_for(unit, other));
+            }
+        }
+    }
+
+    [[nodiscard]] std::span<Link> links_of(const Unit& unit)
+    {
+        return std::span(m_scratch.solved_links).subspan(as_index(unit.first_link), as_index(unit.link_count));
+    }
+
+    [[nodiscard]] std::int32_t state_at(const Unit& unit, std::int32_t place)
+    {
+        if (place >= 0)
+            return m_scratch.state_of[as_index(place)];
+        return state_for(unit, place == none ? none : m_state.awake_bodies[as_index(-2 - place)]);
+    }
+
+    // The state of a body as this unit's rows see it.
+    std::int32_t state_for(const Unit& unit, int body)
+    {
+        if (body == none || m_state.bodies[body].awake_index == none)
+            return unit.first_state;
+        std::int32_t& copy = m_scratch.state_of[as_index(m_state.bodies[body].awake_index)];
+        if (copy < unit.first_state)
+            copy = add_state(body);
+        return copy;
+    }
+
+    void fill_state(const StepContext& unit_ctx, const Unit& unit, std::int32_t i)
+    {
+        const int body = m_scratch.state_bodies[as_index(i)];
+        BodyState& s = m_scratch.states[as_index(i)];
+        s = body == none ? BodyState{} : initial_state(m_state, body);
+        m_scratch.constants[as_index(i)] = is_dynamic(unit, i) ? state_constants(unit_ctx, body) : StateConstants{};
+        if (unit.alone && is_dynamic(unit, i))
+            s.flags |= body_flag::alone;
+    }
+
+    [[nodiscard]] static bool is_dynamic(const Unit& unit, std::int32_t s)
+    {
+        return s > unit.first_state && s <= unit.first_state + unit.dynamic_count;
+    }
+
+    void add_flier(const StepContext& unit_ctx, std::int32_t i)
+    {
+        const FlierSeed& seed = m_scratch.flier_seeds[as_index(i)];
+        Flier& flier = m_scratch.fliers[as_index(i)];
+        flier = make_flier(unit_ctx, seed.state, seed.body, seed.kind);
+        flier.landed = seed.landed;
+        flier.held = m_scratch.holds.data() + as_index(i) * Flier::most_held;
+        m_scratch.flier_of_state[as_index(seed.state)] = i;
+        if (!seed.landed)
+            m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
+    }
+
+    void place_rows_of(Unit& unit)
+    {
+        unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
+        unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
+        unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
+        unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
+        choose_colors(unit);
+        give_out_places(unit);
+        place_links(unit);
+        unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - unit.first_row;
+        unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - unit.first_wide;
+        unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - unit.first_core;
+        unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - unit.first_impact_row;
+    }
+
+    // Not what is looked at anew within the step, sliced, or watched for its energy.
+    [[nodiscard]] static bool is_wide(const Unit& unit)
+    {
+        return unit.heap ||
+               (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
+    }
+
+    // The least that neither moving body has yet, in the order of the links; counts what goes into each bin.
+    void choose_colors(Unit& unit)
+    {
+        const bool wide = is_wide(unit);
+        std::fill(std::begin(m_bins), std::end(m_bins), 0);
+        for (Link& l : links_of(unit))
+        {
+            const int color = free_color(unit, l.a, l.b);
+            l.color = static_cast<std::uint8_t>(color);
+            l.in_lane = wide && color != color_limit && fits_lane(m_ctx, l);
+            ++m_bins[bin_of(l)];
+            unbind(l.a);
+            unbind(l.b);
+            if (color == color_limit)
+                m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
+            else
+                unit.colors = std::max(unit.colors, color + 1);
+        }
+    }
+
+    // Lanes by color and number of points, then rows by color.
+    static constexpr std::size_t lane_bins = 2 * color_limit;
+    [[nodiscard]] static std::size_t bin_of(const Link& l)
+    {
+        return l.in_lane ? 2 * std::size_t{l.color} + (l.points == 2 ? 0 : 1) : lane_bins + l.color;
+    }
+
+    int free_color(const Unit& unit, std::int32_t a, std::int32_t b)
+    {
+        std::uint64_t& mask_a = m_scratch.color_masks[as_index(a)];
+        std::uint64_t& mask_b = m_scratch.color_masks[as_index(b)];
+        const bool moves_a = is_dynamic(unit, a);
+        const bool moves_b = is_dynamic(unit, b);
+        const int color = std::min(std::countr_one((moves_a ? mask_a : 0) | (moves_b ? mask_b : 0)), color_limit);
+        const std::uint64_t bit = color == color_limit ? 0 : std::uint64_t{1} << color;
+        mask_a |= bit;
+        mask_b |= bit;
+        return color;
+    }
+
+    void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
+
+    // Eight lanes to a group, each of one colour and one number of points.
+    void give_out_places(const Unit& unit)
+    {
+        auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
+        for (std::size_t bin = 0; bin < lane_bins; ++bin)
+        {
+            const std::int32_t first = lane;
+            lane += (m_bins[bin] + lane_count - 1) / lane_count * lane_count;
+            m_bins[bin] = first;
+        }
+        auto row = unit.first_row;
+        for (std::size_t bin = lane_bins; bin < std::size(m_bins); ++bin)
+            row += std::exchange(m_bins[bin], row);
+        m_scratch.lane_links.resize(as_index(lane), none);
+        m_scratch.row_links.resize(as_index(row));
+    }
+
+    void place_links(const Unit& unit)
+    {
+        for (std::int32_t i = unit.first_link; i < unit.first_link + unit.link_count; ++i)
+        {
+            const Link& l = m_scratch.solved_links[as_index(i)];
+            const std::int32_t place = m_bins[bin_of(l)]++;
+            (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(place)] = i;
+            if (l.in_lane && l.round && l.points == 1)
+                add_core(unit, l, place);
+        }
+        for (auto row = unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
+        {
+            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].bears)
+                m_scratch.impact_rows.push_back(row);
+        }
+    }
+
+    // A ball against what does not give way.
+    void add_core(const Unit& unit, const Link& l, std::int32_t lane)
+    {
+        if (is_dynamic(unit, l.a) && is_dynamic(unit, l.b))
+            return;
+        const Contact& contact = m_state.contacts[l.contact];
+        const Leaf& leaf = m_state.shapes[is_dynamic(unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
+        if (leaf.type == LeafType::Circle)
+            m_scratch.cores.push_back({lane, 0.5f * leaf.r0});
+    }
+
+    void fill_group(const Unit& unit, std::int32_t group)
+    {
+        WideRow& row = m_scratch.wide_rows[as_index(group)];
+        const bool is_full = m_scratch.lane_links[as_index(group * lane_count + lane_count - 1)] != none;
+        is_full ? start_wide_row(row) : empty_wide_row(unit.first_state, row);
+        for (int i = 0; i < lane_count; ++i)
+        {
+            const std::int32_t link = m_scratch.lane_links[as_index(group * lane_count + i)];
+            if (link == none)
+                break;
+            const Link& l = m_scratch.solved_links[as_index(link)];
+            Contact& contact = m_state.contacts[l.contact];
+            contact.color = l.color;
+            contact.wide = group * lane_count + i;
+            fill_lane(m_ctx, l, row, i);
+        }
+        wide_kernels().prepare(&row, 1);
+    }
+
+    void fill_row(const StepContext& unit_ctx, const Unit& unit, std::int32_t i)
+    {
+        const Link& l = m_scratch.solved_links[as_index(m_scratch.row_links[as_index(i)])];
+        Contact& contact = m_state.contacts[l.contact];
+        contact.color = l.color;
+        ContactRow& row = m_scratch.rows[as_index(i)];
+        row = prepare_row(unit_ctx, l.contact, contact.manifold, l.a, l.b);
+        follow_closely(contact, unit, row);
+    }
+
+    // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.
+    void place_joints_of(Unit& unit)
+    {
+        const std::int32_t first = unit.first_joint;
+        const std::int32_t count = unit.joint_count;
+        const bool wide = is_wide(unit) && (unit.heap || count > DirectSolve::most_rows / 2);
+        unit.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
+        unit.first_wide_joint = m_groups;
+        if (wide)
+            std::fill_n(m_scratch.color_masks.begin() + unit.first_state, unit.state_count, 0);
+        const std::size_t first_lane = m_scratch.joint_lanes.size();
+        for (std::int32_t i = first; i < first + count; ++i)
+        {
+            const std::int32_t joint = m_scratch.solved_joints[as_index(i)];
+            const JointRecord& record = m_state.joints[joint];
+            const JointPlace place{joint, state_for(unit, record.body_a), state_for(unit, record.body_b)};
+            if (!wide || !place_joint_in_lane(unit, record, place))
+                m_scratch.joint_places.push_back(place);
+            if (!only_holds(record) && record.kind != JointType::Spring)
+            {
+                unbind(place.a);
+                unbind(place.b);
+            }
+        }
+        group_joints(first_lane);
+        unit.joint_count = static_cast<std::int32_t>(m_scratch.joint_places.size()) - unit.first_joint;
+        unit.wide_joint_count = m_groups - unit.first_wide_joint;
+    }
+
+    // Finds its colour; false where it must stand alone.
+    bool place_joint_in_lane(const Unit& unit, const JointRecord& joint, const JointPlace& place)
+    {
+        if (!fits_joint_lane(m_ctx, joint, place.a, place.b) || may_fly(joint.body_a) || may_fly(joint.body_b))
+            return false;
+        const std::int32_t color = free_color(unit, place.a, place.b);
+        if (color == color_limit)
+            return false;
+        m_scratch.joint_lanes.push_back({2 * color + (only_holds(joint) ? 0 : 1), none, unit.first_state, place});
+        return true;
+    }
+
+    // About a hinge to the world.
+    [[nodiscard]] bool may_fly(int body) const
+    {
+        if (!is_moving_dynamic(m_state, body))
+            return false;
+        const auto place = as_index(m_state.bodies[body].awake_index);
+        return m_scratch.flight[place] != earthbound || m_scratch.grounded[place] != earthbound;
+    }
+
+    // Sorted by bin, eight by eight; each learns its lane.
+    void group_joints(std::size_t first)
+    {
+        const auto begin = m_scratch.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
+        std::stable_sort(begin, m_scratch.joint_lanes.end(),
+                         [](const JointLane& x, const JointLane& y) { return x.bin < y.bin; });
+        std::int32_t bin = none;
+        int lane = 0;
+        for (auto l = begin; l != m_scratch.joint_lanes.end(); ++l)
+        {
+            if (l->bin != bin || lane == lane_count)
+            {
+                ++m_groups;
+                lane = 0;
+            }
+            bin = l->bin;
+            l->lane = (m_groups - 1) * lane_count + lane++;
+        }
+    }
+
+    // A task's share begins with a group.
+    void fill_joint_lanes()
+    {
+        const std::vector<JointLane>& lanes = m_scratch.joint_lanes;
+        const auto count = static_cast<int>(lanes.size());
+        const auto group_of = [&](int i) { return lanes[as_index(i)].lane / lane_count; };
+        run_tasks(m_ctx.scene.def.tasks, (count + items_per_task - 1) / items_per_task,
+                  [&](int task)
+                  {
+                      const auto next_group = [&](int i)
+                      {
+                          while (i > 0 && i < count && group_of(i) == group_of(i - 1))
+                              ++i;
+                          return i;
+                      };
+                      const int end = next_group(std::min((task + 1) * items_per_task, count));
+                      for (int i = next_group(task * items_per_task); i < end; ++i)
+                          fill_joint(lanes[as_index(i)]);
+                  });
+    }
+
+    void fill_joint(const JointLane& l)
+    {
+        WideJoint& group = m_scratch.wide_joints[as_index(l.lane / lane_count)];
+        if (l.lane % lane_count == 0)
+            group = empty_wide_joint(l.fixed);
+        fill_joint_lane(m_ctx, l.place.joint, l.place.a, l.place.b, group, l.lane % lane_count);
+    }
+
+    StepContext& m_ctx;
+    SceneState& m_state;
+    Scratch& m_scratch;
+    std::int32_t m_groups = 0;                             ///< of wide joints
+    std::int32_t m_bins[lane_bins + color_limit + 1] = {}; ///< of a unit: how many links go there; then where the next one goes
+};
+
+} // namespace
+
+void lay_out_units(StepContext& ctx)
+{
+    UnitLayout layout(ctx);
+    layout.place_states();
+    layout.fill_states();
+    layout.add_fliers();
+    layout.add_laws();
+    layout.place_rows();
+    layout.place_joints();
+    layout.fill_rows();
+    layout.fill_joints();
+    layout.count();
+}
+
+} // namespace carom::internal
