@@ -2,6 +2,21 @@
 
 namespace speed {
 
+namespace {
+
+constexpr int looks = 4000; // before a thread goes to sleep: some tens of microseconds, what lies between the rounds of a step
+
+void pause()
+{
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#else
+    std::this_thread::yield();
+#endif
+}
+
+} // namespace
+
 TaskPool::TaskPool(int count)
 {
     for (int i = 1; i < count; ++i)
@@ -31,34 +46,55 @@ void TaskPool::run(int count, Task task, void* context)
     m_count = count;
     m_task = task;
     m_context = context;
-    m_next = 0;
-    m_working = static_cast<int>(m_threads.size());
-    ++m_round;
+    m_done = 0;
+    const std::uint32_t round = m_round + 1;
+    m_tickets = std::uint64_t{round} << 32 | static_cast<std::uint32_t>(count);
+    m_round = round;
     m_round.notify_all();
-    take_tasks();
-    // A thread that came late may still hold the number of a task.
-    for (int working = m_working; working != 0; working = m_working)
-        m_working.wait(working);
+    while (take_task())
+    {
+    }
+    while (m_done != count)
+        pause();
 }
 
-void TaskPool::take_tasks()
+// Who holds a ticket keeps its round from ending.
+bool TaskPool::take_task()
 {
-    for (int i = m_next++; i < m_count; i = m_next++)
-        m_task(m_context, i);
+    std::uint64_t tickets = m_tickets;
+    do
+    {
+        if (static_cast<std::uint32_t>(tickets) == 0)
+            return false;
+    } while (!m_tickets.compare_exchange_weak(tickets, tickets - 1));
+    m_task(m_context, m_count - static_cast<int>(static_cast<std::uint32_t>(tickets)));
+    ++m_done;
+    return true;
 }
 
 void TaskPool::serve()
 {
-    for (unsigned round = 0;;)
+    for (std::uint32_t seen = 0;;)
     {
-        m_round.wait(round);
-        ++round;
+        wait_for_round(seen);
+        seen = m_round;
         if (m_over)
             return;
-        take_tasks();
-        if (--m_working == 0)
-            m_working.notify_one();
+        while (take_task())
+        {
+        }
     }
+}
+
+void TaskPool::wait_for_round(std::uint32_t seen) const
+{
+    for (int i = 0; i < looks; ++i)
+    {
+        if (m_round != seen)
+            return;
+        pause();
+    }
+    m_round.wait(seen);
 }
 
 } // namespace speed

@@ -6,12 +6,14 @@
 #include "carom/scene.h"
 
 #include <atomic>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
 namespace speed {
 
-/// Runs tasks on the calling thread and count - 1 more. One scene at a time.
+/// Runs tasks on the calling thread and count - 1 more. One scene at a time. A step runs many short rounds of tasks: a thread that has
+/// nothing to do keeps looking for a while before it goes to sleep, and one that comes too late is not waited for.
 class TaskPool
 {
 public:
@@ -27,13 +29,15 @@ private:
     using Task = void (*)(void*, int);
 
     void run(int count, Task task, void* context);
-    void take_tasks();
+    [[nodiscard]] bool take_task();
     void serve();
+    void wait_for_round(std::uint32_t seen) const;
 
-    std::atomic<unsigned> m_round{0};
-    std::atomic<int> m_working{0};
-    std::atomic<int> m_next{0};
+    std::atomic<std::uint64_t> m_tickets{0}; ///< round, and in the lower half how many of its tasks nobody has taken
+    std::atomic<std::uint32_t> m_round{0};
+    std::atomic<int> m_done{0};
     std::atomic<bool> m_over{false};
+    // Of the round; they stay until all its tasks are done.
     int m_count = 0;
     Task m_task = nullptr;
     void* m_context = nullptr;

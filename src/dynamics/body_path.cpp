@@ -77,7 +77,7 @@ void BodyPath::measure(double extent)
 {
     const auto way = [&](const FramePath& p, double time)
     {
-        const double speed = std::hypot(p.center.vx, p.center.vy) + 0.5 * time * std::hypot(p.center.ax, p.center.ay);
+        const double speed = length_of(p.center.vx, p.center.vy) + 0.5 * time * length_of(p.center.ax, p.center.ay);
         const double turn = std::fabs(p.w) + 0.5 * time * std::fabs(p.alpha);
         const double arm = static_cast<double>(length(p.local_center - m_start.local_center));
         return time * (speed + turn * (extent + arm));

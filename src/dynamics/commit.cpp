@@ -1,6 +1,7 @@
 // Stage 6, commit and sleep: the step's result goes back into the records, in the order of the units; deferred impulses, triggers, sleep.
 
 #include "core/refuse.h"
+#include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
@@ -27,6 +28,18 @@ Rotation renormalized(Rotation q)
 {
     const float l = std::sqrt(q.c * q.c + q.s * q.s);
     return l > 0 ? Rotation{q.c / l, q.s / l} : Rotation{};
+}
+
+// On all threads: each item writes to what is its own.
+template <class Visit>
+void for_each_in_parts(const StepContext& ctx, std::size_t count, std::size_t part, const Visit& visit)
+{
+    run_parts(ctx.scene.def.tasks, count, part,
+              [&](std::size_t first, std::size_t last)
+              {
+                  for (std::size_t i = first; i < last; ++i)
+                      visit(i);
+              });
 }
 
 // --- poses ---------------------------------------------------------------------------------------------------------------------------
@@ -76,9 +89,10 @@ bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
     return dot(s.delta_position, s.delta_position) > size * size;
 }
 
-void commit_state(StepContext& ctx, std::int32_t index)
+// Writes to its own body alone.
+void commit_state(const StepContext& ctx, std::int32_t index)
 {
-    const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
+    BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
     const int body = ctx.scratch.state_bodies[static_cast<std::size_t>(index)];
     if (body == none || (s.flags & body_flag::dynamic) == 0)
         return;
@@ -96,7 +110,7 @@ void commit_state(StepContext& ctx, std::int32_t index)
     }
     if ((s.flags & body_flag::unsound) != 0 || !is_sound(s, x, y))
     {
-        ctx.scratch.unsound.push_back(body);
+        s.flags |= body_flag::unsound;
         return;
     }
     if (crowded || may_have_passed(ctx, s, body))
@@ -249,33 +263,34 @@ void update_sleep_time(const StepContext& ctx, int body)
 // What leans on a moving kinematic body is carried by it, however slowly.
 void keep_carried_awake(const StepContext& ctx)
 {
-    const SceneState& state = ctx.state;
-    for (const std::int32_t index : state.awake_contacts)
+    SceneState& state = ctx.state;
+    for (const std::int32_t body : state.awake_bodies)
     {
-        const Contact& contact = state.contacts[index];
-        if ((contact.flags & contact_flag::touching) == 0)
+        const BodySim& carrier = state.sims[static_cast<std::size_t>(body)];
+        if (state.bodies[body].type != BodyType::Kinematic || (carrier.velocity == Vec2{} && carrier.angular_velocity == 0))
             continue;
-        const int sides[2] = {contact.body_a, contact.body_b};
-        for (int i = 0; i < 2; ++i)
-        {
-            const BodySim& carrier = state.sims[static_cast<std::size_t>(sides[i])];
-            if (state.bodies[sides[i]].type == BodyType::Kinematic &&
-                (carrier.velocity != Vec2{} || carrier.angular_velocity != 0))
-                ctx.state.sims[static_cast<std::size_t>(sides[1 - i])].sleep_time = 0;
-        }
+        for_each_contact(state, body,
+                         [&](int index)
+                         {
+                             const Contact& contact = state.contacts[index];
+                             const std::uint32_t kind = contact.flags & (contact_flag::touching | contact_flag::trigger);
+                             if (kind == contact_flag::touching)
+                                 state.sims[static_cast<std::size_t>(other_body(contact, body))].sleep_time = 0;
+                         });
     }
 }
 
 void put_to_sleep(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    for (const std::int32_t body : state.awake_bodies)
-        update_sleep_time(ctx, body);
+    for_each_in_parts(ctx, state.awake_bodies.size(), 1024,
+                      [&](std::size_t i) { update_sleep_time(ctx, state.awake_bodies[i]); });
     if (!ctx.scene.def.sleeping)
         return;
     keep_carried_awake(ctx);
     // The least sleep time of each island, at the place of its label.
-    std::vector<float> least(state.awake_bodies.size(), 3e38f);
+    std::vector<float>& least = ctx.scratch.least_sleep;
+    least.assign(state.awake_bodies.size(), 3e38f);
     const auto label_of = [&](int body)
     {
         const int island = state.bodies[body].type == BodyType::Dynamic ? state.bodies[body].island : body;
@@ -333,16 +348,18 @@ void commit_and_sleep(StepContext& ctx)
             record_kinematic(ctx, body);
         commit_kinematic(ctx, ctx.state.bodies[body], ctx.state.sims[static_cast<std::size_t>(body)]);
     }
+    for_each_in_parts(ctx, scratch.states.size(), 512, [&](std::size_t i) { commit_state(ctx, static_cast<std::int32_t>(i)); });
     for (std::size_t i = 0; i < scratch.states.size(); ++i)
-        commit_state(ctx, static_cast<std::int32_t>(i));
-    for (const WideRow& row : scratch.wide_rows)
-        commit_wide_row(ctx.state, row);
-    for (const ContactRow& row : scratch.rows)
-        commit_row(ctx, row);
-    for (const JointWork& work : scratch.joints)
-        commit_joint(ctx, work);
-    for (const WideJoint& joint : scratch.wide_joints)
-        commit_wide_joint(ctx, joint);
+    {
+        if ((scratch.states[i].flags & body_flag::unsound) != 0)
+            scratch.unsound.push_back(scratch.state_bodies[i]);
+    }
+    for_each_in_parts(ctx, scratch.wide_rows.size(), 64,
+                      [&](std::size_t i) { commit_wide_row(ctx.state, scratch.wide_rows[i]); });
+    for_each_in_parts(ctx, scratch.rows.size(), 512, [&](std::size_t i) { commit_row(ctx, scratch.rows[i]); });
+    for_each_in_parts(ctx, scratch.joints.size(), 512, [&](std::size_t i) { commit_joint(ctx, scratch.joints[i]); });
+    for_each_in_parts(ctx, scratch.wide_joints.size(), 64,
+                      [&](std::size_t i) { commit_wide_joint(ctx, scratch.wide_joints[i]); });
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
     note_untold_impacts(ctx);

@@ -2,6 +2,7 @@
 // that depends on nothing but the pairs. Of the pairs those get a contact that may meet in this step: what falls side by side does not.
 
 #include "core/pair_set.h"
+#include "core/task_pool.h"
 #include "dynamics/body_path.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/half_space_box.h"
@@ -14,19 +15,24 @@ namespace carom::internal {
 
 namespace {
 
-void offer_pair(StepContext& ctx, int a, int b)
+constexpr std::size_t blocks_per_task = 32;
+constexpr std::size_t pairs_per_task = 2048;
+
+using Pairs = std::vector<std::uint64_t>;
+
+void offer_pair(const StepContext& ctx, int a, int b, Pairs& pairs)
 {
     if (a != b && may_collide(ctx.state, a, b))
-        ctx.scratch.new_pairs.push_back(pair_key(a, b));
+        pairs.push_back(pair_key(a, b));
 }
 
 // What overlapped when pairs were last looked for is a pair already; of two that have changed, the first finds the second.
-void offer_changed(StepContext& ctx, int shape, int other)
+void offer_changed(const StepContext& ctx, int shape, int other, Pairs& pairs)
 {
     const BroadPhase& boxes = ctx.state.broad_phase;
     const bool known = overlaps(boxes.box_before(shape), boxes.box_before(other));
     if (!known && (shape < other || !boxes.has_changed(other)))
-        offer_pair(ctx, shape, other);
+        offer_pair(ctx, shape, other, pairs);
 }
 
 void look_at_half_spaces(StepContext& ctx, int shape, const FloatBox& box)
@@ -34,7 +40,7 @@ void look_at_half_spaces(StepContext& ctx, int shape, const FloatBox& box)
     for (const std::int32_t half_space : ctx.state.broad_phase.unbounded())
     {
         if (reaches_half_space(ctx.state, half_space, box, 0))
-            offer_pair(ctx, shape, half_space);
+            offer_pair(ctx, shape, half_space, ctx.scratch.new_pairs);
     }
 }
 
@@ -45,7 +51,7 @@ void look_around(StepContext& ctx, int shape, const FloatBox& box)
     const BroadPhase& broad_phase = state.broad_phase;
     const auto offer = [&](int other)
     {
-        offer_pair(ctx, shape, other);
+        offer_pair(ctx, shape, other, ctx.scratch.new_pairs);
         return true;
     };
     if (state.shapes[shape].leaf.type == LeafType::HalfSpace)
@@ -60,49 +66,84 @@ void look_around(StepContext& ctx, int shape, const FloatBox& box)
     look_at_half_spaces(ctx, shape, box);
 }
 
+// What a task finds is gathered in the order of the tasks; it is sorted afterwards anyhow.
+template <class Look>
+void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, const Look& look)
+{
+    std::vector<Pairs>& found = ctx.scratch.pairs_of_task;
+    const std::size_t tasks = (count + part - 1) / part;
+    if (found.size() < tasks)
+        found.resize(tasks);
+    run_parts(ctx.scene.def.tasks, count, part,
+              [&](std::size_t first, std::size_t last)
+              {
+                  Pairs& pairs = found[first / part];
+                  pairs.clear();
+                  look(first, last, pairs);
+              });
+    for (std::size_t i = 0; i < tasks; ++i)
+        ctx.scratch.new_pairs.insert(ctx.scratch.new_pairs.end(), found[i].begin(), found[i].end());
+}
+
+void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
+{
+    const BroadPhase& boxes = ctx.state.broad_phase;
+    for (const Layer layer : {Layer::Moving, Layer::Resting})
+        boxes.query(layer, boxes.box(shape),
+                    [&](int other)
+                    {
+                        offer_changed(ctx, shape, other, pairs);
+                        return true;
+                    });
+}
+
 void look_around_moved(StepContext& ctx)
 {
     const BroadPhase& boxes = ctx.state.broad_phase;
-    const auto offer = [&](int shape, int other) { offer_changed(ctx, shape, other); };
     if (ctx.scratch.sorted_anew)
     {
-        boxes.for_each_changed_overlap(offer);
+        look_on_all_threads(ctx, static_cast<std::size_t>(boxes.block_count()), blocks_per_task,
+                            [&](std::size_t first, std::size_t last, Pairs& pairs)
+                            {
+                                const auto offer = [&](int shape, int other) { offer_changed(ctx, shape, other, pairs); };
+                                boxes.for_each_changed_overlap(static_cast<int>(first), static_cast<int>(last), offer);
+                            });
     }
     else
     {
-        for (const std::int32_t shape : ctx.scratch.moved_items)
-        {
-            for (const Layer layer : {Layer::Moving, Layer::Resting})
-                boxes.query(layer, boxes.box(shape),
-                            [&](int other)
+        look_on_all_threads(ctx, ctx.scratch.moved.items.size(), 8 * blocks_per_task,
+                            [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
-                                offer(shape, other);
-                                return true;
+                                for (std::size_t i = first; i < last; ++i)
+                                    look_around_box(ctx, ctx.scratch.moved.items[i], pairs);
                             });
-        }
     }
     if (boxes.unbounded().empty())
         return;
-    for (const std::int32_t shape : ctx.scratch.moved_items)
+    for (const std::int32_t shape : ctx.scratch.moved.items)
     {
         for (const std::int32_t half_space : boxes.unbounded())
         {
             if (!reaches_half_space(ctx.state, half_space, boxes.box_before(shape), 0) &&
                 reaches_half_space(ctx.state, half_space, boxes.box(shape), 0))
-                offer_pair(ctx, shape, half_space);
+                offer_pair(ctx, shape, half_space, ctx.scratch.new_pairs);
         }
     }
+}
+
+bool is_fresh(const SceneState& state, int shape)
+{
+    const FloatBox& before = state.broad_phase.box_before(shape);
+    return !state.broad_phase.has(shape) || before.lx > before.ux;
 }
 
 // Their pairs are found again, but for those that have a contact.
 void forget_pairs_of_fresh(SceneState& state)
 {
-    const auto is_fresh = [&](int shape)
-    { return !state.broad_phase.has(shape) || state.broad_phase.box_before(shape).lx > state.broad_phase.box_before(shape).ux; };
     std::size_t kept = 0;
     for (const BoxPair& pair : state.box_pairs)
     {
-        if (pair.contact == none && (is_fresh(pair.a) || is_fresh(pair.b)))
+        if (pair.contact == none && (is_fresh(state, pair.a) || is_fresh(state, pair.b)))
             continue;
         if (pair.contact != none)
             state.contacts[pair.contact].pair = static_cast<std::int32_t>(kept);
@@ -127,7 +168,7 @@ void look_around_fresh(StepContext& ctx)
 void settle(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    for (const std::int32_t shape : ctx.scratch.moved_items)
+    for (const std::int32_t shape : ctx.scratch.moved.items)
         state.broad_phase.settle(shape);
     for (const std::int32_t shape : state.fresh_shapes)
     {
@@ -137,8 +178,10 @@ void settle(StepContext& ctx)
     state.fresh_shapes.clear();
 }
 
+// Known pairs are found again by those that look for all of theirs, and where boxes had parted before the contact ended. Before boxes are settled.
 void add_pairs(StepContext& ctx)
 {
+    SceneState& state = ctx.state;
     std::vector<std::uint64_t>& pairs = ctx.scratch.new_pairs;
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -146,8 +189,10 @@ void add_pairs(StepContext& ctx)
     {
         const auto a = static_cast<std::int32_t>(key & 0xffffffffu);
         const auto b = static_cast<std::int32_t>(key >> 32);
-        if (!has_contact(ctx.state, a, b))
-            ctx.state.box_pairs.push_back({a, b, none});
+        const bool may_be_known = is_fresh(state, a) || is_fresh(state, b) ||
+                                  std::binary_search(state.parted_pairs.begin(), state.parted_pairs.end(), key);
+        if (!may_be_known || !has_contact(state, a, b))
+            state.box_pairs.push_back({a, b, none});
     }
 }
 
@@ -168,50 +213,68 @@ bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
            boxes_meet(state, pair.a, pair.b);
 }
 
-// Filters may have changed since the pair was found, and another look may have found it again.
+// Filters may have changed since the pair was found. Triggers' pairs may be found twice, see find_deflected_pairs.
 void give_contact(StepContext& ctx, std::size_t index)
 {
     const BoxPair pair = ctx.state.box_pairs[index];
-    if (pair.contact == none && may_collide(ctx.state, pair.a, pair.b) && !has_contact(ctx.state, pair.a, pair.b))
+    const bool trigger = ctx.state.shapes[pair.a].trigger || ctx.state.shapes[pair.b].trigger;
+    if (pair.contact == none && may_collide(ctx.state, pair.a, pair.b) && !(trigger && has_contact(ctx.state, pair.a, pair.b)))
         create_contact(ctx.scene, pair.a, pair.b, static_cast<std::int32_t>(index));
 }
 
-// Contacts of pairs that may meet; those that can't any more lose theirs, unless it must still tell of its end. False: no pair any more.
-bool follow_pair(StepContext& ctx, std::size_t index)
+// What becomes of a pair.
+namespace fate {
+constexpr std::uint8_t gets_contact = 1;
+constexpr std::uint8_t loses_contact = 2;
+constexpr std::uint8_t goes = 4;
+constexpr std::uint8_t parted = 8; ///< it stays, but its boxes do not meet
+} // namespace fate
+
+// Contacts of pairs that may meet; those that can't any more lose theirs, unless it must still tell of its end.
+std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
 {
-    SceneState& state = ctx.state;
-    const BoxPair pair = state.box_pairs[index];
+    const SceneState& state = ctx.state;
     if (!state.broad_phase.has(pair.a) || !state.broad_phase.has(pair.b))
-        return false;
+        return fate::goes;
+    const bool meet = boxes_meet(state, pair.a, pair.b);
     if (!state.broad_phase.path(pair.a).moves && !state.broad_phase.path(pair.b).moves)
     { // triggers see what rests as well, once
         const bool trigger = state.shapes[pair.a].trigger || state.shapes[pair.b].trigger;
-        if (trigger && boxes_meet(state, pair.a, pair.b))
-            give_contact(ctx, index);
-        return false;
+        return trigger && meet ? fate::gets_contact | fate::goes : fate::goes;
     }
+    const std::uint8_t parted = meet ? 0 : fate::parted;
     if (may_meet_in_step(ctx, pair))
-    {
-        give_contact(ctx, index);
-        return true;
-    }
-    if (pair.contact != none)
-    {
-        if ((state.contacts[pair.contact].flags & (contact_flag::touching | contact_flag::trigger)) != 0)
-            return true;
-        destroy_contact(ctx.scene, pair.contact, ctx.scene.events, 0);
-    }
-    return boxes_meet(state, pair.a, pair.b);
+        return pair.contact == none ? fate::gets_contact | parted : parted;
+    if (pair.contact == none)
+        return meet ? 0 : fate::goes;
+    if ((state.contacts[pair.contact].flags & (contact_flag::touching | contact_flag::trigger)) != 0)
+        return parted;
+    return meet ? fate::loses_contact : fate::loses_contact | fate::goes;
 }
 
 void follow_pairs(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     std::vector<BoxPair>& pairs = state.box_pairs;
+    std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
+    fates.resize(pairs.size());
+    run_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
+              [&](std::size_t first, std::size_t last)
+              {
+                  for (std::size_t i = first; i < last; ++i)
+                      fates[i] = fate_of(ctx, pairs[i]);
+              });
+    state.parted_pairs.clear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
-        if (!follow_pair(ctx, i))
+        if ((fates[i] & fate::parted) != 0)
+            state.parted_pairs.push_back(pair_key(pairs[i].a, pairs[i].b));
+        if ((fates[i] & fate::gets_contact) != 0)
+            give_contact(ctx, i);
+        if ((fates[i] & fate::loses_contact) != 0)
+            destroy_contact(ctx.scene, pairs[i].contact, ctx.scene.events, 0);
+        if ((fates[i] & fate::goes) != 0)
         {
             if (pairs[i].contact != none)
                 state.contacts[pairs[i].contact].pair = none;
@@ -226,6 +289,7 @@ void follow_pairs(StepContext& ctx)
         ++kept;
     }
     pairs.resize(kept);
+    std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
 }
 
 } // namespace
@@ -235,8 +299,8 @@ void find_pairs(StepContext& ctx)
     ctx.scratch.new_pairs.clear();
     look_around_fresh(ctx);
     look_around_moved(ctx);
-    settle(ctx);
     add_pairs(ctx);
+    settle(ctx);
     follow_pairs(ctx);
 }
 
@@ -259,7 +323,9 @@ void find_deflected_pairs(StepContext& ctx)
     }
     const auto is_trigger = [&](std::uint64_t key)
     { return state.shapes[static_cast<int>(key & 0xffffffffu)].trigger || state.shapes[static_cast<int>(key >> 32)].trigger; };
-    std::erase_if(pairs, [&](std::uint64_t key) { return !is_trigger(key); });
+    const auto is_known = [&](std::uint64_t key)
+    { return has_contact(state, static_cast<int>(key & 0xffffffffu), static_cast<int>(key >> 32)); };
+    std::erase_if(pairs, [&](std::uint64_t key) { return !is_trigger(key) || is_known(key); });
     const std::size_t first = ctx.state.box_pairs.size();
     add_pairs(ctx);
     for (std::size_t i = first; i < ctx.state.box_pairs.size(); ++i)

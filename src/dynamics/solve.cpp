@@ -1,6 +1,7 @@
 // Stage 5, solve: unit by unit, all sub-steps of one before the next, so that a small unit stays in cache. In every sub-step the soft rows
 // advance first, then the unit's balls in flight through the same interval, then everything relaxes and bounces.
 
+#include "core/crew.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_solver.h"
@@ -49,6 +50,9 @@ namespace {
 
 constexpr int turns = 3;
 constexpr int settle_turns = 16;
+constexpr int groups_per_share = 16;
+constexpr int states_per_share = 256;
+constexpr int crew_groups = 256;     // from so many on a unit is worth all threads
 constexpr float follow_turn = 0.03f; // rad
 
 // Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
@@ -81,9 +85,9 @@ void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
 class UnitSolver
 {
 public:
-    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy)
+    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy, Crew& crew)
         : m_ctx(unit.slices > 1 ? sliced(ctx, unit.slices) : ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
-          m_energy(energy),
+          m_energy(energy), m_crew(crew),
           m_watches_energy(unit.precise || (!unit.heap && unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
           m_rows(std::span(ctx.scratch.rows)
@@ -174,7 +178,8 @@ private:
     {
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             note_approach(m_view, impact_row(i));
-        m_kernels.note_approach(m_wide, m_unit.wide_count, m_view.states);
+        m_crew.share(m_unit.wide_count, groups_per_share,
+                     [&](int first, int last) { m_kernels.note_approach(m_wide + first, last - first, m_view.states); });
         note_limit_approach(m_view, m_ctx.state, m_joints);
     }
 
@@ -192,46 +197,84 @@ private:
             integrate_and_push(k);
             return;
         }
-        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
-        {
-            BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
-            const StateConstants& c = m_scratch.constants[static_cast<std::size_t>(i)];
-            if ((s.flags & body_flag::dynamic) == 0 || (s.flags & body_flag::flier) != 0)
-                continue;
-            accelerate(s, c, m_ctx.h);
-        }
+        over_states(
+            [&](int i)
+            {
+                BodyState& s = m_view.states[i];
+                if ((s.flags & body_flag::dynamic) != 0 && (s.flags & body_flag::flier) == 0)
+                    accelerate(s, m_view.constants[i], m_ctx.h);
+            });
+    }
+
+    template <class Visit>
+    void over_states(const Visit& visit)
+    {
+        m_crew.share(m_unit.state_count, states_per_share,
+                     [&](int first, int last)
+                     {
+                         for (int i = m_unit.first_state + first; i < m_unit.first_state + last; ++i)
+                             visit(i);
+                     });
     }
 
     // Where points and normals keep through the step, all that the rows gave to a body in the last sub-step is given again at once: what warm
     // starting adds up row by row.
     void integrate_and_push(int k)
     {
-        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
-        {
-            BodyState& s = m_view.states[i];
-            const StateConstants& c = m_view.constants[i];
-            BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
-            if ((s.flags & body_flag::dynamic) == 0)
-                continue;
-            accelerate(s, c, m_ctx.h);
-            const BodyPush before{s.velocity, s.angular_velocity};
-            if (k > 0)
+        over_states(
+            [&](int i)
             {
-                s.velocity += push.velocity;
-                s.angular_velocity += push.angular_velocity;
-            }
-            push = before;
-        }
+                BodyState& s = m_view.states[i];
+                BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+                if ((s.flags & body_flag::dynamic) == 0)
+                    return;
+                accelerate(s, m_view.constants[i], m_ctx.h);
+                const BodyPush before{s.velocity, s.angular_velocity};
+                if (k > 0)
+                {
+                    s.velocity += push.velocity;
+                    s.angular_velocity += push.angular_velocity;
+                }
+                push = before;
+            });
     }
 
     void note_pushes()
     {
-        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+        over_states(
+            [&](int i)
+            {
+                const BodyState& s = m_view.states[i];
+                BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+                push = {s.velocity - push.velocity, s.angular_velocity - push.angular_velocity};
+            });
+    }
+
+    // Colour by colour: within one no two groups share a body that gives way, and all threads take shares.
+    template <class Pass>
+    void over_colors(std::span<const std::int32_t> starts, const Pass& pass)
+    {
+        if (starts.empty())
+            return;
+        if (!m_crew.has_helpers())
         {
-            const BodyState& s = m_view.states[i];
-            BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
-            push = {s.velocity - push.velocity, s.angular_velocity - push.angular_velocity};
+            pass(starts.front(), starts.back());
+            return;
         }
+        for (std::size_t c = 0; c + 1 < starts.size(); ++c)
+            m_crew.share(starts[c + 1] - starts[c], groups_per_share,
+                         [&](int first, int last) { pass(starts[c] + first, starts[c] + last); });
+    }
+
+    [[nodiscard]] std::span<const std::int32_t> contact_colors() const
+    {
+        return std::span(m_scratch.color_starts)
+            .subspan(static_cast<std::size_t>(m_unit.first_color), static_cast<std::size_t>(m_unit.color_count));
+    }
+    [[nodiscard]] std::span<const std::int32_t> joint_colors() const
+    {
+        return std::span(m_scratch.joint_color_starts)
+            .subspan(static_cast<std::size_t>(m_unit.first_joint_color), static_cast<std::size_t>(m_unit.joint_color_count));
     }
 
     void warm_start_all(int k)
@@ -242,8 +285,10 @@ private:
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         if (m_starts_by_body && k > 0)
             return;
-        m_kernels.warm_start_joints(m_wide_joints, m_unit.wide_joint_count, m_view.states);
-        m_kernels.warm_start(m_wide, m_unit.wide_count, m_view.states);
+        over_colors(joint_colors(), [&](int first, int last)
+                    { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
+        over_colors(contact_colors(),
+                    [&](int first, int last) { m_kernels.warm_start(m_wide + first, last - first, m_view.states); });
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
@@ -274,9 +319,12 @@ private:
             if (!m_joints.empty())
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
             m_softness.share = m_joint_softness.share = turn + 1 == most ? 1 : 0;
-            (use_bias ? m_kernels.solve_joints : m_kernels.relax_joints)(m_wide_joints, m_unit.wide_joint_count, m_view.states,
-                                                                         m_joint_softness);
-            (use_bias ? m_kernels.solve : m_kernels.relax)(m_wide, m_unit.wide_count, m_view.states, m_softness);
+            const auto joint_pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
+            over_colors(joint_colors(), [&](int first, int last)
+                        { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
+            const auto contact_pass = use_bias ? m_kernels.solve : m_kernels.relax;
+            over_colors(contact_colors(),
+                        [&](int first, int last) { contact_pass(m_wide + first, last - first, m_view.states, m_softness); });
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
@@ -322,15 +370,16 @@ private:
     // x += h v
     void integrate_positions()
     {
-        for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
-        {
-            BodyState& s = m_scratch.states[static_cast<std::size_t>(i)];
-            if ((s.flags & body_flag::flier) != 0)
-                continue;
-            s.delta_position += drift(m_view, i);
-            if (s.angular_velocity != 0)
-                s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
-        }
+        over_states(
+            [&](int i)
+            {
+                BodyState& s = m_view.states[i];
+                if ((s.flags & body_flag::flier) != 0)
+                    return;
+                s.delta_position += drift(m_view, i);
+                if (s.angular_velocity != 0)
+                    s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
+            });
     }
 
     // The last line of defence, for balls that something far heavier presses into what does not give way: no deeper than half the radius.
@@ -807,6 +856,7 @@ private:
     const Unit& m_unit;
     UnitOutput& m_output;
     UnitEnergy& m_energy; ///< memory that the units of a task share
+    Crew& m_crew;
     bool m_watches_energy;
     SolverView m_view;
     std::span<ContactRow> m_rows;
@@ -852,6 +902,54 @@ void fall(const StepContext& ctx, std::int32_t index)
         s.delta_rotation = Rotation::from_angle(static_cast<float>(angle));
 }
 
+[[nodiscard]] bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= crew_groups; }
+
+// All threads on one after the other.
+void solve_large(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    for (std::size_t u = 0; u < scratch.units.size(); ++u)
+    {
+        if (!is_large(scratch.units[u]))
+            continue;
+        UnitEnergy energy;
+        Crew::run(ctx.scene.def.tasks,
+                  [&](Crew& crew) { UnitSolver(ctx, scratch.units[u], scratch.outputs[u], energy, crew).run(); });
+    }
+}
+
+// Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
+void solve_small(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    std::vector<std::int32_t>& starts = scratch.order;
+    starts.assign(1, 0);
+    int bodies = 0;
+    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+    {
+        bodies += is_large(scratch.units[i]) ? 0 : scratch.units[i].state_count;
+        if (bodies < 256 && i + 1 < scratch.units.size())
+            continue;
+        starts.push_back(static_cast<std::int32_t>(i) + 1);
+        bodies = 0;
+    }
+    run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
+              [&](int task)
+              {
+                  UnitEnergy energy;
+                  Crew alone;
+                  for (auto u = static_cast<std::size_t>(starts[static_cast<std::size_t>(task)]);
+                       u < static_cast<std::size_t>(starts[static_cast<std::size_t>(task) + 1]); ++u)
+                  {
+                      const Unit& unit = scratch.units[u];
+                      if (unit.alone)
+                          fall(ctx, unit.first_state + 1);
+                      else if (!is_large(unit))
+                          UnitSolver(ctx, unit, scratch.outputs[u], energy, alone).run();
+                  }
+              });
+}
+
 } // namespace
 
 void solve_units(StepContext& ctx)
@@ -863,32 +961,8 @@ void solve_units(StepContext& ctx)
         scratch.outputs[i].clear();
     mark_traced(ctx);
     scratch.pushes.resize(scratch.states.size());
-    // Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
-    std::vector<std::int32_t>& starts = scratch.order;
-    starts.assign(1, 0);
-    int bodies = 0;
-    for (std::size_t i = 0; i < scratch.units.size(); ++i)
-    {
-        bodies += scratch.units[i].state_count;
-        if (bodies < 256 && i + 1 < scratch.units.size())
-            continue;
-        starts.push_back(static_cast<std::int32_t>(i) + 1);
-        bodies = 0;
-    }
-    run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
-              [&](int task)
-              {
-                  UnitEnergy energy;
-                  for (std::int32_t u = starts[static_cast<std::size_t>(task)]; u < starts[static_cast<std::size_t>(task) + 1];
-                       ++u)
-                  {
-                      const Unit& unit = scratch.units[static_cast<std::size_t>(u)];
-                      if (unit.alone)
-                          fall(ctx, unit.first_state + 1);
-                      else
-                          UnitSolver(ctx, unit, scratch.outputs[static_cast<std::size_t>(u)], energy).run();
-                  }
-              });
+    solve_large(ctx);
+    solve_small(ctx);
 }
 
 } // namespace carom::internal

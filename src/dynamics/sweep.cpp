@@ -1,16 +1,20 @@
 // Stage 1, sweep: paths and boxes. Reads velocities and forces, writes fat boxes of the moving layer.
 
+#include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
 #include "dynamics/force_laws.h"
 #include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::internal {
 
 namespace {
+
+constexpr int bodies_per_task = 512;
 
 // The velocity that reaches the target at the end of the step, the shorter way round.
 void aim_at_target(BodySim& sim, float dt)
@@ -44,7 +48,8 @@ bool too_wide(const FloatBox& fat, const FloatBox& needed, float margin)
     return (fat.ux - fat.lx) > (needed.ux - needed.lx) + 8 * margin || (fat.uy - fat.ly) > (needed.uy - needed.ly) + 8 * margin;
 }
 
-void sweep_body(StepContext& ctx, int body, float& motion)
+// Writes to its own body and boxes alone.
+void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& moved)
 {
     SceneState& state = ctx.state;
     BodyRecord& record = state.bodies[body];
@@ -65,9 +70,9 @@ void sweep_body(StepContext& ctx, int body, float& motion)
                       const FloatBox& fat = state.broad_phase.box(shape);
                       if (contains(fat, needed) && !too_wide(fat, needed, margin))
                           return;
-                      ctx.scratch.moved_items.push_back(shape);
+                      moved.items.push_back(shape);
                       // What moves farther than its margin gets a new box in the next step anyhow.
-                      ctx.scratch.moved_boxes.push_back(grow(needed, motion < margin ? margin : 0));
+                      moved.boxes.push_back(grow(needed, motion < margin ? margin : 0));
                   });
 }
 
@@ -94,14 +99,31 @@ void sweep_paths(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     put_aside_unsound(ctx);
-    scratch.moved_items.clear();
-    scratch.moved_boxes.clear();
+    const auto count = static_cast<int>(ctx.state.awake_bodies.size());
+    const int tasks = (count + bodies_per_task - 1) / bodies_per_task;
     scratch.motion.resize(ctx.state.awake_bodies.size());
-    for (std::size_t i = 0; i < ctx.state.awake_bodies.size(); ++i)
-        sweep_body(ctx, ctx.state.awake_bodies[i], scratch.motion[i]);
-    scratch.sorted_anew = false;
-    if (!scratch.moved_items.empty())
-        scratch.sorted_anew = ctx.state.broad_phase.update_moving(scratch.moved_items, scratch.moved_boxes);
+    if (static_cast<int>(scratch.moved_of_task.size()) < tasks)
+        scratch.moved_of_task.resize(static_cast<std::size_t>(tasks));
+    run_tasks(ctx.scene.def.tasks, tasks,
+              [&](int task)
+              {
+                  MovedBoxes& moved = scratch.moved_of_task[static_cast<std::size_t>(task)];
+                  moved.items.clear();
+                  moved.boxes.clear();
+                  const int end = std::min((task + 1) * bodies_per_task, count);
+                  for (auto i = static_cast<std::size_t>(task * bodies_per_task); i < static_cast<std::size_t>(end); ++i)
+                      sweep_body(ctx, ctx.state.awake_bodies[i], scratch.motion[i], moved);
+              });
+    MovedBoxes& all = scratch.moved;
+    all.items.clear();
+    all.boxes.clear();
+    for (int i = 0; i < tasks; ++i)
+    {
+        const MovedBoxes& some = scratch.moved_of_task[static_cast<std::size_t>(i)];
+        all.items.insert(all.items.end(), some.items.begin(), some.items.end());
+        all.boxes.insert(all.boxes.end(), some.boxes.begin(), some.boxes.end());
+    }
+    scratch.sorted_anew = !all.items.empty() && ctx.state.broad_phase.update_moving(all.items, all.boxes);
 }
 
 } // namespace carom::internal

@@ -92,6 +92,7 @@ public:
         m_scratch.lane_links.clear();
         m_scratch.impact_rows.clear();
         m_scratch.cores.clear();
+        m_scratch.color_starts.clear();
         for (Unit& unit : m_scratch.units)
             place_rows_of(unit);
     }
@@ -115,6 +116,7 @@ public:
     {
         m_scratch.joint_places.clear();
         m_scratch.joint_lanes.clear();
+        m_scratch.joint_color_starts.clear();
         m_groups = 0;
         for (Unit& unit : m_scratch.units)
             place_joints_of(unit);
@@ -393,15 +395,20 @@ private:
     void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
 
     // Eight lanes to a group, each of one colour and one number of points.
-    void give_out_places(const Unit& unit)
+    void give_out_places(Unit& unit)
     {
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
+        unit.first_color = static_cast<std::int32_t>(m_scratch.color_starts.size());
         for (std::size_t bin = 0; bin < lane_bins; ++bin)
         {
+            if (bin % 2 == 0 && m_bins[bin] + m_bins[bin + 1] > 0)
+                m_scratch.color_starts.push_back(lane / lane_count - unit.first_wide);
             const std::int32_t first = lane;
             lane += (m_bins[bin] + lane_count - 1) / lane_count * lane_count;
             m_bins[bin] = first;
         }
+        m_scratch.color_starts.push_back(lane / lane_count - unit.first_wide);
+        unit.color_count = static_cast<std::int32_t>(m_scratch.color_starts.size()) - unit.first_color;
         auto row = unit.first_row;
         for (std::size_t bin = lane_bins; bin < std::size(m_bins); ++bin)
             row += std::exchange(m_bins[bin], row);
@@ -490,7 +497,7 @@ private:
                 unbind(place.b);
             }
         }
-        group_joints(first_lane);
+        group_joints(unit, first_lane);
         unit.joint_count = static_cast<std::int32_t>(m_scratch.joint_places.size()) - unit.first_joint;
         unit.wide_joint_count = m_groups - unit.first_wide_joint;
     }
@@ -517,15 +524,18 @@ private:
     }
 
     // Sorted by bin, eight by eight; each learns its lane.
-    void group_joints(std::size_t first)
+    void group_joints(Unit& unit, std::size_t first)
     {
         const auto begin = m_scratch.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
         std::stable_sort(begin, m_scratch.joint_lanes.end(),
                          [](const JointLane& x, const JointLane& y) { return x.bin < y.bin; });
+        unit.first_joint_color = static_cast<std::int32_t>(m_scratch.joint_color_starts.size());
         std::int32_t bin = none;
         int lane = 0;
         for (auto l = begin; l != m_scratch.joint_lanes.end(); ++l)
         {
+            if (bin == none || l->bin / 2 != bin / 2)
+                m_scratch.joint_color_starts.push_back(m_groups - unit.first_wide_joint);
             if (l->bin != bin || lane == lane_count)
             {
                 ++m_groups;
@@ -534,6 +544,8 @@ private:
             bin = l->bin;
             l->lane = (m_groups - 1) * lane_count + lane++;
         }
+        m_scratch.joint_color_starts.push_back(m_groups - unit.first_wide_joint);
+        unit.joint_color_count = static_cast<std::int32_t>(m_scratch.joint_color_starts.size()) - unit.first_joint_color;
     }
 
     // A task's share begins with a group.

@@ -144,6 +144,8 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     }
     row.may_hit &= ~(1u << i);
     row.untold &= ~(1u << i);
+    row.fixed_a |= 1u << i;
+    row.fixed_b |= 1u << i;
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;
     for (ManifoldPoint& p : contact.manifold.points)
@@ -186,6 +188,7 @@ WideJoint empty_wide_joint(std::int32_t fixed)
         empty.a.v[i] = empty.b.v[i] = fixed;
         empty.joint.v[i] = none;
     }
+    empty.fixed_a = empty.fixed_b = (1u << lane_count) - 1;
     return empty;
 }
 
@@ -238,6 +241,12 @@ void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a,
     wide.gap_y.v[i] = work.gap0.y;
     wide.impulse_x.v[i] = joint.impulses[slot_x];
     wide.impulse_y.v[i] = joint.impulses[slot_y];
+    const auto gives_way = [&](std::int32_t s)
+    { return constants_of(ctx, s).inverse_mass.x != 0 || constants_of(ctx, s).inverse_inertia != 0; };
+    if (gives_way(a))
+        wide.fixed_a &= ~(1u << i);
+    if (gives_way(b))
+        wide.fixed_b &= ~(1u << i);
     fill_angle(ctx, joint, work.angle0, wide.angle, i);
     if (!only_holds(joint))
         wide.turns = 1;

@@ -9,18 +9,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-float round_down(double v)
-{
-    const auto f = static_cast<float>(v);
-    return static_cast<double>(f) > v ? std::nextafter(f, -infinity) : f;
-}
-
-float round_up(double v)
-{
-    const auto f = static_cast<float>(v);
-    return static_cast<double>(f) < v ? std::nextafter(f, infinity) : f;
-}
-
 // Collects the extremes of points in coordinates relative to the pose's position.
 struct Extremes
 {
@@ -55,13 +43,6 @@ void add_arc(Extremes& e, const Leaf& leaf, Rotation q)
 }
 
 } // namespace
-
-FloatBox round_outwards(double lx, double ly, double ux, double uy)
-{
-    return {round_down(lx), round_down(ly), round_up(ux), round_up(uy)};
-}
-FloatBox round_outwards(const Box& b) { return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y); }
-FloatBox grow(const FloatBox& b, float m) { return {b.lx - m, b.ly - m, b.ux + m, b.uy + m}; }
 
 Box leaf_bounds(const LeafView& v, const Pose& pose)
 {

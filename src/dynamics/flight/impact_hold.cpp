@@ -139,7 +139,7 @@ double ImpactSet::gap_acceleration(std::size_t i)
     double nearest = 1e300;
     for (const Touch& t : touches_now(other_leaf, other, own_leaf, own, 2 * still_held * size))
     {
-        const double d = std::hypot(t.x - s.touch.x, t.y - s.touch.y);
+        const double d = length_of(t.x - s.touch.x, t.y - s.touch.y);
         if (d < nearest)
         {
             nearest = d;

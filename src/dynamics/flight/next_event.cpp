@@ -243,7 +243,7 @@ private:
         const double dx = b.center.x - a.center.x + to.x - from.x;
         const double dy = b.center.y - a.center.y + to.y - from.y;
         const auto speed = [left](const Flier& f, const CenterMotion& c)
-        { return std::hypot(c.vx, c.vy) + left * (std::hypot(f.ax, f.ay) + std::fabs(f.alpha) * std::hypot(f.arm_x, f.arm_y)); };
+        { return length_of(c.vx, c.vy) + left * (length_of(f.ax, f.ay) + std::fabs(f.alpha) * length_of(f.arm_x, f.arm_y)); };
         const double reach =
             static_cast<double>(a.extent) + static_cast<double>(b.extent) + left * (speed(m_flier, from) + speed(*other, to));
         return dx * dx + dy * dy > reach * reach;

@@ -55,8 +55,8 @@ struct Group
         a.y -= mass_a * py;
         b.x += mass_b * px;
         b.y += mass_b * py;
-        put(states, row.a, a);
-        put(states, row.b, b);
+        put(states, row.a, a, row.fixed_a);
+        put(states, row.b, b, row.fixed_b);
     }
 };
 
@@ -210,6 +210,8 @@ void prepare(WideRow* rows, std::int32_t count)
         const F8 mass = load(row->inverse_mass_a) + load(row->inverse_mass_b);
         const F8 ia = load(row->inverse_inertia_a);
         const F8 ib = load(row->inverse_inertia_b);
+        row->fixed_a = bits((load(row->inverse_mass_a) == all(0)) & (ia == all(0)));
+        row->fixed_b = bits((load(row->inverse_mass_b) == all(0)) & (ib == all(0)));
         for (int i = 0; i < row->count; ++i)
         {
             WidePoint& p = row->points[i];

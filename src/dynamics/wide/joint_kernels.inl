@@ -55,8 +55,8 @@ struct Hinge
 
     CAROM_INLINE void finish(const WideJoint& j, BodyState* states) const
     {
-        put(states, j.a, a);
-        put(states, j.b, b);
+        put(states, j.a, a, j.fixed_a);
+        put(states, j.b, b, j.fixed_b);
     }
 
     // The turn by its quarter, whose arc tangent's series is short: exact to a float's rounding up to a quarter turn in a step.

@@ -38,9 +38,17 @@ CAROM_INLINE Poses poses_of(const BodyState* states, const LaneInts& index)
     return p;
 }
 
-CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v)
+// Several groups, on several threads, may share a body that does not give way: it is not written.
+CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v, unsigned fixed)
 {
-    scatter4([&](int i) { return reinterpret_cast<char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
+    const auto at = [&](int i) { return reinterpret_cast<char*>(states + index.v[i]); };
+    if (fixed == 0)
+    {
+        scatter4(at, v.x, v.y, v.w, v.flags);
+        return;
+    }
+    BodyState unused[lane_count];
+    scatter4([&](int i) { return (fixed >> i & 1u) != 0 ? reinterpret_cast<char*>(unused + i) : at(i); }, v.x, v.y, v.w, v.flags);
 }
 
 #include "contact_kernels.inl"

@@ -106,27 +106,28 @@ public:
         return true;
     }
 
-    /// Calls visit(item, other) where the box of an item of the moving layer that has changed overlaps any other: eight neighbours go
-    /// through the trees together.
-    template <class Visit>
-    void for_each_changed_overlap(const Visit& visit) const
+    /// Of the moving layer: eight neighbours each, which go through the trees together; one more for what is not in a tree yet.
+    [[nodiscard]] int block_count() const
     {
+        int count = 1;
+        for (const BoxTree& tree : m_forests[0].trees)
+            count += tree.block_count();
+        return count;
+    }
+
+    /// Calls visit(item, other) where the box of an item of these blocks that has changed overlaps any other.
+    template <class Visit>
+    void for_each_changed_overlap(int first, int last, const Visit& visit) const
+    {
+        if (first == 0)
+            visit_recent(visit);
+        int before = 1;
         for (const BoxTree& tree : m_forests[0].trees)
         {
-            for (int k = 0; k < tree.block_count(); ++k)
+            const int end = last - before < tree.block_count() ? last - before : tree.block_count();
+            for (int k = first > before ? first - before : 0; k < end; ++k)
                 visit_block(tree, k, visit);
-        }
-        for (const std::int32_t item : m_forests[0].recent)
-        {
-            if (!has_changed(item))
-                continue;
-            for (const Layer layer : {Layer::Moving, Layer::Resting})
-                query(layer, box(item),
-                      [&](int other)
-                      {
-                          visit(item, other);
-                          return true;
-                      });
+            before += tree.block_count();
         }
     }
 
@@ -167,6 +168,23 @@ private:
         std::vector<BoxTree> trees;
         std::vector<std::int32_t> recent;
     };
+
+    template <class Visit>
+    void visit_recent(const Visit& visit) const
+    {
+        for (const std::int32_t item : m_forests[0].recent)
+        {
+            if (!has_changed(item))
+                continue;
+            for (const Layer layer : {Layer::Moving, Layer::Resting})
+                query(layer, box(item),
+                      [&](int other)
+                      {
+                          visit(item, other);
+                          return true;
+                      });
+        }
+    }
 
     // The changed ones of a block against all blocks that they may overlap.
     template <class Visit>

@@ -9,10 +9,14 @@
 #include "carom/math.h"
 #include "geometry/leaf.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
 namespace carom::internal {
+
+/// By the square root, which every machine rounds alike; hypot is the library's affair.
+[[nodiscard]] inline double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// x + v t + a t²/2 for each coordinate.
 struct CenterPath

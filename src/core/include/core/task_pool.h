@@ -5,6 +5,8 @@
 
 #include "carom/scene.h"
 
+#include <cstddef>
+
 namespace carom::internal {
 
 template <class Task>
@@ -19,6 +21,18 @@ void run_tasks(const TaskHooks& hooks, int count, const Task& task)
     hooks.run(
         hooks.user, count, [](void* context, int index) { (*static_cast<const Task*>(context))(index); },
         const_cast<Task*>(&task));
+}
+
+/// Calls work(first, last) for parts of 0 ... count, a task each.
+template <class Work>
+void run_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, const Work& work)
+{
+    run_tasks(hooks, static_cast<int>((count + part - 1) / part),
+              [&](int task)
+              {
+                  const std::size_t first = static_cast<std::size_t>(task) * part;
+                  work(first, first + part < count ? first + part : count);
+              });
 }
 
 } // namespace carom::internal

@@ -244,7 +244,8 @@ struct SceneState
     Pool<Contact> contacts;
     std::vector<KeptManifold> kept_manifolds; ///< by contact slot
     std::vector<BoxPair> box_pairs;
-    PairSet ignored; ///< body pairs that never touch
+    std::vector<std::uint64_t> parted_pairs; ///< of these, keys of those whose boxes do not meet, sorted
+    PairSet ignored;                         ///< body pairs that never touch
     BroadPhase broad_phase;
     std::vector<std::int32_t> awake_bodies;
     std::vector<std::int32_t> awake_contacts;

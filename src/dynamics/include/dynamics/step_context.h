@@ -47,6 +47,10 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
+    std::int32_t first_color = 0; ///< where the colors of its wide rows begin, and where the last ends, in Scratch::color_starts
+    std::int32_t color_count = 0;
+    std::int32_t first_joint_color = 0;
+    std::int32_t joint_color_count = 0;
     std::int32_t slices = 1; ///< of each sub-step
     bool alone = false;      ///< one body with nothing near: it falls
     bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
@@ -200,14 +204,23 @@ struct UnitOutput
     UnitOutput& operator=(const UnitOutput&) = delete;
 };
 
+/// Shapes whose fat box changed, and what it is now.
+struct MovedBoxes
+{
+    std::vector<std::int32_t> items;
+    std::vector<FloatBox> boxes;
+};
+
 struct Scratch
 {
-    std::vector<float> motion;             ///< how far any point of an awake body may move in this step, by place in awake_bodies
-    std::vector<std::int32_t> unsound;     ///< bodies whose state is no longer finite
-    std::vector<std::int32_t> moved_items; ///< shapes whose fat box changed
-    std::vector<FloatBox> moved_boxes;
+    std::vector<float> motion;         ///< how far any point of an awake body may move in this step, by place in awake_bodies
+    std::vector<std::int32_t> unsound; ///< bodies whose state is no longer finite
+    MovedBoxes moved;
+    std::vector<MovedBoxes> moved_of_task;
     bool sorted_anew = false; ///< the moving layer, in this step
     std::vector<std::uint64_t> new_pairs;
+    std::vector<std::vector<std::uint64_t>> pairs_of_task;
+    std::vector<std::uint8_t> pair_fates;
     std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
@@ -233,6 +246,8 @@ struct Scratch
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     std::vector<WideRow> wide_rows;
+    std::vector<std::int32_t> color_starts; ///< groups of wide rows, from the unit's first on
+    std::vector<std::int32_t> joint_color_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
     std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
@@ -248,6 +263,7 @@ struct Scratch
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
     std::vector<FlierSeed> flier_seeds;
+    std::vector<float> least_sleep; ///< s, of each island, at the place of its label
     std::vector<std::int32_t> order;
 };
 

@@ -49,8 +49,10 @@ struct WideJoint
     LaneFloats sum_x; ///< over the step
     LaneFloats sum_y;
     WideAngle angle;
-    std::int32_t turns; ///< whether any lane does something about its angle
-    std::int32_t padding[7];
+    std::int32_t turns;    ///< whether any lane does something about its angle
+    std::uint32_t fixed_a; ///< lanes whose body a does not give way
+    std::uint32_t fixed_b;
+    std::int32_t padding[5];
 };
 
 struct JointSoftness

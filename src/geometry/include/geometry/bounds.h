@@ -29,9 +29,18 @@ struct FloatBox
     return {a.lx < b.lx ? a.lx : b.lx, a.ly < b.ly ? a.ly : b.ly, a.ux > b.ux ? a.ux : b.ux, a.uy > b.uy ? a.uy : b.uy};
 }
 
-[[nodiscard]] FloatBox round_outwards(double lx, double ly, double ux, double uy);
-[[nodiscard]] FloatBox round_outwards(const Box& box);
-[[nodiscard]] FloatBox grow(const FloatBox& box, float margin);
+/// By the spacing of floats there, whether the conversion rounded or not: no branches.
+[[nodiscard]] inline FloatBox round_outwards(double lx, double ly, double ux, double uy)
+{
+    const auto down = [](double v)
+    {
+        const auto f = static_cast<float>(v);
+        return f - 0x1p-23f * std::fabs(f);
+    };
+    return {down(lx), down(ly), -down(-ux), -down(-uy)};
+}
+[[nodiscard]] inline FloatBox round_outwards(const Box& b) { return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y); }
+[[nodiscard]] constexpr FloatBox grow(const FloatBox& b, float m) { return {b.lx - m, b.ly - m, b.ux + m, b.uy + m}; }
 
 /// Tight box of a leaf whose body's frame has this pose. A half-space gives an infinite one.
 [[nodiscard]] Box leaf_bounds(const LeafView& view, const Pose& pose);
