@@ -20,23 +20,50 @@ float angle_of(Rotation turn)
     return static_cast<float>(arc_tangent(turn.s, turn.c));
 }
 
-} // namespace
-
-JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b)
+// But for the angle.
+JointPose place_anchors(const JointWork& work, const Placement& a, const Placement& b)
 {
     JointPose pose;
     pose.ra = rotate(a.turn, work.ra0);
     pose.rb = rotate(b.turn, work.rb0);
     pose.axis = rotate(a.turn, work.axis0);
     pose.gap = work.gap0 + (b.shift - a.shift) + (pose.rb - work.rb0) - (pose.ra - work.ra0);
-    pose.angle = work.angle0 + angle_of(b.turn * inverse(a.turn));
     return pose;
+}
+
+float angle_between(const JointWork& work, const Placement& a, const Placement& b)
+{
+    return work.angle0 + angle_of(b.turn * inverse(a.turn));
+}
+
+} // namespace
+
+JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b)
+{
+    JointPose pose = place_anchors(work, a, b);
+    pose.angle = angle_between(work, a, b);
+    return pose;
+}
+
+Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b)
+{
+    JointPose pose = place_anchors(work, a, b);
+    switch (joint.kind)
+    {
+    case JointType::Spring: break;
+    case JointType::Distance: return distance_error(joint, pose);
+    case JointType::Revolute: return revolute_error(pose);
+    case JointType::Prismatic: pose.angle = angle_between(work, a, b); return prismatic_error(pose);
+    }
+    return {};
 }
 
 Placement placed_ahead(const SolverView& view, std::int32_t state)
 {
     const BodyState& s = view.states[state];
-    return {s.delta_position + drift(view, state), Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation};
+    const Rotation turned =
+        s.angular_velocity != 0 ? Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation : s.delta_rotation;
+    return {s.delta_position + drift(view, state), turned};
 }
 
 JointPose present_pose(const SolverView& view, const JointWork& work)
@@ -68,24 +95,16 @@ JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
     return rows;
 }
 
-JointRows holding(const JointRows& all)
-{
-    JointRows holding;
-    for (int i = 0; i < all.count; ++i)
-    {
-        if (is_rigid(all.rows[i]))
-            holding.add(all.rows[i]);
-    }
-    return holding;
-}
-
 JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
 {
     JointRows rows;
     switch (joint.kind)
     {
     case JointType::Spring: break;
-    case JointType::Distance: distance_rows(joint, pose, rows); return holding(rows);
+    case JointType::Distance:
+        distance_rows(joint, pose, rows);
+        rows.count = held_count(rows);
+        break;
     case JointType::Revolute: revolute_holds(pose, rows); break;
     case JointType::Prismatic: prismatic_holds(pose, rows); break;
     }

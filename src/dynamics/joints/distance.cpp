@@ -8,7 +8,7 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
 {
     const float l = length(pose.gap);
     const Vec2 d = l > 0 ? (1 / l) * pose.gap : Vec2{1, 0};
-    JointRow row = line_row(d, pose, l - joint.lower, RowKind::Hold, slot_axis);
+    JointRow row = line_row(d, pose, distance_error(joint, pose).x, RowKind::Hold, slot_axis);
     row.hertz = joint.hertz;
     row.damping_ratio = joint.damping_ratio;
     if (joint.lower == joint.upper)

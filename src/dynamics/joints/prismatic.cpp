@@ -19,8 +19,9 @@ JointRow slider_row(Vec2 d, const JointPose& pose, float error, RowKind kind, Jo
 void prismatic_holds(const JointPose& pose, JointRows& out)
 {
     const Vec2 n = perp(pose.axis);
-    out.add(slider_row(n, pose, dot(n, pose.gap), RowKind::Hold, slot_x));
-    out.add(angle_row(pose.angle, RowKind::Hold, slot_lock));
+    const Vec2 error = prismatic_error(pose);
+    out.add(slider_row(n, pose, error.x, RowKind::Hold, slot_x));
+    out.add(angle_row(error.y, RowKind::Hold, slot_lock));
 }
 
 void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)

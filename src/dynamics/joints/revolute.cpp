@@ -6,8 +6,9 @@ namespace carom::internal {
 
 void revolute_holds(const JointPose& pose, JointRows& out)
 {
-    out.add(line_row({1, 0}, pose, pose.gap.x, RowKind::Hold, slot_x));
-    out.add(line_row({0, 1}, pose, pose.gap.y, RowKind::Hold, slot_y));
+    const Vec2 error = revolute_error(pose);
+    out.add(line_row({1, 0}, pose, error.x, RowKind::Hold, slot_x));
+    out.add(line_row({0, 1}, pose, error.y, RowKind::Hold, slot_y));
     out.block = true;
 }
 

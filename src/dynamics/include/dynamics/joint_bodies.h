@@ -76,8 +76,8 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
 /// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
 [[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
 
-/// Of all rows, those.
-[[nodiscard]] JointRows holding(const JointRows& all);
+/// C of these rows where the bodies are there.
+[[nodiscard]] Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b);
 
 /// It holds and does nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);

@@ -42,6 +42,15 @@ struct JointRows
     void add(const JointRow& row) { rows[count++] = row; }
 };
 
+/// How many of a joint's rows are rigid; they come first.
+[[nodiscard]] inline int held_count(const JointRows& rows)
+{
+    int count = 0;
+    while (count < rows.count && is_rigid(rows.rows[count]))
+        ++count;
+    return count;
+}
+
 /// Where the joint's bodies are now, within the step.
 struct JointPose
 {
@@ -71,6 +80,14 @@ struct JointWork
     JointPose pose{}; ///< as the bodies stand, since place_joints
     JointRows rows{};
 };
+
+/// C of the rows that are held: of one alone, the second is 0.
+[[nodiscard]] inline Vec2 distance_error(const JointRecord& joint, const JointPose& pose)
+{
+    return {length(pose.gap) - joint.lower, 0};
+}
+[[nodiscard]] inline Vec2 revolute_error(const JointPose& pose) { return pose.gap; }
+[[nodiscard]] inline Vec2 prismatic_error(const JointPose& pose) { return {dot(perp(pose.axis), pose.gap), pose.angle}; }
 
 void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
 void revolute_holds(const JointPose& pose, JointRows& out); ///< what is held alone
