@@ -36,6 +36,8 @@ float angle_between(const JointWork& work, const Placement& a, const Placement& 
     return work.angle0 + angle_of(b.turn * inverse(a.turn));
 }
 
+Placement placement(const BodyState& s) { return {s.delta_position, s.delta_rotation}; }
+
 } // namespace
 
 JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b)
@@ -68,31 +70,35 @@ Placement placed_ahead(const SolverView& view, std::int32_t state)
 
 JointPose present_pose(const SolverView& view, const JointWork& work)
 {
-    const BodyState& a = view.states[work.a];
-    const BodyState& b = view.states[work.b];
-    return joint_pose(work, {a.delta_position, a.delta_rotation}, {b.delta_position, b.delta_rotation});
+    return joint_pose(work, placement(view.states[work.a]), placement(view.states[work.b]));
 }
 
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints)
 {
     for (JointWork& work : joints)
     {
-        work.pose = present_pose(view, work);
-        work.rows = rows_of(state.joints[work.joint], work.pose, view.h);
+        const JointRecord& joint = state.joints[work.joint];
+        const Placement a = placement(view.states[work.a]);
+        const Placement b = placement(view.states[work.b]);
+        work.pose = has_angle(joint) ? joint_pose(work, a, b) : place_anchors(work, a, b);
+        work.rows.clear();
+        place_rows(joint, work.pose, view.h, work.rows);
+        if (work.rows.free_count == 0)
+            continue;
+        work.rows.inverse_mass = JointBodies(view, work).couple(work.rows.axis, work.rows.axis);
+        work.rows.mass = work.rows.inverse_mass > 0 ? 1 / work.rows.inverse_mass : 0;
     }
 }
 
-JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
+void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
 {
-    JointRows rows;
     switch (joint.kind)
     {
     case JointType::Spring: break;
-    case JointType::Distance: distance_rows(joint, pose, rows); break;
-    case JointType::Revolute: revolute_rows(joint, pose, h, rows); break;
-    case JointType::Prismatic: prismatic_rows(joint, pose, h, rows); break;
+    case JointType::Distance: distance_rows(joint, pose, out); break;
+    case JointType::Revolute: revolute_rows(joint, pose, h, out); break;
+    case JointType::Prismatic: prismatic_rows(joint, pose, h, out); break;
     }
-    return rows;
 }
 
 JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
@@ -101,10 +107,7 @@ JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
     switch (joint.kind)
     {
     case JointType::Spring: break;
-    case JointType::Distance:
-        distance_rows(joint, pose, rows);
-        rows.count = held_count(rows);
-        break;
+    case JointType::Distance: distance_rows(joint, pose, rows); break;
     case JointType::Revolute: revolute_holds(pose, rows); break;
     case JointType::Prismatic: prismatic_holds(pose, rows); break;
     }
@@ -116,6 +119,11 @@ bool only_holds(const JointRecord& joint)
     if (joint.kind == JointType::Distance)
         return joint.lower == joint.upper && joint.hertz == 0;
     return joint.kind != JointType::Spring && joint.hertz == 0 && !joint.enable_motor && !joint.enable_limit;
+}
+
+bool has_angle(const JointRecord& joint)
+{
+    return joint.kind == JointType::Prismatic || (joint.kind == JointType::Revolute && !only_holds(joint));
 }
 
 } // namespace carom::internal

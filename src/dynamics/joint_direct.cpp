@@ -37,8 +37,6 @@ Triple momentum(const Triple (&rows)[2], const RowPair& impulse)
             rows[0].turn * impulse.x + rows[1].turn * impulse.y};
 }
 
-bool is_angle(const JointJacobian& j, int row) { return j.down[row].x == 0 && j.down[row].y == 0; }
-
 } // namespace
 
 void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints)
@@ -50,7 +48,7 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<c
     m_ready = find_forest() && !m_links.empty();
     if (!m_ready)
         return;
-    place_nodes();
+    place();
     m_ready = m_matrix.factor(m_forest.joints(), m_jacobians, m_masses);
 }
 
@@ -64,7 +62,7 @@ bool DirectSolve::find_forest()
     for (std::size_t i = 0; i < m_joints.size(); ++i)
     {
         const JointWork& work = m_joints[i];
-        const int held = held_count(work.rows);
+        const int held = work.rows.held_count;
         if (held == 0 || is_in_flight(m_view, work))
             continue;
         rows += held;
@@ -72,12 +70,37 @@ bool DirectSolve::find_forest()
             return false;
         m_found.push_back({static_cast<int>(i), held, moving(work.a), moving(work.b)});
     }
-    if (m_found == m_links)
-        return !m_has_loops;
+    if (m_found != m_links)
+        lay_out();
+    return !m_has_loops;
+}
+
+void DirectSolve::lay_out()
+{
     m_links = m_found;
     m_has_loops = !m_forest.build(m_links);
+    if (m_has_loops)
+        return;
     m_matrix.lay_out(m_forest.joints());
-    return !m_has_loops;
+    m_nodes.clear();
+    for (const std::int32_t state : m_forest.bodies())
+        m_nodes.push_back({.state = state});
+    m_masses.assign(m_nodes.size(), {});
+    m_held.clear();
+    for (const JointForest::Joint& joint : m_forest.joints())
+    {
+        const JointForest::Link& link = m_links[static_cast<std::size_t>(joint.link)];
+        const bool a_is_up = node(joint.up).state == link.a;
+        m_held.push_back({.joint = static_cast<std::size_t>(link.joint),
+                          .rows = link.rows,
+                          .up = joint.up,
+                          .down = joint.down,
+                          .a = a_is_up ? joint.up : joint.down,
+                          .b = a_is_up ? joint.down : joint.up});
+    }
+    m_jacobians.assign(m_held.size(), {});
+    m_residual.resize(m_held.size());
+    m_impulse.resize(m_held.size());
 }
 
 std::int32_t DirectSolve::moving(std::int32_t state) const
@@ -87,73 +110,54 @@ std::int32_t DirectSolve::moving(std::int32_t state) const
 
 // --- where they are -----------------------------------------------------------------------------------------------------------------
 
-void DirectSolve::place_nodes()
+void DirectSolve::place()
 {
-    m_nodes.clear();
-    for (const std::int32_t state : m_forest.bodies())
-        m_nodes.push_back({.state = state});
-    place_joints();
-    m_masses.clear();
-    for (const Node& n : m_nodes)
-        m_masses.push_back(inverse_mass(n));
-}
-
-void DirectSolve::place_joints()
-{
-    m_held.clear();
-    m_jacobians.clear();
-    m_longest_arm = 0;
-    for (const JointForest::Joint& joint : m_forest.joints())
-        place(joint);
-    m_longest_arm = std::sqrt(m_longest_arm);
-    m_residual.resize(m_held.size());
-    m_impulse.resize(m_held.size());
-}
-
-void DirectSolve::place(const JointForest::Joint& joint)
-{
-    const JointForest::Link& link = m_links[static_cast<std::size_t>(joint.link)];
-    const JointWork& work = m_joints[static_cast<std::size_t>(link.joint)];
-    const bool a_is_up = m_forest.bodies()[static_cast<std::size_t>(joint.up)] == link.a;
-    m_held.push_back({&work,
-                      &m_state->joints[work.joint],
-                      a_is_up,
-                      joint.up,
-                      joint.down,
-                      a_is_up ? work.a : work.b,
-                      a_is_up ? work.b : work.a,
-                      link.rows,
-                      {work.rows.rows[0].slot, work.rows.rows[1].slot}});
-    JointJacobian& jacobian = m_jacobians.emplace_back();
-    jacobian.rows = link.rows;
-    for (int r = 0; r < link.rows; ++r)
+    for (Node& n : m_nodes)
+        n.stretch = 0;
+    float longest = 0;
+    for (std::size_t i = 0; i < m_held.size(); ++i)
     {
-        const JointRow& row = work.rows.rows[r];
-        (a_is_up ? jacobian.up : jacobian.down)[r] = as_triple(-row.d, -row.arm_a);
-        (a_is_up ? jacobian.down : jacobian.up)[r] = as_triple(row.d, row.arm_b);
+        Held& held = m_held[i];
+        held.work = &m_joints[held.joint];
+        held.record = &m_state->joints[held.work->joint];
+        const JointPose& pose = held.work->pose;
+        longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb)});
+        fill_jacobian(held, m_jacobians[i]);
+        note_stretch(held);
     }
-    m_longest_arm = std::max({m_longest_arm, dot(work.pose.ra, work.pose.ra), dot(work.pose.rb, work.pose.rb)});
-    note_stretch(m_held.back());
+    m_longest_arm = std::sqrt(longest);
+    for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
+        m_masses[i] = inverse_mass(m_nodes[i]);
+}
+
+void DirectSolve::fill_jacobian(const Held& held, JointJacobian& jacobian) const
+{
+    Triple(&at_a)[2] = held.a == held.up ? jacobian.up : jacobian.down;
+    Triple(&at_b)[2] = held.a == held.up ? jacobian.down : jacobian.up;
+    jacobian.rows = held.rows;
+    for (int r = 0; r < held.rows; ++r)
+    {
+        const JointRow& row = held.work->rows.held[r];
+        at_a[r] = as_triple(-row.d, -row.arm_a);
+        at_b[r] = as_triple(row.d, row.arm_b);
+    }
 }
 
 void DirectSolve::note_stretch(const Held& held)
 {
     const JointWork& work = *held.work;
     Vec2 pull{}; // on b, over a sub-step
-    for (int r = 0; r < held.rows; ++r)
-        pull += held.record->impulses[held.slots[r]] * work.rows.rows[r].d;
-    const auto share = [&](std::int32_t state, Vec2 arm)
-    { return m_view.h * m_view.constants[state].inverse_inertia * dot(pull, arm); };
-    node(held.a_is_up ? held.up : held.down).stretch -= share(work.a, work.pose.ra);
-    node(held.a_is_up ? held.down : held.up).stretch += share(work.b, work.pose.rb);
+    for (const JointRow& row : work.rows.holds())
+        pull += held.record->impulses[row.slot] * row.d;
+    node(held.a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, work.pose.ra);
+    node(held.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
 }
 
 Triple DirectSolve::inverse_mass(const Node& node) const
 {
-    if (node.state == none)
-        return {};
     const StateConstants& c = m_view.constants[node.state];
-    return as_triple(c.inverse_mass, c.inverse_inertia * std::min(most_stretch / std::max(node.stretch, most_stretch), 1.0f));
+    const float share = node.stretch > most_stretch ? most_stretch / node.stretch : 1;
+    return as_triple(c.inverse_mass, share * c.inverse_inertia);
 }
 
 // --- the passes ---------------------------------------------------------------------------------------------------------------------
@@ -203,21 +207,17 @@ bool DirectSolve::find_pose_ahead()
 
 void DirectSolve::note_errors_ahead()
 {
-    for (Node& n : m_nodes)
-    {
-        if (n.state != none)
-            n.ahead = placed_ahead(m_view, n.state);
-    }
+    for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
+        m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
         const Held& held = m_held[i];
-        const Placement up = ahead_of(held.up, held.up_state);
-        const Placement down = ahead_of(held.down, held.down_state);
-        const Vec2 error = held_error(*held.record, *held.work, held.a_is_up ? up : down, held.a_is_up ? down : up);
+        const Vec2 error = held_error(*held.record, *held.work, ahead_of(held.a, held.work->a), ahead_of(held.b, held.work->b));
         m_residual[i] = {as_double(m_view.inverse_h) * as_double(error.x), as_double(m_view.inverse_h) * as_double(error.y)};
     }
 }
 
+// Of all that does not move there is one node; but what is kinematic has a way.
 Placement DirectSolve::ahead_of(int node, std::int32_t state) const
 {
     return node == JointForest::ground ? placed_ahead(m_view, state) : m_nodes[static_cast<std::size_t>(node)].ahead;
@@ -230,9 +230,8 @@ double DirectSolve::largest_error() const
     double angle = 0;
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
-        double& first = is_angle(m_jacobians[i], 0) ? angle : length;
-        double& second = is_angle(m_jacobians[i], 1) ? angle : length;
-        first = std::max(first, std::fabs(m_residual[i].x));
+        length = std::max(length, std::fabs(m_residual[i].x));
+        double& second = m_held[i].work->rows.held[1].slot == slot_lock ? angle : length;
         second = std::max(second, std::fabs(m_residual[i].y));
     }
     const double in_arms = length > 0 ? length / as_double(m_longest_arm) : 0;
@@ -244,8 +243,9 @@ void DirectSolve::note_speeds()
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
         const JointJacobian& j = m_jacobians[i];
-        const Triple up = velocity(m_view.states[m_held[i].up_state]);
-        const Triple down = velocity(m_view.states[m_held[i].down_state]);
+        const Held& held = m_held[i];
+        const Triple up = velocity(m_view.states[held.a == held.up ? held.work->a : held.work->b]);
+        const Triple down = velocity(m_view.states[held.a == held.up ? held.work->b : held.work->a]);
         m_residual[i] = {dot(j.up[0], up) + dot(j.down[0], down), dot(j.up[1], up) + dot(j.down[1], down)};
     }
 }
@@ -270,29 +270,28 @@ void DirectSolve::apply(double sign)
 void DirectSolve::warm_start()
 {
     for (std::size_t i = 0; i < m_held.size(); ++i)
-        push(i, m_held[i].impulse());
+        push(i, m_held[i].impulses());
 }
 
 void DirectSolve::start_anew()
 {
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
-        const RowPair old = m_held[i].impulse();
+        const RowPair old = m_held[i].impulses();
         push(i, {-old.x, -old.y});
         m_held[i].add({-old.x, -old.y});
     }
 }
 
-RowPair DirectSolve::Held::impulse() const
-{
-    return {as_double(record->impulses[slots[0]]), rows == 2 ? as_double(record->impulses[slots[1]]) : 0};
-}
+float& DirectSolve::Held::impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
 
-void DirectSolve::Held::add(const RowPair& impulse) const
+RowPair DirectSolve::Held::impulses() const { return {as_double(impulse(0)), rows == 2 ? as_double(impulse(1)) : 0}; }
+
+void DirectSolve::Held::add(const RowPair& change) const
 {
-    record->impulses[slots[0]] += static_cast<float>(impulse.x);
+    impulse(0) += static_cast<float>(change.x);
     if (rows == 2)
-        record->impulses[slots[1]] += static_cast<float>(impulse.y);
+        impulse(1) += static_cast<float>(change.y);
 }
 
 void DirectSolve::push(std::size_t joint, const RowPair& impulse)
@@ -318,10 +317,12 @@ void DirectSolve::close_gaps()
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
         const Held& held = m_held[i];
-        const JointRow(&rows)[6] = held.work->rows.rows;
+        const JointRow(&rows)[2] = held.work->rows.held;
         m_residual[i] = {as_double(rows[0].error), held.rows == 2 ? as_double(rows[1].error) : 0};
     }
     find_impulses();
+    for (Node& n : m_nodes)
+        n.shift = {};
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
         note_shift(m_held[i].up, momentum(m_jacobians[i].up, m_impulse[i]));

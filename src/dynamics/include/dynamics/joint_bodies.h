@@ -71,7 +71,7 @@ struct Placement
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
 /// All rows of a joint; a spring has none.
-[[nodiscard]] JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h);
+void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 
 /// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
 [[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
@@ -81,5 +81,8 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
 
 /// It holds and does nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);
+
+/// Whether its rows ask for the angle between the bodies.
+[[nodiscard]] bool has_angle(const JointRecord& joint);
 
 } // namespace carom::internal

@@ -32,18 +32,18 @@ private:
     /// A joint, in the order of the forest.
     struct Held
     {
+        std::size_t joint = 0; ///< place in m_joints
+        int rows = 0;
+        int up = JointForest::ground; ///< nodes: towards the root, and what hangs on that
+        int down = 0;
+        int a = 0; ///< the same by the joint's own order
+        int b = 0;
         const JointWork* work = nullptr;
         JointRecord* record = nullptr;
-        bool a_is_up = false;         ///< towards the root
-        int up = JointForest::ground; ///< nodes
-        int down = 0;
-        std::int32_t up_state = 0; ///< of the ground, too
-        std::int32_t down_state = 0;
-        int rows = 0;
-        JointSlot slots[2] = {};
 
-        [[nodiscard]] RowPair impulse() const;
-        void add(const RowPair& impulse) const;
+        [[nodiscard]] float& impulse(int row) const;
+        [[nodiscard]] RowPair impulses() const;
+        void add(const RowPair& change) const;
     };
 
     /// A body that joints hold; all that do not move are one.
@@ -57,9 +57,9 @@ private:
 
     [[nodiscard]] bool find_forest();
     [[nodiscard]] std::int32_t moving(std::int32_t state) const;
-    void place_nodes();
-    void place_joints();
-    void place(const JointForest::Joint& joint);
+    void lay_out();
+    void place();
+    void fill_jacobian(const Held& held, JointJacobian& jacobian) const;
     void note_stretch(const Held& held);
     [[nodiscard]] Triple inverse_mass(const Node& node) const;
     [[nodiscard]] Node& node(int i) { return m_nodes[static_cast<std::size_t>(i)]; }
