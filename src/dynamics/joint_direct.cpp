@@ -48,8 +48,9 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<c
     m_ready = find_forest() && !m_links.empty();
     if (!m_ready)
         return;
-    place();
-    m_ready = m_matrix.factor(m_forest.joints(), m_jacobians, m_masses);
+    if (place())
+        m_is_regular = m_matrix.factor(m_forest.joints(), m_jacobians, m_masses);
+    m_ready = m_is_regular;
 }
 
 // --- who hangs on whom --------------------------------------------------------------------------------------------------------------
@@ -81,24 +82,27 @@ void DirectSolve::lay_out()
     m_has_loops = !m_forest.build(m_links);
     if (m_has_loops)
         return;
+    m_is_new = true;
     m_matrix.lay_out(m_forest.joints());
     m_nodes.clear();
     for (const std::int32_t state : m_forest.bodies())
         m_nodes.push_back({.state = state});
     m_masses.assign(m_nodes.size(), {});
     m_held.clear();
+    m_jacobians.clear();
     for (const JointForest::Joint& joint : m_forest.joints())
     {
         const JointForest::Link& link = m_links[static_cast<std::size_t>(joint.link)];
         const bool a_is_up = node(joint.up).state == link.a;
-        m_held.push_back({.joint = static_cast<std::size_t>(link.joint),
-                          .rows = link.rows,
-                          .up = joint.up,
-                          .down = joint.down,
-                          .a = a_is_up ? joint.up : joint.down,
-                          .b = a_is_up ? joint.down : joint.up});
+        Held& held = m_held.emplace_back();
+        held.joint = static_cast<std::size_t>(link.joint);
+        held.rows = link.rows;
+        held.up = joint.up;
+        held.down = joint.down;
+        held.a = a_is_up ? joint.up : joint.down;
+        held.b = a_is_up ? joint.down : joint.up;
+        m_jacobians.push_back({{}, {}, link.rows});
     }
-    m_jacobians.assign(m_held.size(), {});
     m_residual.resize(m_held.size());
     m_impulse.resize(m_held.size());
 }
@@ -110,10 +114,12 @@ std::int32_t DirectSolve::moving(std::int32_t state) const
 
 // --- where they are -----------------------------------------------------------------------------------------------------------------
 
-void DirectSolve::place()
+// False where nothing has changed: a sub-step often begins as the last one has ended.
+bool DirectSolve::place()
 {
     for (Node& n : m_nodes)
         n.stretch = 0;
+    bool changed = std::exchange(m_is_new, false);
     float longest = 0;
     for (std::size_t i = 0; i < m_held.size(); ++i)
     {
@@ -122,24 +128,45 @@ void DirectSolve::place()
         held.record = &m_state->joints[held.work->joint];
         const JointPose& pose = held.work->pose;
         longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb)});
-        fill_jacobian(held, m_jacobians[i]);
         note_stretch(held);
+        if (held.has_moved())
+        {
+            fill_jacobian(held, m_jacobians[i]);
+            changed = true;
+        }
     }
     m_longest_arm = std::sqrt(longest);
     for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
-        m_masses[i] = inverse_mass(m_nodes[i]);
+    {
+        const Triple old = std::exchange(m_masses[i], inverse_mass(m_nodes[i]));
+        changed |= m_masses[i] != old;
+    }
+    return changed;
+}
+
+// Notes where it is now.
+bool DirectSolve::Held::has_moved()
+{
+    bool moved = false;
+    for (int r = 0; r < rows; ++r)
+    {
+        const JointRow& row = work->rows.held[r];
+        Line& line = lines[r];
+        moved |= row.d != line.d || row.arm_a != line.arm_a || row.arm_b != line.arm_b;
+        line = {row.d, row.arm_a, row.arm_b};
+    }
+    return moved;
 }
 
 void DirectSolve::fill_jacobian(const Held& held, JointJacobian& jacobian) const
 {
     Triple(&at_a)[2] = held.a == held.up ? jacobian.up : jacobian.down;
     Triple(&at_b)[2] = held.a == held.up ? jacobian.down : jacobian.up;
-    jacobian.rows = held.rows;
     for (int r = 0; r < held.rows; ++r)
     {
-        const JointRow& row = held.work->rows.held[r];
-        at_a[r] = as_triple(-row.d, -row.arm_a);
-        at_b[r] = as_triple(row.d, row.arm_b);
+        const Line& line = held.lines[r];
+        at_a[r] = as_triple(-line.d, -line.arm_a);
+        at_b[r] = as_triple(line.d, line.arm_b);
     }
 }
 

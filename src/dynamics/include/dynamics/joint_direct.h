@@ -29,6 +29,14 @@ public:
     void close_gaps();
 
 private:
+    /// What of a row stands in J.
+    struct Line
+    {
+        Vec2 d{};
+        float arm_a = 0;
+        float arm_b = 0;
+    };
+
     /// A joint, in the order of the forest.
     struct Held
     {
@@ -38,9 +46,11 @@ private:
         int down = 0;
         int a = 0; ///< the same by the joint's own order
         int b = 0;
+        Line lines[2]; ///< as the matrix has them
         const JointWork* work = nullptr;
         JointRecord* record = nullptr;
 
+        [[nodiscard]] bool has_moved();
         [[nodiscard]] float& impulse(int row) const;
         [[nodiscard]] RowPair impulses() const;
         void add(const RowPair& change) const;
@@ -58,7 +68,7 @@ private:
     [[nodiscard]] bool find_forest();
     [[nodiscard]] std::int32_t moving(std::int32_t state) const;
     void lay_out();
-    void place();
+    [[nodiscard]] bool place();
     void fill_jacobian(const Held& held, JointJacobian& jacobian) const;
     void note_stretch(const Held& held);
     [[nodiscard]] Triple inverse_mass(const Node& node) const;
@@ -89,6 +99,8 @@ private:
     bool m_has_loops = false;               ///< then there is none
     JointForest m_forest;
     JointMatrix m_matrix;
+    bool m_is_new = false;     ///< the forest: nothing stands in the matrix
+    bool m_is_regular = false; ///< the matrix
 
     std::vector<Held> m_held;
     std::vector<JointJacobian> m_jacobians;

@@ -22,6 +22,8 @@ struct Triple
     double x = 0;
     double y = 0;
     double turn = 0;
+
+    friend bool operator==(const Triple&, const Triple&) = default;
 };
 
 [[nodiscard]] constexpr double dot(const RowPair& a, const RowPair& b) { return a.x * b.x + a.y * b.y; }
