@@ -15,7 +15,9 @@
 #include "dynamics/scene_data.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace carom::internal {
@@ -36,6 +38,9 @@ Triple momentum(const Triple (&rows)[2], const RowPair& impulse)
     return {rows[0].x * impulse.x + rows[1].x * impulse.y, rows[0].y * impulse.x + rows[1].y * impulse.y,
             rows[0].turn * impulse.x + rows[1].turn * impulse.y};
 }
+
+// 0 and -0 differ.
+bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 
 } // namespace
 
@@ -129,7 +134,7 @@ bool DirectSolve::place()
         const JointPose& pose = held.work->pose;
         longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb)});
         note_stretch(held);
-        if (held.has_moved())
+        if (held.take_lines())
         {
             fill_jacobian(held, m_jacobians[i]);
             changed = true;
@@ -144,18 +149,19 @@ bool DirectSolve::place()
     return changed;
 }
 
-// Notes where it is now.
-bool DirectSolve::Held::has_moved()
+// True where they are others than before, to the last bit.
+bool DirectSolve::Held::take_lines()
 {
-    bool moved = false;
+    bool changed = false;
     for (int r = 0; r < rows; ++r)
     {
         const JointRow& row = work->rows.held[r];
         Line& line = lines[r];
-        moved |= row.d != line.d || row.arm_a != line.arm_a || row.arm_b != line.arm_b;
+        changed |= !is_same(row.d.x, line.d.x) || !is_same(row.d.y, line.d.y) || !is_same(row.arm_a, line.arm_a) ||
+                   !is_same(row.arm_b, line.arm_b);
         line = {row.d, row.arm_a, row.arm_b};
     }
-    return moved;
+    return changed;
 }
 
 void DirectSolve::fill_jacobian(const Held& held, JointJacobian& jacobian) const

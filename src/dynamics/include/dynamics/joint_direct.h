@@ -29,7 +29,7 @@ public:
     void close_gaps();
 
 private:
-    /// What of a row stands in J.
+    /// What of a row stands in J, and so in the matrix.
     struct Line
     {
         Vec2 d{};
@@ -46,11 +46,11 @@ private:
         int down = 0;
         int a = 0; ///< the same by the joint's own order
         int b = 0;
-        Line lines[2]; ///< as the matrix has them
+        Line lines[2];
         const JointWork* work = nullptr;
         JointRecord* record = nullptr;
 
-        [[nodiscard]] bool has_moved();
+        [[nodiscard]] bool take_lines();
         [[nodiscard]] float& impulse(int row) const;
         [[nodiscard]] RowPair impulses() const;
         void add(const RowPair& change) const;
