@@ -6,7 +6,9 @@ function(carom_target target)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
     # g++ contracts a*b+c to one rounding by default where the machine can: other bits than everywhere else.
     # g++ 12 takes a pair of doubles through floats without rounding them when it vectorizes the pair.
-    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize> -Wall -Wextra -Wconversion -Wshadow)
+    # g++ inlines no function of a position-independent file that another library could replace; nobody replaces the engine's.
+    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion -Wshadow
+                           "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-fno-semantic-interposition>")
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
         # g++ 12 sees an overlap in every inlined "text" + std::string (GCC bug 105651).
         target_compile_options(${target} PRIVATE -Wno-restrict)

@@ -20,63 +20,85 @@ float angle_of(Rotation turn)
     return static_cast<float>(arc_tangent(turn.s, turn.c));
 }
 
-} // namespace
-
-JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b)
+// But for the angle.
+JointPose place_anchors(const JointWork& work, const Placement& a, const Placement& b)
 {
     JointPose pose;
     pose.ra = rotate(a.turn, work.ra0);
     pose.rb = rotate(b.turn, work.rb0);
     pose.axis = rotate(a.turn, work.axis0);
     pose.gap = work.gap0 + (b.shift - a.shift) + (pose.rb - work.rb0) - (pose.ra - work.ra0);
-    pose.angle = work.angle0 + angle_of(b.turn * inverse(a.turn));
     return pose;
+}
+
+float angle_between(const JointWork& work, const Placement& a, const Placement& b)
+{
+    return work.angle0 + angle_of(b.turn * inverse(a.turn));
+}
+
+Placement placement(const BodyState& s) { return {s.delta_position, s.delta_rotation}; }
+
+} // namespace
+
+JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b)
+{
+    JointPose pose = place_anchors(work, a, b);
+    pose.angle = angle_between(work, a, b);
+    return pose;
+}
+
+Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b)
+{
+    JointPose pose = place_anchors(work, a, b);
+    switch (joint.kind)
+    {
+    case JointType::Spring: break;
+    case JointType::Distance: return distance_error(joint, pose);
+    case JointType::Revolute: return revolute_error(pose);
+    case JointType::Prismatic: pose.angle = angle_between(work, a, b); return prismatic_error(pose);
+    }
+    return {};
 }
 
 Placement placed_ahead(const SolverView& view, std::int32_t state)
 {
     const BodyState& s = view.states[state];
-    return {s.delta_position + drift(view, state), Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation};
+    const Rotation turned =
+        s.angular_velocity != 0 ? Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation : s.delta_rotation;
+    return {s.delta_position + drift(view, state), turned};
 }
 
 JointPose present_pose(const SolverView& view, const JointWork& work)
 {
-    const BodyState& a = view.states[work.a];
-    const BodyState& b = view.states[work.b];
-    return joint_pose(work, {a.delta_position, a.delta_rotation}, {b.delta_position, b.delta_rotation});
+    return joint_pose(work, placement(view.states[work.a]), placement(view.states[work.b]));
 }
 
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints)
 {
     for (JointWork& work : joints)
     {
-        work.pose = present_pose(view, work);
-        work.rows = rows_of(state.joints[work.joint], work.pose, view.h);
+        const JointRecord& joint = state.joints[work.joint];
+        const Placement a = placement(view.states[work.a]);
+        const Placement b = placement(view.states[work.b]);
+        work.pose = has_angle(joint) ? joint_pose(work, a, b) : place_anchors(work, a, b);
+        work.rows.clear();
+        place_rows(joint, work.pose, view.h, work.rows);
+        if (work.rows.free_count == 0)
+            continue;
+        work.rows.inverse_mass = JointBodies(view, work).couple(work.rows.axis, work.rows.axis);
+        work.rows.mass = work.rows.inverse_mass > 0 ? 1 / work.rows.inverse_mass : 0;
     }
 }
 
-JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h)
+void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
 {
-    JointRows rows;
     switch (joint.kind)
     {
     case JointType::Spring: break;
-    case JointType::Distance: distance_rows(joint, pose, rows); break;
-    case JointType::Revolute: revolute_rows(joint, pose, h, rows); break;
-    case JointType::Prismatic: prismatic_rows(joint, pose, h, rows); break;
+    case JointType::Distance: distance_rows(joint, pose, out); break;
+    case JointType::Revolute: revolute_rows(joint, pose, h, out); break;
+    case JointType::Prismatic: prismatic_rows(joint, pose, h, out); break;
     }
-    return rows;
-}
-
-JointRows holding(const JointRows& all)
-{
-    JointRows holding;
-    for (int i = 0; i < all.count; ++i)
-    {
-        if (is_rigid(all.rows[i]))
-            holding.add(all.rows[i]);
-    }
-    return holding;
 }
 
 JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
@@ -85,7 +107,7 @@ JointRows holding_rows(const JointRecord& joint, const JointPose& pose)
     switch (joint.kind)
     {
     case JointType::Spring: break;
-    case JointType::Distance: distance_rows(joint, pose, rows); return holding(rows);
+    case JointType::Distance: distance_rows(joint, pose, rows); break;
     case JointType::Revolute: revolute_holds(pose, rows); break;
     case JointType::Prismatic: prismatic_holds(pose, rows); break;
     }
@@ -97,6 +119,11 @@ bool only_holds(const JointRecord& joint)
     if (joint.kind == JointType::Distance)
         return joint.lower == joint.upper && joint.hertz == 0;
     return joint.kind != JointType::Spring && joint.hertz == 0 && !joint.enable_motor && !joint.enable_limit;
+}
+
+bool has_angle(const JointRecord& joint)
+{
+    return joint.kind == JointType::Prismatic || (joint.kind == JointType::Revolute && !only_holds(joint));
 }
 
 } // namespace carom::internal

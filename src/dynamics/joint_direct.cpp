@@ -4,18 +4,20 @@
 //   C_i = error of row i at the pose that the present velocities lead to
 //   sum over j of J_i M^-1 J_j^T lambda_j = -C_i / h,  two Newton passes; in the relaxation J v = 0 at the pose reached
 //
-// With the drift along parabolas that is the RATTLE integrator, which neither gains nor loses energy.
+// With the drift along parabolas that is the RATTLE integrator, which neither gains nor loses energy. The joints are ordered into a forest
+// (joint_forest.h), which makes the system short work (joint_matrix.cpp). Loops would make it singular: soft rows take those.
 //
 // A load that stretches a body between its joints makes it swing like a taut string, with omega² = f · r / I for the pull f at the arm r. A
-// sub-step can follow that only while omega h is below 1: beyond it the body counts as harder to turn, just so far. Loops make the system
-// singular: soft rows take those.
+// sub-step can follow that only while omega h is below 1: beyond it the body counts as harder to turn, just so far.
 
 #include "dynamics/joint_direct.h"
 
 #include "dynamics/scene_data.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace carom::internal {
@@ -26,6 +28,20 @@ constexpr float most_stretch = 1; // (omega h)²
 
 double as_double(float x) { return static_cast<double>(x); }
 
+Triple as_triple(Vec2 v, float turn) { return {as_double(v.x), as_double(v.y), as_double(turn)}; }
+
+Triple velocity(const BodyState& s) { return as_triple(s.velocity, s.angular_velocity); }
+
+// J^T impulse, of the rows at one body.
+Triple momentum(const Triple (&rows)[2], const RowPair& impulse)
+{
+    return {rows[0].x * impulse.x + rows[1].x * impulse.y, rows[0].y * impulse.x + rows[1].y * impulse.y,
+            rows[0].turn * impulse.x + rows[1].turn * impulse.y};
+}
+
+// 0 and -0 differ.
+bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
+
 } // namespace
 
 void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints)
@@ -34,166 +50,150 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<c
     m_state = &state;
     m_joints = joints;
     m_turns_too_far = false;
-    m_ready = collect() && m_count > 0;
+    m_ready = find_forest() && !m_links.empty();
     if (!m_ready)
         return;
-    m_residual.resize(m_rows.size());
-    m_impulse.resize(m_rows.size());
-    fill_matrix();
-    m_ready = factor();
+    if (place())
+        m_is_regular = m_matrix.factor(m_forest.joints(), m_jacobians, m_masses);
+    m_ready = m_is_regular;
 }
 
-bool DirectSolve::collect()
+// --- who hangs on whom --------------------------------------------------------------------------------------------------------------
+
+// It keeps through the step, but where a body takes off or lands.
+bool DirectSolve::find_forest()
 {
-    m_rows.clear();
-    m_nodes.clear();
-    m_longest_arm = 0;
+    m_found.clear();
+    int rows = 0;
     for (std::size_t i = 0; i < m_joints.size(); ++i)
     {
         const JointWork& work = m_joints[i];
-        if (is_in_flight(m_view, work))
+        const int held = work.rows.held_count;
+        if (held == 0 || is_in_flight(m_view, work))
             continue;
-        const JointRows rows = holding(work.rows);
-        if (rows.count == 0)
-            continue;
-        if (m_rows.size() + static_cast<std::size_t>(rows.count) > most_rows || !connect(work, work.pose, rows))
+        rows += held;
+        if (rows > most_rows)
             return false;
-        for (int r = 0; r < rows.count; ++r)
-            m_rows.push_back({static_cast<int>(i), node_of(work.a), node_of(work.b), rows.rows[r]});
+        m_found.push_back({static_cast<int>(i), held, moving(work.a), moving(work.b)});
     }
-    m_count = static_cast<int>(m_rows.size());
-    for (Node& n : m_nodes)
-        set_masses(n);
-    return true;
+    if (m_found != m_links)
+        lay_out();
+    return !m_has_loops;
 }
 
-void DirectSolve::set_masses(Node& node) const
+void DirectSolve::lay_out()
 {
-    if (node.state == none)
+    m_links = m_found;
+    m_has_loops = !m_forest.build(m_links);
+    if (m_has_loops)
         return;
-    const StateConstants& c = m_view.constants[node.state];
-    node.inverse_mass = c.inverse_mass;
-    node.inverse_inertia = c.inverse_inertia * std::min(most_stretch / std::max(node.stretch, most_stretch), 1.0f);
-}
-
-// False where the two were connected already: a loop.
-bool DirectSolve::connect(const JointWork& work, const JointPose& pose, const JointRows& rows)
-{
-    const JointRecord& joint = m_state->joints[work.joint];
-    Vec2 pull{}; // on b, over a sub-step
-    for (int r = 0; r < rows.count; ++r)
-        pull += joint.impulses[rows.rows[r].slot] * rows.rows[r].d;
-    const int a = node_of(work.a);
-    const int b = node_of(work.b);
-    m_longest_arm = std::max({m_longest_arm, length(pose.ra), length(pose.rb)});
-    node(a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, pose.ra);
-    node(b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, pose.rb);
-    const int old = node(a).tree;
-    const int joined = node(b).tree;
-    for (Node& n : m_nodes)
+    m_is_new = true;
+    m_matrix.lay_out(m_forest.joints());
+    m_nodes.clear();
+    for (const std::int32_t state : m_forest.bodies())
+        m_nodes.push_back({.state = state});
+    m_masses.assign(m_nodes.size(), {});
+    m_held.clear();
+    m_jacobians.clear();
+    for (const JointForest::Joint& joint : m_forest.joints())
     {
-        if (n.tree == old)
-            n.tree = joined;
+        const JointForest::Link& link = m_links[static_cast<std::size_t>(joint.link)];
+        const bool a_is_up = node(joint.up).state == link.a;
+        Held& held = m_held.emplace_back();
+        held.joint = static_cast<std::size_t>(link.joint);
+        held.rows = link.rows;
+        held.up = joint.up;
+        held.down = joint.down;
+        held.a = a_is_up ? joint.up : joint.down;
+        held.b = a_is_up ? joint.down : joint.up;
+        m_jacobians.push_back({{}, {}, link.rows});
     }
-    return old != joined;
+    m_residual.resize(m_held.size());
+    m_impulse.resize(m_held.size());
 }
 
-// All that do not move are one.
-int DirectSolve::node_of(std::int32_t state)
+std::int32_t DirectSolve::moving(std::int32_t state) const
 {
-    const bool moves = (m_view.states[state].flags & body_flag::dynamic) != 0;
-    const std::int32_t key = moves ? state : none;
-    const auto found = std::find_if(m_nodes.begin(), m_nodes.end(), [&](const Node& n) { return n.state == key; });
-    const auto index = static_cast<int>(found - m_nodes.begin());
-    if (found == m_nodes.end())
-        m_nodes.push_back({.state = key, .tree = index});
-    return index;
+    return (m_view.states[state].flags & body_flag::dynamic) != 0 ? state : none;
 }
 
-// --- the matrix ---------------------------------------------------------------------------------------------------------------------
+// --- where they are -----------------------------------------------------------------------------------------------------------------
 
-void DirectSolve::fill_matrix()
+// False where nothing has changed: a sub-step often begins as the last one has ended.
+bool DirectSolve::place()
 {
-    m_first.resize(m_rows.size());
-    m_matrix.resize(m_rows.size() * m_rows.size());
-    for (int i = 0; i < m_count; ++i)
+    for (Node& n : m_nodes)
+        n.stretch = 0;
+    bool changed = std::exchange(m_is_new, false);
+    float longest = 0;
+    for (std::size_t i = 0; i < m_held.size(); ++i)
     {
-        int& first = m_first[static_cast<std::size_t>(i)];
-        first = i;
-        for (int j = i; j >= 0; --j)
+        Held& held = m_held[i];
+        held.work = &m_joints[held.joint];
+        held.record = &m_state->joints[held.work->joint];
+        const JointPose& pose = held.work->pose;
+        longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb)});
+        note_stretch(held);
+        if (held.take_lines())
         {
-            at(i, j) = couple(row(i), row(j));
-            if (at(i, j) != 0)
-                first = j;
+            fill_jacobian(held, m_jacobians[i]);
+            changed = true;
         }
     }
-}
-
-// J_i M^-1 J_j^T
-double DirectSolve::couple(const Row& i, const Row& j)
-{
-    double sum = 0;
-    const auto add = [&](const Node& body, float arm_i, float arm_j, double sign)
+    m_longest_arm = std::sqrt(longest);
+    for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
     {
-        sum += sign * (as_double(i.row.d.x) * as_double(j.row.d.x) * as_double(body.inverse_mass.x) +
-                       as_double(i.row.d.y) * as_double(j.row.d.y) * as_double(body.inverse_mass.y) +
-                       as_double(arm_i) * as_double(arm_j) * as_double(body.inverse_inertia));
-    };
-    if (i.a == j.a)
-        add(node(i.a), i.row.arm_a, j.row.arm_a, 1);
-    if (i.b == j.b)
-        add(node(i.b), i.row.arm_b, j.row.arm_b, 1);
-    if (i.a == j.b)
-        add(node(i.a), i.row.arm_a, j.row.arm_b, -1);
-    if (i.b == j.a)
-        add(node(i.b), i.row.arm_b, j.row.arm_a, -1);
-    return sum;
-}
-
-// Cholesky in place, from the first entry of each row on: along a chain it costs no more than the chain is long. False where rows say the same
-// thing twice (loops).
-bool DirectSolve::factor()
-{
-    for (int i = 0; i < m_count; ++i)
-    {
-        for (int j = m_first[static_cast<std::size_t>(i)]; j < i; ++j)
-            at(i, j) = reduced(i, j) / at(j, j);
-        const double diagonal = at(i, i);
-        const double rest = reduced(i, i);
-        if (!(rest > 1e-10 * diagonal))
-            return false;
-        at(i, i) = std::sqrt(rest);
+        const Triple old = std::exchange(m_masses[i], inverse_mass(m_nodes[i]));
+        changed |= m_masses[i] != old;
     }
-    return true;
+    return changed;
 }
 
-double DirectSolve::reduced(int i, int j)
+// True where they are others than before, to the last bit.
+bool DirectSolve::Held::take_lines()
 {
-    double sum = at(i, j);
-    for (int m = std::max(m_first[static_cast<std::size_t>(i)], m_first[static_cast<std::size_t>(j)]); m < j; ++m)
-        sum -= at(i, m) * at(j, m);
-    return sum;
-}
-
-void DirectSolve::substitute()
-{
-    for (int i = 0; i < m_count; ++i)
+    bool changed = false;
+    for (int r = 0; r < rows; ++r)
     {
-        double sum = -m_residual[static_cast<std::size_t>(i)];
-        for (int m = m_first[static_cast<std::size_t>(i)]; m < i; ++m)
-            sum -= at(i, m) * m_impulse[static_cast<std::size_t>(m)];
-        m_impulse[static_cast<std::size_t>(i)] = sum / at(i, i);
+        const JointRow& row = work->rows.held[r];
+        Line& line = lines[r];
+        changed |= !is_same(row.d.x, line.d.x) || !is_same(row.d.y, line.d.y) || !is_same(row.arm_a, line.arm_a) ||
+                   !is_same(row.arm_b, line.arm_b);
+        line = {row.d, row.arm_a, row.arm_b};
     }
-    for (int i = m_count - 1; i >= 0; --i)
+    return changed;
+}
+
+void DirectSolve::fill_jacobian(const Held& held, JointJacobian& jacobian) const
+{
+    Triple(&at_a)[2] = held.a == held.up ? jacobian.up : jacobian.down;
+    Triple(&at_b)[2] = held.a == held.up ? jacobian.down : jacobian.up;
+    for (int r = 0; r < held.rows; ++r)
     {
-        const double x = m_impulse[static_cast<std::size_t>(i)] / at(i, i);
-        m_impulse[static_cast<std::size_t>(i)] = x;
-        for (int m = m_first[static_cast<std::size_t>(i)]; m < i; ++m)
-            m_impulse[static_cast<std::size_t>(m)] -= at(i, m) * x;
+        const Line& line = held.lines[r];
+        at_a[r] = as_triple(-line.d, -line.arm_a);
+        at_b[r] = as_triple(line.d, line.arm_b);
     }
 }
 
-// --- errors and impulses --------------------------------------------------------------------------------------------------------------
+void DirectSolve::note_stretch(const Held& held)
+{
+    const JointWork& work = *held.work;
+    Vec2 pull{}; // on b, over a sub-step
+    for (const JointRow& row : work.rows.holds())
+        pull += held.record->impulses[row.slot] * row.d;
+    node(held.a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, work.pose.ra);
+    node(held.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
+}
+
+Triple DirectSolve::inverse_mass(const Node& node) const
+{
+    const StateConstants& c = m_view.constants[node.state];
+    const float share = node.stretch > most_stretch ? most_stretch / node.stretch : 1;
+    return as_triple(c.inverse_mass, share * c.inverse_inertia);
+}
+
+// --- the passes ---------------------------------------------------------------------------------------------------------------------
 
 void DirectSolve::solve(bool use_bias)
 {
@@ -204,7 +204,7 @@ void DirectSolve::solve(bool use_bias)
 void DirectSolve::keep_together()
 {
     note_speeds();
-    substitute();
+    find_impulses();
     apply();
 }
 
@@ -221,7 +221,7 @@ bool DirectSolve::find_pose_ahead()
     m_turns_too_far = before > 1;
     if (m_turns_too_far)
         return false;
-    substitute();
+    find_impulses();
     apply();
     note_errors_ahead();
     const double after = largest_error();
@@ -231,120 +231,158 @@ bool DirectSolve::find_pose_ahead()
         apply(-1); // taken back
         return false;
     }
-    substitute();
+    find_impulses();
     apply();
     return true;
+}
+
+// --- errors, speeds, impulses -------------------------------------------------------------------------------------------------------
+
+void DirectSolve::note_errors_ahead()
+{
+    for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
+        m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+    {
+        const Held& held = m_held[i];
+        const Vec2 error = held_error(*held.record, *held.work, ahead_of(held.a, held.work->a), ahead_of(held.b, held.work->b));
+        m_residual[i] = {as_double(m_view.inverse_h) * as_double(error.x), as_double(m_view.inverse_h) * as_double(error.y)};
+    }
+}
+
+// Of all that does not move there is one node; but what is kinematic has a way.
+Placement DirectSolve::ahead_of(int node, std::int32_t state) const
+{
+    return node == JointForest::ground ? placed_ahead(m_view, state) : m_nodes[static_cast<std::size_t>(node)].ahead;
 }
 
 // In units of the longest arm, or rad.
 double DirectSolve::largest_error() const
 {
-    double largest = 0;
-    for (int i = 0; i < m_count; ++i)
+    double length = 0;
+    double angle = 0;
+    for (std::size_t i = 0; i < m_held.size(); ++i)
     {
-        const double size = row(i).row.d == Vec2{} ? 1 : as_double(m_longest_arm);
-        largest = std::max(largest, std::fabs(m_residual[static_cast<std::size_t>(i)]) / size);
+        length = std::max(length, std::fabs(m_residual[i].x));
+        double& second = m_held[i].work->rows.held[1].slot == slot_lock ? angle : length;
+        second = std::max(second, std::fabs(m_residual[i].y));
     }
-    return as_double(m_view.h) * largest;
-}
-
-void DirectSolve::close_gaps()
-{
-    for (int i = 0; i < m_count; ++i)
-        m_residual[static_cast<std::size_t>(i)] = as_double(row(i).row.error);
-    substitute();
-    for (int i = 0; i < m_count; ++i)
-    {
-        const Row& r = row(i);
-        const auto impulse = static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
-        note_shift(node(r.a), r.row, r.row.arm_a, -impulse);
-        note_shift(node(r.b), r.row, r.row.arm_b, impulse);
-    }
-    // A step that would turn a body far is taken in part.
-    float most = 0.5f;
-    for (const Node& n : m_nodes)
-        most = std::max(most, std::fabs(n.turn));
-    for (const Node& n : m_nodes)
-        shift(n, 0.5f / most);
-}
-
-void DirectSolve::note_shift(Node& node, const JointRow& row, float arm, float impulse)
-{
-    node.shift += Vec2{impulse * node.inverse_mass.x * row.d.x, impulse * node.inverse_mass.y * row.d.y};
-    node.turn += impulse * node.inverse_inertia * arm;
-}
-
-void DirectSolve::shift(const Node& node, float share)
-{
-    if (node.state == none)
-        return;
-    BodyState& s = m_view.states[node.state];
-    s.delta_position += share * node.shift;
-    s.delta_rotation = Rotation::from_angle(share * node.turn) * s.delta_rotation;
-}
-
-void DirectSolve::warm_start()
-{
-    for (int i = 0; i < m_count; ++i)
-        push(row(i), impulse_of(row(i)));
-}
-
-void DirectSolve::start_anew()
-{
-    for (int i = 0; i < m_count; ++i)
-        push(row(i), -std::exchange(impulse_of(row(i)), 0.0f));
+    const double in_arms = length > 0 ? length / as_double(m_longest_arm) : 0;
+    return as_double(m_view.h) * std::max(in_arms, angle);
 }
 
 void DirectSolve::note_speeds()
 {
-    for (int i = 0; i < m_count; ++i)
-        m_residual[static_cast<std::size_t>(i)] = as_double(JointBodies(m_view, work(row(i))).speed(row(i).row));
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+    {
+        const JointJacobian& j = m_jacobians[i];
+        const Held& held = m_held[i];
+        const Triple up = velocity(m_view.states[held.a == held.up ? held.work->a : held.work->b]);
+        const Triple down = velocity(m_view.states[held.a == held.up ? held.work->b : held.work->a]);
+        m_residual[i] = {dot(j.up[0], up) + dot(j.down[0], down), dot(j.up[1], up) + dot(j.down[1], down)};
+    }
 }
 
-void DirectSolve::note_errors_ahead()
+void DirectSolve::find_impulses()
 {
+    for (std::size_t i = 0; i < m_residual.size(); ++i)
+        m_impulse[i] = {-m_residual[i].x, -m_residual[i].y};
+    m_matrix.solve(m_impulse);
+}
+
+void DirectSolve::apply(double sign)
+{
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+    {
+        const RowPair impulse = {sign * m_impulse[i].x, sign * m_impulse[i].y};
+        push(i, impulse);
+        m_held[i].add(impulse);
+    }
+}
+
+void DirectSolve::warm_start()
+{
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+        push(i, m_held[i].impulses());
+}
+
+void DirectSolve::start_anew()
+{
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+    {
+        const RowPair old = m_held[i].impulses();
+        push(i, {-old.x, -old.y});
+        m_held[i].add({-old.x, -old.y});
+    }
+}
+
+float& DirectSolve::Held::impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
+
+RowPair DirectSolve::Held::impulses() const { return {as_double(impulse(0)), rows == 2 ? as_double(impulse(1)) : 0}; }
+
+void DirectSolve::Held::add(const RowPair& change) const
+{
+    impulse(0) += static_cast<float>(change.x);
+    if (rows == 2)
+        impulse(1) += static_cast<float>(change.y);
+}
+
+void DirectSolve::push(std::size_t joint, const RowPair& impulse)
+{
+    push(m_held[joint].up, momentum(m_jacobians[joint].up, impulse));
+    push(m_held[joint].down, momentum(m_jacobians[joint].down, impulse));
+}
+
+void DirectSolve::push(int body, const Triple& momentum)
+{
+    if (body == JointForest::ground)
+        return;
+    const Triple change = product(m_masses[static_cast<std::size_t>(body)], momentum);
+    BodyState& s = m_view.states[node(body).state];
+    s.velocity += Vec2{static_cast<float>(change.x), static_cast<float>(change.y)};
+    s.angular_velocity += static_cast<float>(change.turn);
+}
+
+// --- closing gaps -------------------------------------------------------------------------------------------------------------------
+
+void DirectSolve::close_gaps()
+{
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+    {
+        const Held& held = m_held[i];
+        const JointRow(&rows)[2] = held.work->rows.held;
+        m_residual[i] = {as_double(rows[0].error), held.rows == 2 ? as_double(rows[1].error) : 0};
+    }
+    find_impulses();
     for (Node& n : m_nodes)
+        n.shift = {};
+    for (std::size_t i = 0; i < m_held.size(); ++i)
     {
-        if (n.state != none)
-            n.ahead = placed_ahead(m_view, n.state);
+        note_shift(m_held[i].up, momentum(m_jacobians[i].up, m_impulse[i]));
+        note_shift(m_held[i].down, momentum(m_jacobians[i].down, m_impulse[i]));
     }
-    const auto ahead_of = [&](const Node& n, std::int32_t state)
-    { return n.state != none ? n.ahead : placed_ahead(m_view, state); };
-    int i = 0;
-    while (i < m_count)
-    {
-        const JointWork& joint = work(row(i));
-        const JointPose pose = joint_pose(joint, ahead_of(node(row(i).a), joint.a), ahead_of(node(row(i).b), joint.b));
-        const JointRows ahead = holding_rows(m_state->joints[joint.joint], pose);
-        for (int r = 0; r < ahead.count; ++r)
-            m_residual[static_cast<std::size_t>(i++)] = as_double(m_view.inverse_h) * as_double(ahead.rows[r].error);
-    }
+    // A step that would turn a body far is taken in part.
+    double most = 0.5;
+    for (const Node& n : m_nodes)
+        most = std::max(most, std::fabs(n.shift.turn));
+    for (const Node& n : m_nodes)
+        shift(n, 0.5 / most);
 }
 
-void DirectSolve::apply(float sign)
+void DirectSolve::note_shift(int body, const Triple& momentum)
 {
-    for (int i = 0; i < m_count; ++i)
-    {
-        const float impulse = sign * static_cast<float>(m_impulse[static_cast<std::size_t>(i)]);
-        push(row(i), impulse);
-        impulse_of(row(i)) += impulse;
-    }
+    const Triple change = product(m_masses[static_cast<std::size_t>(body)], momentum);
+    Triple& sum = node(body).shift;
+    sum = {sum.x + change.x, sum.y + change.y, sum.turn + change.turn};
 }
 
-void DirectSolve::push(const Row& r, float impulse)
+void DirectSolve::shift(const Node& node, double share)
 {
-    const auto turn = [&](int body, float arm, float by)
-    {
-        const Node& n = node(body);
-        if (n.state == none)
-            return;
-        BodyState& s = m_view.states[n.state];
-        s.velocity.x += by * n.inverse_mass.x * r.row.d.x;
-        s.velocity.y += by * n.inverse_mass.y * r.row.d.y;
-        s.angular_velocity += by * n.inverse_inertia * arm;
-    };
-    turn(r.a, r.row.arm_a, -impulse);
-    turn(r.b, r.row.arm_b, impulse);
+    if (node.state == none)
+        return;
+    BodyState& s = m_view.states[node.state];
+    s.delta_position += Vec2{static_cast<float>(share * node.shift.x), static_cast<float>(share * node.shift.y)};
+    s.delta_rotation = Rotation::from_angle(static_cast<float>(share * node.shift.turn)) * s.delta_rotation;
 }
 
 void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints)

@@ -16,16 +16,11 @@ namespace {
 
 // --- solving -----------------------------------------------------------------------------------------------------------------------
 
-Softness softness_of(const JointRow& row, float joint_hertz, float h)
-{
-    return row.hertz > 0 ? make_softness(row.hertz, row.damping_ratio, h) : make_softness(joint_hertz, 0, h);
-}
-
 // Two Hold rows as one: K (2x2) solved exactly; a direction in which nothing can move gets no impulse.
 void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows& rows, const Softness& s, bool use_bias)
 {
-    const JointRow& x = rows.rows[0];
-    const JointRow& y = rows.rows[1];
+    const JointRow& x = rows.held[0];
+    const JointRow& y = rows.held[1];
     const float bias = use_bias ? s.bias_rate : 0;
     const float bx = bodies.speed(x) + bias * x.error;
     const float by = bodies.speed(y) + bias * y.error;
@@ -50,45 +45,83 @@ void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows&
     bodies.apply(y, jy);
 }
 
-float soft_impulse(const JointBodies& bodies, const JointRow& row, float accumulated, const Softness& s, float bias)
+/// What the rows are solved with.
+struct Pass
 {
-    return -bodies.mass(row) * s.mass_scale * (bodies.speed(row) + bias) - s.impulse_scale * accumulated;
+    const Softness& softness; ///< of what has none of its own
+    float inverse_h;
+    bool use_bias;
+};
+
+/// How fast the bodies go along an axis, and what it takes to change that.
+struct Motion
+{
+    float speed;
+    float mass;
+
+    [[nodiscard]] float soft(float error, float accumulated, const Softness& s) const
+    {
+        return accumulated - mass * s.mass_scale * (speed + s.bias_rate * error) - s.impulse_scale * accumulated;
+    }
+    [[nodiscard]] float rigid(float accumulated, float bias) const { return accumulated - mass * (speed + bias); }
+};
+
+float limit_impulse(const FreeRow& row, float accumulated, const Motion& motion, const Softness& s, const Pass& pass)
+{
+    if (row.error > 0)
+        return std::max(motion.rigid(accumulated, row.error * pass.inverse_h), 0.0f);
+    if (pass.use_bias)
+        return std::max(motion.soft(row.error, accumulated, s), 0.0f);
+    return row.is_soft ? accumulated : std::max(motion.rigid(accumulated, 0), 0.0f);
 }
 
-void solve_row(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const SolverView& view, float joint_hertz,
-               bool use_bias)
+// After the pass. What is soft is a spring: not relaxed.
+float free_impulse(const FreeRow& row, float accumulated, const Motion& motion, const Softness& s, const Pass& pass)
 {
-    float& accumulated = joint.impulses[row.slot];
-    float updated = accumulated;
-    const Softness soft = softness_of(row, joint_hertz, view.h);
     switch (row.kind)
     {
-    case RowKind::Hold:
-        updated += use_bias ? soft_impulse(bodies, row, accumulated, soft, soft.bias_rate * row.error)
-                            : -bodies.mass(row) * bodies.speed(row) *
-                                  (row.hertz > 0 ? 0.0f : 1.0f); // soft holds are springs: not relaxed
-        break;
-    case RowKind::Limit:
-        if (row.error > 0)
-            updated += -bodies.mass(row) * (bodies.speed(row) + row.error * view.inverse_h);
-        else if (use_bias)
-            updated += soft_impulse(bodies, row, accumulated, soft, soft.bias_rate * row.error);
-        else if (row.hertz == 0)
-            updated += -bodies.mass(row) * bodies.speed(row);
-        updated = std::max(updated, 0.0f);
-        break;
-    case RowKind::Motor:
-        updated =
-            std::clamp(accumulated - bodies.mass(row) * (bodies.speed(row) - row.target), -row.max_impulse, row.max_impulse);
-        break;
-    case RowKind::Spring:
-        if (use_bias)
-            updated += soft_impulse(bodies, row, accumulated, soft, soft.bias_rate * row.error);
-        break;
+    case FreeKind::Limit: return limit_impulse(row, accumulated, motion, s, pass);
+    case FreeKind::Motor: return std::clamp(motion.rigid(accumulated, -row.target), -row.max_impulse, row.max_impulse);
+    case FreeKind::Spring: return pass.use_bias ? motion.soft(row.error, accumulated, s) : accumulated;
     }
-    const float change = updated - accumulated;
+    return accumulated;
+}
+
+// One after the other, on the speed along the axis alone.
+void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const Pass& pass)
+{
+    const JointRows& rows = work.rows;
+    float speed = bodies.speed(rows.axis);
+    float sum = 0;
+    for (const FreeRow& row : rows.acts())
+    {
+        float& accumulated = joint.impulses[row.slot];
+        const Softness& softness = row.is_soft ? work.softness : pass.softness;
+        const float updated = free_impulse(row, accumulated, {row.sign * speed, rows.mass}, softness, pass);
+        const float change = row.sign * (updated - accumulated);
+        accumulated = updated;
+        speed += rows.inverse_mass * change;
+        sum += change;
+    }
+    bodies.apply(rows.axis, sum);
+}
+
+// What the free rows give along the axis.
+float free_impulse(const JointRecord& joint, const JointRows& rows)
+{
+    float sum = 0;
+    for (const FreeRow& row : rows.acts())
+        sum += row.sign * joint.impulses[row.slot];
+    return sum;
+}
+
+void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
+{
+    float& accumulated = joint.impulses[row.slot];
+    const Motion motion{bodies.speed(row), bodies.mass(row)};
+    const float updated = pass.use_bias ? motion.soft(row.error, accumulated, pass.softness) : motion.rigid(accumulated, 0);
+    bodies.apply(row, updated - accumulated);
     accumulated = updated;
-    bodies.apply(row, change);
 }
 
 } // namespace
@@ -133,7 +166,8 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     const Position pb = place(joint.body_b, joint.anchor_b, work.rb0, qb);
     work.gap0 = pb - pa;
     work.axis0 = rotate(qa, joint.axis_a);
-    if (joint.kind == JointType::Prismatic || (joint.kind == JointType::Revolute && !only_holds(joint)))
+    work.softness = make_softness(joint.hertz, joint.damping_ratio, ctx.h);
+    if (has_angle(joint))
         work.angle0 = hinge_angle(ctx.state, joint);
     if (joint.kind == JointType::Spring)
         fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, ctx.state, work);
@@ -146,16 +180,16 @@ void warm_start_joints(const SolverView& view, SceneState& state, std::span<Join
         direct.warm_start();
     for (const JointWork& work : joints)
     {
-        if (is_in_flight(view, work))
+        const JointRows& rows = work.rows;
+        const bool held = !direct.is_ready() && rows.held_count > 0;
+        if ((rows.free_count == 0 && !held) || is_in_flight(view, work))
             continue;
         const JointRecord& joint = state.joints[work.joint];
-        const JointRows& rows = work.rows;
         const JointBodies bodies(view, work);
-        for (int i = 0; i < rows.count; ++i)
-        {
-            if (!direct.is_ready() || !is_rigid(rows.rows[i]))
-                bodies.apply(rows.rows[i], joint.impulses[rows.rows[i].slot]);
-        }
+        for (int i = 0; held && i < rows.held_count; ++i)
+            bodies.apply(rows.held[i], joint.impulses[rows.held[i].slot]);
+        if (rows.free_count > 0)
+            bodies.apply(rows.axis, free_impulse(joint, rows));
     }
 }
 
@@ -163,26 +197,20 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
                   bool use_bias)
 {
     const Softness soft = make_softness(joint_hertz, 0, view.h);
+    const Pass pass{soft, view.inverse_h, use_bias};
     // Motors, springs and limits first: what is held matters most and has the last word.
     for (const JointWork& work : joints)
     {
         if (is_in_flight(view, work))
             continue;
         JointRecord& joint = state.joints[work.joint];
-        const JointRows& rows = work.rows;
         const JointBodies bodies(view, work);
-        for (int i = 0; i < rows.count; ++i)
-        {
-            if (!is_rigid(rows.rows[i]))
-                solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
-        }
-        if (direct.is_ready() || rows.block)
+        if (work.rows.free_count > 0)
+            solve_free_axis(bodies, joint, work, pass);
+        if (direct.is_ready() || work.rows.block)
             continue;
-        for (int i = 0; i < rows.count; ++i)
-        {
-            if (is_rigid(rows.rows[i]))
-                solve_row(bodies, joint, rows.rows[i], view, joint_hertz, use_bias);
-        }
+        for (const JointRow& row : work.rows.holds())
+            solve_held(bodies, joint, row, pass);
     }
     if (direct.is_ready())
     {
@@ -194,8 +222,7 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
         JointRecord& joint = state.joints[work.joint];
         if (joint.kind != JointType::Revolute || is_in_flight(view, work))
             continue;
-        const JointRows& rows = work.rows;
-        solve_block(JointBodies(view, work), joint, rows, soft, use_bias);
+        solve_block(JointBodies(view, work), joint, work.rows, soft, use_bias);
     }
 }
 
@@ -206,13 +233,11 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
         const JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
-        const JointRows& rows = work.rows;
-        const JointBodies bodies(view, work);
-        for (int i = 0; i < rows.count; ++i)
+        const float speed = JointBodies(view, work).speed(work.rows.axis);
+        for (const FreeRow& row : work.rows.acts())
         {
-            if (rows.rows[i].kind == RowKind::Limit)
-                work.approach[rows.rows[i].slot == slot_upper] =
-                    joint.impulses[rows.rows[i].slot] > 0 ? 0 : -bodies.speed(rows.rows[i]);
+            if (row.kind == FreeKind::Limit)
+                work.approach[row.slot == slot_upper] = joint.impulses[row.slot] > 0 ? 0 : -row.sign * speed;
         }
     }
 }
@@ -224,17 +249,17 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
         JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
-        const JointRows& rows = work.rows;
+        const JointRow& axis = work.rows.axis;
         const JointBodies bodies(view, work);
-        for (int i = 0; i < rows.count; ++i)
+        for (const FreeRow& row : work.rows.acts())
         {
-            const JointRow& row = rows.rows[i];
-            if (row.kind != RowKind::Limit || joint.impulses[row.slot] <= 0)
+            if (row.kind != FreeKind::Limit || joint.impulses[row.slot] <= 0)
                 continue;
             const float approach = work.approach[row.slot == slot_upper];
             if (approach <= rest_speed)
                 continue;
-            bodies.apply(row, bodies.mass(row) * (joint.limit_restitution * approach - bodies.speed(row)));
+            const float wanted = row.sign * joint.limit_restitution * approach;
+            bodies.apply(axis, work.rows.mass * (wanted - bodies.speed(axis)));
             joint.impulses[row.slot] = 0;
         }
     }
@@ -248,14 +273,16 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
             continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointPose& pose = work.pose;
-        const JointRows& rows = work.rows;
-        for (int i = 0; i < rows.count; ++i)
+        const auto add = [&](const JointRow& row, float impulse)
         {
-            const float impulse = joint.impulses[rows.rows[i].slot];
-            work.force_sum += impulse * rows.rows[i].d;
-            if (rows.rows[i].d == Vec2{})
-                work.torque_sum += impulse * rows.rows[i].arm_b;
-        }
+            work.force_sum += impulse * row.d;
+            if (row.d == Vec2{})
+                work.torque_sum += impulse * row.arm_b;
+        };
+        for (const JointRow& row : work.rows.holds())
+            add(row, joint.impulses[row.slot]);
+        if (work.rows.free_count > 0)
+            add(work.rows.axis, free_impulse(joint, work.rows));
         if (joint.kind == JointType::Spring && length(pose.gap) > 0)
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
         if (joint.kind != JointType::Revolute || !joint.enable_limit)

@@ -77,7 +77,7 @@ SpringRow spring_row(const SolverView& view, const JointRecord& joint, const Joi
     const float l = length(pose.gap);
     if (!(l > 0))
         return {};
-    const JointRow row = line_row((1 / l) * pose.gap, pose, l - joint.upper, RowKind::Spring, slot_spring);
+    const JointRow row = line_row((1 / l) * pose.gap, pose, l - joint.upper, slot_spring);
     return {row, JointBodies(view, work).mass(row)};
 }
 

@@ -1,7 +1,9 @@
 #include "dynamics/unit_energy.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace carom::internal {
 
@@ -11,37 +13,9 @@ constexpr double rounding = 5e-6; // of the energy
 
 double as_double(float x) { return static_cast<double>(x); }
 
-// What is locked has no mass to speak of: it does not move.
 double inverse(float x) { return x > 0 ? 1 / as_double(x) : 0; }
 
 double square(double x) { return x * x; }
-
-/// Velocity of the common center of mass, axis by axis: a locked axis has none.
-struct Drift
-{
-    double mass_x = 0;
-    double mass_y = 0;
-    double px = 0;
-    double py = 0;
-
-    void add(const BodyState& s, const StateConstants& c)
-    {
-        mass_x += inverse(c.inverse_mass.x);
-        mass_y += inverse(c.inverse_mass.y);
-        px += inverse(c.inverse_mass.x) * as_double(s.velocity.x);
-        py += inverse(c.inverse_mass.y) * as_double(s.velocity.y);
-    }
-    [[nodiscard]] double vx() const { return mass_x > 0 ? px / mass_x : 0; }
-    [[nodiscard]] double vy() const { return mass_y > 0 ? py / mass_y : 0; }
-};
-
-// Twice the kinetic energy of motion against (vx, vy).
-double twice_kinetic(const BodyState& s, const StateConstants& c, double vx, double vy)
-{
-    return inverse(c.inverse_mass.x) * square(as_double(s.velocity.x) - vx) +
-           inverse(c.inverse_mass.y) * square(as_double(s.velocity.y) - vy) +
-           inverse(c.inverse_inertia) * square(as_double(s.angular_velocity));
-}
 
 bool decays(const StateConstants& c) { return c.linear_decay != 1 || c.angular_decay != 1; }
 
@@ -51,12 +25,6 @@ bool is_passive(const JointRecord& joint) { return joint.hertz == 0 && !joint.en
 bool may_lose(const JointRecord& joint)
 {
     return joint.damping > 0 || joint.impulses[slot_lower] != 0 || joint.impulses[slot_upper] != 0;
-}
-
-double force_on(const StateConstants& c)
-{
-    return std::sqrt(square(inverse(c.inverse_mass.x) * as_double(c.acceleration.x)) +
-                     square(inverse(c.inverse_mass.y) * as_double(c.acceleration.y)));
 }
 
 bool is_loaded(const ContactRow& row)
@@ -76,6 +44,20 @@ double stored(const JointRecord& joint, const JointPose& pose)
 
 } // namespace
 
+double UnitEnergy::Body::twice_kinetic(const BodyState& s, double vx, double vy) const
+{
+    return mass_x * square(as_double(s.velocity.x) - vx) + mass_y * square(as_double(s.velocity.y) - vy) +
+           inertia * square(as_double(s.angular_velocity));
+}
+
+void UnitEnergy::Drift::add(const Body& body, const BodyState& s)
+{
+    mass_x += body.mass_x;
+    mass_y += body.mass_y;
+    px += body.mass_x * as_double(s.velocity.x);
+    py += body.mass_y * as_double(s.velocity.y);
+}
+
 void UnitEnergy::begin(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
                        std::int32_t count, float slop)
 {
@@ -85,10 +67,20 @@ void UnitEnergy::begin(const SolverView& view, const SceneState& state, std::spa
     m_slop = slop;
     m_first = first;
     m_count = std::min(count, most_bodies);
+    m_all_driven = all_driven();
+    if (m_all_driven)
+        return;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         const BodyState& s = m_view.states[i];
-        body(i) = {.position = s.delta_position, .rotation = s.delta_rotation, .group = i - m_first, .flew = flies(i)};
+        const StateConstants& c = m_view.constants[i];
+        body(i) = {.mass_x = inverse(c.inverse_mass.x),
+                   .mass_y = inverse(c.inverse_mass.y),
+                   .inertia = inverse(c.inverse_inertia),
+                   .position = s.delta_position,
+                   .rotation = s.delta_rotation,
+                   .group = i - m_first,
+                   .flew = flies(i)};
         group_of(i) = {};
     }
     add_kinetic(1);
@@ -97,9 +89,25 @@ void UnitEnergy::begin(const SolverView& view, const SceneState& state, std::spa
         body(i).first = body(i).missing;
 }
 
+// Every body hangs on a joint that may do work.
+bool UnitEnergy::all_driven()
+{
+    std::uint64_t driven = 0;
+    for (const JointWork& work : m_joints)
+    {
+        if (is_passive(m_state->joints[work.joint]))
+            continue;
+        for (const std::int32_t i : {work.a, work.b})
+            driven |= is_ours(i) ? std::uint64_t{1} << (i - m_first) : 0;
+    }
+    return std::popcount(driven) == m_count;
+}
+
 // What has landed counts from here.
 void UnitEnergy::after_impacts()
 {
+    if (m_all_driven)
+        return;
     add_kinetic(1);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
@@ -110,10 +118,16 @@ void UnitEnergy::after_impacts()
     }
 }
 
+void UnitEnergy::before_impacts()
+{
+    if (!m_all_driven)
+        add_kinetic(-1);
+}
+
 void UnitEnergy::add_kinetic(double sign)
 {
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
-        body(i).missing += 0.5 * sign * twice_kinetic(m_view.states[i], m_view.constants[i], 0, 0);
+        body(i).missing += 0.5 * sign * body(i).twice_kinetic(m_view.states[i], 0, 0);
 }
 
 void UnitEnergy::add_springs(double sign)
@@ -135,9 +149,9 @@ void UnitEnergy::add_work()
         const StateConstants& c = m_view.constants[i];
         const Vec2 way = s.delta_position - body(i).position;
         const Rotation turn = s.delta_rotation * carom::inverse(body(i).rotation);
-        body(i).missing += inverse(c.inverse_mass.x) * as_double(c.acceleration.x) * as_double(way.x) +
-                           inverse(c.inverse_mass.y) * as_double(c.acceleration.y) * as_double(way.y) +
-                           inverse(c.inverse_inertia) * as_double(c.angular_acceleration) * as_double(turn.s);
+        body(i).missing += body(i).mass_x * as_double(c.acceleration.x) * as_double(way.x) +
+                           body(i).mass_y * as_double(c.acceleration.y) * as_double(way.y) +
+                           body(i).inertia * as_double(c.angular_acceleration) * as_double(turn.s);
     }
 }
 
@@ -213,6 +227,8 @@ void UnitEnergy::note_row(const ContactRow& row)
 
 void UnitEnergy::note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows)
 {
+    if (m_all_driven)
+        return;
     for (const JointWork& work : m_joints)
         connect(work.a, work.b);
     connect_rows(rows);
@@ -227,6 +243,8 @@ void UnitEnergy::note_load(std::span<const ContactRow> rows, std::span<const Con
 
 void UnitEnergy::restore(bool exact)
 {
+    if (m_all_driven)
+        return;
     add_work();
     add_kinetic(-1);
     add_springs(-1);
@@ -236,7 +254,7 @@ void UnitEnergy::restore(bool exact)
         group.missing += body(i).missing;
         group.first += body(i).first;
         if (group.touches)
-            group.push_out += as_double(m_slop) * force_on(m_view.constants[i]);
+            group.push_out += as_double(m_slop) * force_on(i);
         group.is_passive &= !decays(m_view.constants[i]) && !flies(i);
     }
     for (int g = 0; g < m_count; ++g)
@@ -245,6 +263,12 @@ void UnitEnergy::restore(bool exact)
         if (group.is_joined && group.is_passive)
             scale(g, exact && !group.may_lose);
     }
+}
+
+double UnitEnergy::force_on(std::int32_t state)
+{
+    const Vec2 a = m_view.constants[state].acceleration;
+    return std::sqrt(square(body(state).mass_x * as_double(a.x)) + square(body(state).mass_y * as_double(a.y)));
 }
 
 // What is free moves on with its center of mass; what hangs on the world has no motion of its own.
@@ -258,13 +282,13 @@ void UnitEnergy::scale(int index, bool exact)
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (body(i).group == index && !group.is_anchored)
-            drift.add(m_view.states[i], m_view.constants[i]);
+            drift.add(body(i), m_view.states[i]);
     }
     double inner = 0;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (body(i).group == index)
-            inner += 0.5 * twice_kinetic(m_view.states[i], m_view.constants[i], drift.vx(), drift.vy());
+            inner += 0.5 * body(i).twice_kinetic(m_view.states[i], drift.vx(), drift.vy());
     }
     if (!(inner > 0))
         return;

@@ -74,6 +74,22 @@ TEST(CoreTrigonometry, MonotoneWhereTheFunctionsAre)
     }
 }
 
+TEST(CoreRotation, SmallAnglesAreRoundedOnce)
+{
+    Random random(5);
+    int differ = 0;
+    for (int i = 0; i < 100000; ++i)
+    {
+        const float angle = random.rangef(-0.26, 0.26) * std::pow(10.0f, random.rangef(-6, 0));
+        const Rotation q = Rotation::from_angle(angle);
+        differ += q.c != static_cast<float>(std::cos(static_cast<double>(angle)));
+        differ += q.s != static_cast<float>(std::sin(static_cast<double>(angle)));
+        ASSERT_NEAR(q.c, std::cos(static_cast<double>(angle)), 3.1e-8);
+        ASSERT_NEAR(q.s, std::sin(static_cast<double>(angle)), 1e-8);
+    }
+    EXPECT_LT(differ, 20);
+}
+
 TEST(CoreRotation, FromAngleAndBack)
 {
     Random random(4);

@@ -135,9 +135,8 @@ void ImpactSet::add_joints(int body)
         const int a = member_of(joint.body_a);
         const int b = member_of(joint.body_b);
         const JointRows rows = holding_rows(joint, pose_of_joint(joint, a, b));
-        for (int i = 0; i < rows.count; ++i)
+        for (const JointRow& r : rows.holds())
         {
-            const JointRow& r = rows.rows[i];
             ImpactRow row;
             row.kind = ImpactRow::Kind::Hold;
             row.a = a;

@@ -8,19 +8,21 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
 {
     const float l = length(pose.gap);
     const Vec2 d = l > 0 ? (1 / l) * pose.gap : Vec2{1, 0};
-    JointRow row = line_row(d, pose, l - joint.lower, RowKind::Hold, slot_axis);
-    row.hertz = joint.hertz;
-    row.damping_ratio = joint.damping_ratio;
-    if (joint.lower == joint.upper)
+    const bool is_soft = joint.hertz > 0;
+    if (joint.lower == joint.upper && !is_soft)
     {
-        out.add(row);
+        out.hold(line_row(d, pose, distance_error(joint, pose).x, slot_axis));
         return;
     }
-    row.kind = RowKind::Limit;
-    row.slot = slot_lower;
+    out.axis = line_row(d, pose, 0, slot_axis);
+    if (joint.lower == joint.upper)
+    {
+        out.act({.kind = FreeKind::Spring, .is_soft = true, .slot = slot_axis, .error = l - joint.lower});
+        return;
+    }
     if (joint.lower > 0)
-        out.add(row);
-    out.add(opposite(row, joint.upper - l, slot_upper));
+        out.act({.kind = FreeKind::Limit, .is_soft = is_soft, .slot = slot_lower, .error = l - joint.lower});
+    out.act({.kind = FreeKind::Limit, .is_soft = is_soft, .slot = slot_upper, .sign = -1, .error = joint.upper - l});
 }
 
 } // namespace carom::internal

@@ -4,33 +4,16 @@
 
 namespace carom::internal {
 
-void add_free_axis(const JointRecord& joint, JointRow axis, float coordinate, float h, JointRows& out)
+void add_free_axis(const JointRecord& joint, float coordinate, float h, JointRows& out)
 {
     if (joint.hertz > 0)
-    {
-        axis.kind = RowKind::Spring;
-        axis.slot = slot_spring;
-        axis.error = coordinate - joint.spring_target;
-        axis.hertz = joint.hertz;
-        axis.damping_ratio = joint.damping_ratio;
-        out.add(axis);
-        axis.hertz = 0;
-    }
+        out.act({.kind = FreeKind::Spring, .is_soft = true, .slot = slot_spring, .error = coordinate - joint.spring_target});
     if (joint.enable_motor)
-    {
-        axis.kind = RowKind::Motor;
-        axis.slot = slot_motor;
-        axis.target = joint.motor_speed;
-        axis.max_impulse = h * joint.max_motor;
-        out.add(axis);
-    }
+        out.act({.kind = FreeKind::Motor, .slot = slot_motor, .target = joint.motor_speed, .max_impulse = h * joint.max_motor});
     if (joint.enable_limit)
     {
-        axis.kind = RowKind::Limit;
-        axis.slot = slot_lower;
-        axis.error = coordinate - joint.lower;
-        out.add(axis);
-        out.add(opposite(axis, joint.upper - coordinate, slot_upper));
+        out.act({.kind = FreeKind::Limit, .slot = slot_lower, .error = coordinate - joint.lower});
+        out.act({.kind = FreeKind::Limit, .slot = slot_upper, .sign = -1, .error = joint.upper - coordinate});
     }
 }
 

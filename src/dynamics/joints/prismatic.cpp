@@ -7,9 +7,9 @@ namespace carom::internal {
 
 namespace {
 
-JointRow slider_row(Vec2 d, const JointPose& pose, float error, RowKind kind, JointSlot slot)
+JointRow slider_row(Vec2 d, const JointPose& pose, float error, JointSlot slot)
 {
-    JointRow row = line_row(d, pose, error, kind, slot);
+    JointRow row = line_row(d, pose, error, slot);
     row.arm_a = cross(pose.ra + pose.gap, d);
     return row;
 }
@@ -19,14 +19,16 @@ JointRow slider_row(Vec2 d, const JointPose& pose, float error, RowKind kind, Jo
 void prismatic_holds(const JointPose& pose, JointRows& out)
 {
     const Vec2 n = perp(pose.axis);
-    out.add(slider_row(n, pose, dot(n, pose.gap), RowKind::Hold, slot_x));
-    out.add(angle_row(pose.angle, RowKind::Hold, slot_lock));
+    const Vec2 error = prismatic_error(pose);
+    out.hold(slider_row(n, pose, error.x, slot_x));
+    out.hold(angle_row(error.y, slot_lock));
 }
 
 void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
 {
     prismatic_holds(pose, out);
-    add_free_axis(joint, slider_row(pose.axis, pose, 0, RowKind::Motor, slot_motor), dot(pose.axis, pose.gap), h, out);
+    out.axis = slider_row(pose.axis, pose, 0, slot_motor);
+    add_free_axis(joint, dot(pose.axis, pose.gap), h, out);
 }
 
 } // namespace carom::internal

@@ -6,15 +6,17 @@ namespace carom::internal {
 
 void revolute_holds(const JointPose& pose, JointRows& out)
 {
-    out.add(line_row({1, 0}, pose, pose.gap.x, RowKind::Hold, slot_x));
-    out.add(line_row({0, 1}, pose, pose.gap.y, RowKind::Hold, slot_y));
+    const Vec2 error = revolute_error(pose);
+    out.hold(line_row({1, 0}, pose, error.x, slot_x));
+    out.hold(line_row({0, 1}, pose, error.y, slot_y));
     out.block = true;
 }
 
 void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
 {
     revolute_holds(pose, out);
-    add_free_axis(joint, angle_row(0, RowKind::Motor, slot_motor), pose.angle, h, out);
+    out.axis = angle_row(0, slot_motor);
+    add_free_axis(joint, pose.angle, h, out);
 }
 
 } // namespace carom::internal

@@ -71,15 +71,18 @@ struct Placement
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
 /// All rows of a joint; a spring has none.
-[[nodiscard]] JointRows rows_of(const JointRecord& joint, const JointPose& pose, float h);
+void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 
 /// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
 [[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
 
-/// Of all rows, those.
-[[nodiscard]] JointRows holding(const JointRows& all);
+/// C of these rows where the bodies are there.
+[[nodiscard]] Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b);
 
 /// It holds and does nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);
+
+/// Whether its rows ask for the angle between the bodies.
+[[nodiscard]] bool has_angle(const JointRecord& joint);
 
 } // namespace carom::internal

@@ -3,13 +3,15 @@
 // The direct solve of what joints hold, beside the row after row of joint_solver.h.
 
 #include "dynamics/joint_bodies.h"
+#include "dynamics/joint_forest.h"
+#include "dynamics/joint_matrix.h"
 
 #include <span>
 #include <vector>
 
 namespace carom::internal {
 
-/// All holding rows of a unit at once. Kept from step to step for its memory alone.
+/// All holding rows of a unit at once. Kept from step to step for its memory, and for the forest where the joints are the same.
 class DirectSolve
 {
 public:
@@ -27,52 +29,63 @@ public:
     void close_gaps();
 
 private:
-    struct Row
+    /// What of a row stands in J, and so in the matrix.
+    struct Line
     {
-        int joint = 0; ///< place in m_joints
-        int a = 0;     ///< nodes
+        Vec2 d{};
+        float arm_a = 0;
+        float arm_b = 0;
+    };
+
+    /// A joint, in the order of the forest.
+    struct Held
+    {
+        std::size_t joint = 0; ///< place in m_joints
+        int rows = 0;
+        int up = JointForest::ground; ///< nodes: towards the root, and what hangs on that
+        int down = 0;
+        int a = 0; ///< the same by the joint's own order
         int b = 0;
-        JointRow row{};
+        Line lines[2];
+        const JointWork* work = nullptr;
+        JointRecord* record = nullptr;
+
+        [[nodiscard]] bool take_lines();
+        [[nodiscard]] float& impulse(int row) const;
+        [[nodiscard]] RowPair impulses() const;
+        void add(const RowPair& change) const;
     };
 
     /// A body that joints hold; all that do not move are one.
     struct Node
     {
         std::int32_t state = none;
-        int tree = 0;      ///< the node that stands for what is connected with it
         float stretch = 0; ///< (omega h)²
-        Vec2 inverse_mass{};
-        float inverse_inertia = 0;
         Placement ahead{};
-        Vec2 shift{}; ///< on the way to closed gaps
-        float turn = 0;
+        Triple shift{}; ///< on the way to closed gaps
     };
 
-    [[nodiscard]] bool collect();
-    [[nodiscard]] bool connect(const JointWork& work, const JointPose& pose, const JointRows& rows);
-    [[nodiscard]] int node_of(std::int32_t state);
+    [[nodiscard]] bool find_forest();
+    [[nodiscard]] std::int32_t moving(std::int32_t state) const;
+    void lay_out();
+    [[nodiscard]] bool place();
+    void fill_jacobian(const Held& held, JointJacobian& jacobian) const;
+    void note_stretch(const Held& held);
+    [[nodiscard]] Triple inverse_mass(const Node& node) const;
     [[nodiscard]] Node& node(int i) { return m_nodes[static_cast<std::size_t>(i)]; }
-    void set_masses(Node& node) const;
-    [[nodiscard]] const Row& row(int i) const { return m_rows[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] float& impulse_of(const Row& row) const { return m_state->joints[work(row).joint].impulses[row.row.slot]; }
-    [[nodiscard]] const JointWork& work(const Row& row) const { return m_joints[static_cast<std::size_t>(row.joint)]; }
-
-    void fill_matrix();
-    [[nodiscard]] double couple(const Row& i, const Row& j);
-    [[nodiscard]] double& at(int row, int column) { return m_matrix[static_cast<std::size_t>(row * m_count + column)]; }
-    [[nodiscard]] bool factor();
-    [[nodiscard]] double reduced(int i, int j);
-    void substitute();
 
     [[nodiscard]] bool find_pose_ahead();
-    void start_anew();
-    [[nodiscard]] double largest_error() const;
     void note_speeds();
     void note_errors_ahead();
-    void apply(float sign = 1);
-    void push(const Row& row, float impulse);
-    static void note_shift(Node& node, const JointRow& row, float arm, float impulse);
-    void shift(const Node& node, float share);
+    [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
+    [[nodiscard]] double largest_error() const;
+    void find_impulses();
+    void apply(double sign = 1);
+    void start_anew();
+    void push(std::size_t joint, const RowPair& impulse);
+    void push(int node, const Triple& momentum);
+    void note_shift(int node, const Triple& momentum);
+    void shift(const Node& node, double share);
 
     SolverView m_view{};
     SceneState* m_state = nullptr;
@@ -80,13 +93,21 @@ private:
     bool m_ready = false;
     bool m_turns_too_far = false;
     float m_longest_arm = 0;
-    int m_count = 0;
-    std::vector<Row> m_rows;
+
+    std::vector<JointForest::Link> m_found;
+    std::vector<JointForest::Link> m_links; ///< of the forest
+    bool m_has_loops = false;               ///< then there is none
+    JointForest m_forest;
+    JointMatrix m_matrix;
+    bool m_is_new = false;     ///< the forest: nothing stands in the matrix
+    bool m_is_regular = false; ///< the matrix
+
+    std::vector<Held> m_held;
+    std::vector<JointJacobian> m_jacobians;
+    std::vector<RowPair> m_residual; ///< speeds, by joint
+    std::vector<RowPair> m_impulse;
     std::vector<Node> m_nodes;
-    std::vector<int> m_first; ///< column in which a row of the matrix begins
-    std::vector<double> m_matrix;
-    std::vector<double> m_residual;
-    std::vector<double> m_impulse;
+    std::vector<Triple> m_masses; ///< inverse
 };
 
 /// Until none is left to speak of.

@@ -5,41 +5,55 @@
 
 #include "dynamics/rows.h"
 
+#include <span>
+
 namespace carom::internal {
 
-/// What a row holds. dC = d · (vb - va) + arm_b wb - arm_a wa.
-enum class RowKind : std::uint8_t
-{
-    Hold,  ///< C = 0
-    Limit, ///< C >= 0, impulse >= 0
-    Motor, ///< dC = target, |impulse| <= max
-    Spring ///< soft, towards C = 0; solved with bias only
-};
-
+/// dC = d · (vb - va) + arm_b wb - arm_a wa. Held at C = 0, or one that others act along.
 struct JointRow
 {
     Vec2 d{};
     float arm_a = 0;
     float arm_b = 0;
     float error = 0; ///< C
-    RowKind kind = RowKind::Hold;
     JointSlot slot = slot_x;
-    float target = 0;      ///< motors: speed
-    float max_impulse = 0; ///< motors
-    float hertz = 0;       ///< softness; 0: the step's own for joints
-    float damping_ratio = 0;
 };
 
-/// Held without softness of its own.
-[[nodiscard]] inline bool is_rigid(const JointRow& row) { return row.kind == RowKind::Hold && row.hertz == 0; }
+enum class FreeKind : std::uint8_t
+{
+    Limit, ///< C >= 0, impulse >= 0
+    Motor, ///< dC = target, |impulse| <= max
+    Spring ///< soft, towards C = 0; solved with bias only
+};
+
+/// What acts along a joint's free axis.
+struct FreeRow
+{
+    FreeKind kind = FreeKind::Spring;
+    bool is_soft = false; ///< with the joint's own softness instead of the step's
+    JointSlot slot = slot_spring;
+    float sign = 1;        ///< -1: against the axis
+    float error = 0;       ///< C
+    float target = 0;      ///< motors: speed
+    float max_impulse = 0; ///< motors
+};
 
 struct JointRows
 {
-    JointRow rows[6];
-    int count = 0;
-    bool block = false; ///< the first two rows hold a point and are solved as one
+    JointRow held[2];
+    JointRow axis; ///< the one line or angle along which the bodies may move against each other, where anything acts on that
+    FreeRow free[4];
+    int held_count = 0;
+    int free_count = 0;
+    bool block = false;     ///< the held rows are those of a point and are solved as one
+    float inverse_mass = 0; ///< along the axis
+    float mass = 0;
 
-    void add(const JointRow& row) { rows[count++] = row; }
+    void hold(const JointRow& row) { held[held_count++] = row; }
+    void act(const FreeRow& row) { free[free_count++] = row; }
+    void clear() { held_count = free_count = 0; }
+    [[nodiscard]] std::span<const JointRow> holds() const { return {held, static_cast<std::size_t>(held_count)}; }
+    [[nodiscard]] std::span<const FreeRow> acts() const { return {free, static_cast<std::size_t>(free_count)}; }
 };
 
 /// Where the joint's bodies are now, within the step.
@@ -60,6 +74,7 @@ struct JointWork
     std::int32_t b = 0;
     SpringKick before{}; ///< of a spring, before the bodies move
     SpringKick after{};  ///< and after
+    Softness softness{}; ///< the joint's own, of limits or of the spring along the free axis
     Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};           ///< slider's axis at the start of the step
@@ -72,6 +87,14 @@ struct JointWork
     JointRows rows{};
 };
 
+/// C of the rows that are held: of one alone, the second is 0.
+[[nodiscard]] inline Vec2 distance_error(const JointRecord& joint, const JointPose& pose)
+{
+    return {length(pose.gap) - joint.lower, 0};
+}
+[[nodiscard]] inline Vec2 revolute_error(const JointPose& pose) { return pose.gap; }
+[[nodiscard]] inline Vec2 prismatic_error(const JointPose& pose) { return {dot(perp(pose.axis), pose.gap), pose.angle}; }
+
 void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
 void revolute_holds(const JointPose& pose, JointRows& out); ///< what is held alone
 void prismatic_holds(const JointPose& pose, JointRows& out);
@@ -79,29 +102,18 @@ void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, Joi
 void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 
 /// A row along the world direction d through both anchors.
-[[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error, RowKind kind, JointSlot slot)
+[[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error, JointSlot slot)
 {
-    return {.d = d, .arm_a = cross(pose.ra, d), .arm_b = cross(pose.rb, d), .error = error, .kind = kind, .slot = slot};
+    return {.d = d, .arm_a = cross(pose.ra, d), .arm_b = cross(pose.rb, d), .error = error, .slot = slot};
 }
 
 /// A row of the relative angle.
-[[nodiscard]] inline JointRow angle_row(float error, RowKind kind, JointSlot slot)
+[[nodiscard]] inline JointRow angle_row(float error, JointSlot slot)
 {
-    return {.arm_a = 1, .arm_b = 1, .error = error, .kind = kind, .slot = slot};
-}
-
-/// The same row with the opposite sign, for upper limits.
-[[nodiscard]] inline JointRow opposite(JointRow row, float error, JointSlot slot)
-{
-    row.d = -row.d;
-    row.arm_a = -row.arm_a;
-    row.arm_b = -row.arm_b;
-    row.error = error;
-    row.slot = slot;
-    return row;
+    return {.arm_a = 1, .arm_b = 1, .error = error, .slot = slot};
 }
 
 /// Limits, motor and spring along a free coordinate, common to hinges and sliders.
-void add_free_axis(const JointRecord& joint, JointRow axis, float coordinate, float h, JointRows& out);
+void add_free_axis(const JointRecord& joint, float coordinate, float h, JointRows& out);
 
 } // namespace carom::internal

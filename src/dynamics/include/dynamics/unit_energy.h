@@ -21,7 +21,7 @@ public:
     void begin(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
                std::int32_t count, float slop);
     /// Around what happens in flight: energy that impacts took or gave stays so.
-    void before_impacts() { add_kinetic(-1); }
+    void before_impacts();
     void after_impacts();
     /// After the relaxation: joints and contacts that bear something make groups.
     void note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows);
@@ -31,12 +31,30 @@ public:
 private:
     struct Body
     {
+        double mass_x = 0; ///< what is locked has none to speak of: it does not move
+        double mass_y = 0;
+        double inertia = 0;
         double missing = 0; ///< energy: what there was and has been added since, less what there is
         double first = 0;   ///< what there was
         Vec2 position{};    ///< at the start of the sub-step
         Rotation rotation{};
         int group = 0;     ///< the least body it is connected with
         bool flew = false; ///< at the start of the sub-step
+
+        [[nodiscard]] double twice_kinetic(const BodyState& s, double vx, double vy) const; ///< of motion against (vx, vy)
+    };
+
+    /// Velocity of the common center of mass, axis by axis: a locked axis has none.
+    struct Drift
+    {
+        double mass_x = 0;
+        double mass_y = 0;
+        double px = 0;
+        double py = 0;
+
+        void add(const Body& body, const BodyState& s);
+        [[nodiscard]] double vx() const { return mass_x > 0 ? px / mass_x : 0; }
+        [[nodiscard]] double vy() const { return mass_y > 0 ? py / mass_y : 0; }
     };
 
     struct Group
@@ -55,6 +73,7 @@ private:
     [[nodiscard]] Body& body(std::int32_t state) { return m_bodies[static_cast<std::size_t>(state - m_first)]; }
     [[nodiscard]] Group& group_of(std::int32_t state) { return m_groups[static_cast<std::size_t>(body(state).group)]; }
     [[nodiscard]] bool flies(std::int32_t state) const { return (m_view.states[state].flags & body_flag::flier) != 0; }
+    [[nodiscard]] bool all_driven();
     void connect(std::int32_t a, std::int32_t b);
     void join(std::int32_t own, std::int32_t other);
     void note_joint(const JointWork& work);
@@ -63,6 +82,7 @@ private:
     void note_row(const ContactRow& row);
     void add_kinetic(double sign);
     void add_work();
+    [[nodiscard]] double force_on(std::int32_t state);
     void add_springs(double sign);
     void scale(int group, bool exact);
 
@@ -70,6 +90,7 @@ private:
     const SceneState* m_state = nullptr;
     std::span<const JointWork> m_joints;
     float m_slop = 0;
+    bool m_all_driven = false; ///< nothing to watch
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
     std::array<Body, most_bodies> m_bodies;
