@@ -3,6 +3,8 @@
 
 #include "dynamics/force_laws.h"
 
+#include "dynamics/flight.h"
+
 #include "core/refuse.h"
 #include "dynamics/raw_events.h"
 
@@ -101,7 +103,7 @@ void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOut
     }
     else if (const std::int32_t f = scratch.flier_of_state[index]; f != none && exceeds(law, load))
     {
-        scratch.fliers[static_cast<std::size_t>(f)].deflected = true; // it may leave the boxes that its pairs were found with
+        note_deflected(scratch, output, f); // it may leave the boxes that its pairs were found with
     }
 }
 

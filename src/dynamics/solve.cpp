@@ -38,6 +38,7 @@ void UnitOutput::clear()
     late_rows.clear();
     deferred.clear();
     kicked_shapes.clear();
+    deflected.clear();
     path.clear();
     last_piece.clear();
     poses.clear();
@@ -152,7 +153,7 @@ private:
         }
         if (m_watches_energy)
             m_energy.before_impacts();
-        advance_fliers(m_ctx, m_unit, k, m_output);
+        advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
         if (m_watches_energy)
             m_energy.after_impacts();
     }

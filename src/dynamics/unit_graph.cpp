@@ -428,12 +428,8 @@ public:
     // two would meet in different times. True where units have become one.
     bool link_deflected()
     {
-        struct Reach
-        {
-            FloatBox box;
-            int body;
-        };
-        std::vector<Reach> reaches;
+        std::vector<TreeLeaf>& reaches = scratch.reaches;
+        reaches.clear();
         for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         {
             const int body = state.awake_bodies[i];
@@ -444,40 +440,38 @@ public:
                 static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
             reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
         }
-        bool linked = false;
         scratch.may_be_struck.assign(state.awake_bodies.size(), 0);
-        for (const Reach& reach : reaches)
+        if (reaches.empty())
+            return false;
+        BoxTree& tree = scratch.reach_tree;
+        tree.build(reaches);
+        bool linked = false;
+        state.broad_phase.for_each_overlap(tree, Layer::Moving,
+                                           [&](int body, int shape)
+                                           {
+                                               const int other = state.shapes[shape].body;
+                                               linked |= link_bodies(ctx, body, other);
+                                               const auto place = static_cast<std::size_t>(state.bodies[other].awake_index);
+                                               scratch.may_be_struck[place] = 1;
+                                           });
+        for (int k = 0; k < tree.block_count(); ++k) // two that are both deflected
         {
-            state.broad_phase.query(Layer::Moving, reach.box,
-                                    [&](int shape)
-                                    {
-                                        const int body = state.shapes[shape].body;
-                                        linked |= link_bodies(ctx, reach.body, body);
-                                        scratch.may_be_struck[static_cast<std::size_t>(state.bodies[body].awake_index)] = 1;
-                                        return true;
-                                    });
-        }
-        // Two that are both deflected: reach against reach, by a sweep along x.
-        std::sort(reaches.begin(), reaches.end(),
-                  [](const Reach& a, const Reach& b) { return a.box.lx != b.box.lx ? a.box.lx < b.box.lx : a.body < b.body; });
-        for (std::size_t i = 0; i < reaches.size(); ++i)
-        {
-            for (std::size_t j = i + 1; j < reaches.size() && reaches[j].box.lx <= reaches[i].box.ux; ++j)
-            {
-                if (overlaps(reaches[i].box, reaches[j].box))
-                    linked |= link_bodies(ctx, reaches[i].body, reaches[j].body);
-            }
+            const int left = std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity);
+            tree.for_each_overlap(k, (1u << left) - 1, tree,
+                                  [&](int own, int other) { linked |= link_bodies(ctx, tree.item(own), tree.item(other)); });
         }
         return linked;
     }
 
     [[nodiscard]] bool may_be_deflected(int body) const
     {
+        if (scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] <= ctx.scene.tolerances.speculation)
+            return false;
         for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
         {
-            if (gets_rows(state, state.contacts[edge >> 1]))
-                return scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] >
-                       ctx.scene.tolerances.speculation;
+            const Contact& contact = state.contacts[edge >> 1];
+            if (gets_rows(state, contact) && !stays_apart(ctx, contact))
+                return true;
         }
         return false;
     }

@@ -59,6 +59,7 @@ public:
     {
         m_scratch.fliers.resize(m_scratch.flier_seeds.size());
         m_scratch.holds.resize(std::max(m_scratch.holds.size(), m_scratch.fliers.size() * Flier::most_held));
+        m_scratch.event_times.assign(m_scratch.fliers.size(), 1e300);
         m_scratch.flier_of_state.assign(m_scratch.state_bodies.size(), none);
         m_scratch.versions.assign(m_scratch.state_bodies.size(), 0);
         for_items(
@@ -339,6 +340,7 @@ private:
         choose_colors(unit);
         give_out_places(unit);
         place_links(unit);
+        clear_bins(unit);
         unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - unit.first_row;
         unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - unit.first_wide;
         unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - unit.first_core;
@@ -356,7 +358,6 @@ private:
     void choose_colors(Unit& unit)
     {
         const bool wide = is_wide(unit);
-        std::fill(std::begin(m_bins), std::end(m_bins), 0);
         for (Link& l : links_of(unit))
         {
             const int color = free_color(unit, l.a, l.b);
@@ -399,7 +400,7 @@ private:
     {
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
         unit.first_color = static_cast<std::int32_t>(m_scratch.color_starts.size());
-        for (std::size_t bin = 0; bin < lane_bins; ++bin)
+        for (std::size_t bin = 0; bin < 2 * as_index(unit.colors); ++bin)
         {
             if (bin % 2 == 0 && m_bins[bin] + m_bins[bin + 1] > 0)
                 m_scratch.color_starts.push_back(lane / lane_count - unit.first_wide);
@@ -410,10 +411,18 @@ private:
         m_scratch.color_starts.push_back(lane / lane_count - unit.first_wide);
         unit.color_count = static_cast<std::int32_t>(m_scratch.color_starts.size()) - unit.first_color;
         auto row = unit.first_row;
-        for (std::size_t bin = lane_bins; bin < std::size(m_bins); ++bin)
+        for (std::size_t bin = lane_bins; bin < lane_bins + as_index(unit.colors); ++bin)
             row += std::exchange(m_bins[bin], row);
+        row += std::exchange(m_bins[lane_bins + color_limit], row);
         m_scratch.lane_links.resize(as_index(lane), none);
         m_scratch.row_links.resize(as_index(row));
+    }
+
+    void clear_bins(const Unit& unit)
+    {
+        std::fill_n(m_bins, 2 * as_index(unit.colors), 0);
+        std::fill_n(m_bins + lane_bins, as_index(unit.colors), 0);
+        m_bins[lane_bins + color_limit] = 0;
     }
 
     void place_links(const Unit& unit)

@@ -10,6 +10,8 @@
 #include "dynamics/flight/next_event.h"
 #include "dynamics/flight/trace.h"
 
+#include <algorithm>
+
 namespace carom::internal {
 
 namespace {
@@ -17,13 +19,9 @@ namespace {
 // The first by time; of equals the first in the unit.
 Flier* earliest(const FlightSpan& span)
 {
-    Flier* best = nullptr;
-    for (Flier& f : span.fliers())
-    {
-        if (f.event_time <= span.h && (best == nullptr || f.event_time < best->event_time))
-            best = &f;
-    }
-    return best;
+    const auto first = span.scratch.event_times.begin() + span.unit.first_flier;
+    const auto best = std::min_element(first, first + span.unit.flier_count);
+    return *best <= span.h ? &span.scratch.fliers[static_cast<std::size_t>(best - span.scratch.event_times.begin())] : nullptr;
 }
 
 // Others near a struck body of the solver's may now meet it sooner.
@@ -68,7 +66,37 @@ void process(const FlightSpan& span, Flier& f)
     }
 }
 
+constexpr int fliers_per_share = 16;
+
+// Where nothing has happened yet each looks for itself.
+void find_first_events(const FlightSpan& span, Crew& crew)
+{
+    const std::span<Flier> fliers = span.fliers();
+    crew.share(static_cast<int>(fliers.size()), fliers_per_share,
+               [&](int first, int last)
+               {
+                   for (int i = first; i < last; ++i)
+                       static_cast<void>(try_find_next_event(span, fliers[static_cast<std::size_t>(i)]));
+               });
+    for (Flier& f : fliers)
+    {
+        if (f.passes == none)
+            continue;
+        span.state.contacts[f.passes].flags |= contact_flag::passing;
+        find_next_event(span, f);
+    }
+}
+
 } // namespace
+
+void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier)
+{
+    Flier& f = scratch.fliers[static_cast<std::size_t>(flier)];
+    if (f.deflected)
+        return;
+    f.deflected = true;
+    output.deflected.insert(std::lower_bound(output.deflected.begin(), output.deflected.end(), flier), flier);
+}
 
 void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
 {
@@ -91,7 +119,7 @@ void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
         trace_all(FlightSpan(ctx, unit, k, output));
 }
 
-void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output, Crew& crew)
 {
     if (unit.flier_count == 0)
         return;
@@ -99,8 +127,7 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     for (Flier& f : span.fliers())
         start_flight(span, f);
     trace_all(span);
-    for (Flier& f : span.fliers())
-        find_next_event(span, f);
+    find_first_events(span, crew);
     while (Flier* next = earliest(span))
         process(span, *next);
     for (Flier& f : span.fliers())

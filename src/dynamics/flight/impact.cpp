@@ -7,6 +7,7 @@
 
 #include "dynamics/flight/impact.h"
 #include "dynamics/body_store.h"
+#include "dynamics/flight.h"
 #include "dynamics/flight/hold.h"
 #include "dynamics/flight/impact_set.h"
 #include "dynamics/material.h"
@@ -143,7 +144,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     f.alpha = turning_acceleration(m_span, f, f.angle);
     if (!struck)
         return;
-    f.deflected = true;
+    note_deflected(m_span.scratch, m_span.output, m_span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
     if (m_renews)
         return;
     f.crowded |= !m_span.unit.precise || f.impacts >= crowd_limit;

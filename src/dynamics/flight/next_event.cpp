@@ -35,7 +35,8 @@ class Search
 {
 public:
     Search(const FlightSpan& span, Flier& f)
-        : m_span(span), m_flier(f), m_origin(span.sim_of(f.body).center), m_own_path(path_from(span, f.body, f.time, m_origin))
+        : m_span(span), m_flier(f), m_origin(span.sim_of(f.body).center), m_own_path(path_from(span, f.body, f.time, m_origin)),
+          m_own(motion_of_flier(f))
     {}
 
     void run()
@@ -112,9 +113,10 @@ private:
     // Who has been struck may be anywhere, whether it flies still or has come to rest against something.
     void look_at_deflected()
     {
-        for (const Flier& other : m_span.fliers())
+        for (const std::int32_t f : m_span.output.deflected)
         {
-            if (other.deflected && other.body != m_flier.body && !is_out_of_reach(other.body))
+            const Flier& other = m_span.scratch.fliers[static_cast<std::size_t>(f)];
+            if (other.body != m_flier.body && !is_out_of_reach(other.body))
                 for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_at(own, other); });
         }
     }
@@ -182,8 +184,7 @@ private:
         // The flier is b as the material sees it: the normal runs from the shape to the flier.
         if (lets_pass(m_span.ctx.scene, shape, own, {static_cast<float>(hit->nx), static_cast<float>(hit->ny)}))
         {
-            if (contact != none)
-                state.contacts[contact].flags |= contact_flag::passing;
+            m_flier.passes = contact;
             return;
         }
         m_flier.event_time = start + hit->time;
@@ -200,11 +201,7 @@ private:
             return false;
         if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->landed || other->deflected))
             return false;
-        const Contact& c = m_span.state.contacts[contact];
-        if ((c.flags & contact_flag::plain) == 0)
-            return false;
-        return c.manifold.count == 0 ||
-               least_separation(c.manifold) > relative_motion(m_span.state, c) + 0.1f * m_span.ctx.scene.tolerances.speculation;
+        return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
     }
 
     // Along the line of their centers, or the normal at the start of the step: a look at every corner is dear.
@@ -230,44 +227,80 @@ private:
     // Two moving bodies that stay apart whatever they turn: most of a crowd.
     [[nodiscard]] bool is_out_of_reach(int body) const
     {
-        if (m_span.state.bodies[body].type != BodyType::Dynamic)
+        const std::int32_t s = m_span.state_in_unit(body);
+        if (s == none)
             return false;
         const BodySim& a = m_span.sim_of(m_flier.body);
         const BodySim& b = m_span.sim_of(body);
-        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
-        if (other == nullptr)
-            return false;
-        const CenterMotion from = center_of(m_flier);
-        const CenterMotion to = center_of(*other);
-        const double left = m_span.h - std::min(m_flier.time, other->time);
-        const double dx = b.center.x - a.center.x + to.x - from.x;
-        const double dy = b.center.y - a.center.y + to.y - from.y;
-        const auto speed = [left](const Flier& f, const CenterMotion& c)
-        { return length_of(c.vx, c.vy) + left * (length_of(f.ax, f.ay) + std::fabs(f.alpha) * length_of(f.arm_x, f.arm_y)); };
-        const double reach =
-            static_cast<double>(a.extent) + static_cast<double>(b.extent) + left * (speed(m_flier, from) + speed(*other, to));
-        return dx * dx + dy * dy > reach * reach;
+        double x = b.center.x - a.center.x - m_own.center.x;
+        double y = b.center.y - a.center.y - m_own.center.y;
+        double reach = static_cast<double>(a.extent) + static_cast<double>(b.extent);
+        if (const Flier* other = m_span.flier_at(s))
+        {
+            const Motion there = motion_of_flier(*other);
+            const double left = m_span.h - std::min(m_flier.time, other->time);
+            x += there.center.x;
+            y += there.center.y;
+            reach += left * (m_own.speed + there.speed + left * (m_own.gain + there.gain));
+        }
+        else
+        { // where the solver has put it at the end of the sub-step
+            const BodyState& there = m_span.state_of(s);
+            const double left = m_span.h - m_flier.time;
+            x += static_cast<double>(there.delta_position.x);
+            y += static_cast<double>(there.delta_position.y);
+            reach += left * (m_own.speed + left * m_own.gain) + 2 * m_span.h * static_cast<double>(length(there.velocity));
+        }
+        return x * x + y * y > reach * reach;
+    }
+
+    // Of the center of mass, relative to where it was when the step began; how fast it is, and how much faster it may become.
+    struct Motion
+    {
+        CenterMotion center;
+        double speed;
+        double gain;
+    };
+
+    [[nodiscard]] static Motion motion_of_flier(const Flier& f)
+    {
+        const CenterMotion c = center_of(f);
+        const double gain =
+            f.ax != 0 || f.ay != 0 || f.alpha != 0 ? length_of(f.ax, f.ay) + std::fabs(f.alpha) * length_of(f.arm_x, f.arm_y) : 0;
+        return {c, length_of(c.vx, c.vy), gain};
     }
 
     const FlightSpan& m_span;
     Flier& m_flier;
     Position m_origin;
     FramePath m_own_path;
+    Motion m_own;
 };
 
 } // namespace
 
+bool try_find_next_event(const FlightSpan& span, Flier& f)
+{
+    double& time_in_list = span.scratch.event_times[static_cast<std::size_t>(&f - span.scratch.fliers.data())];
+    f.passes = none;
+    f.event_time = time_in_list = 1e300;
+    if (f.landed || f.impacts >= impact_limit || f.time >= span.h)
+        return true;
+    Search(span, f).run();
+    if (f.held_count > 0 && f.hold_until < std::min(f.event_time, span.h))
+    {
+        f.event_time = f.hold_until;
+        f.event_own = f.event_shape = f.event_state = none;
+        f.event_version = 0;
+    }
+    time_in_list = f.event_time;
+    return f.passes == none;
+}
+
 void find_next_event(const FlightSpan& span, Flier& f)
 {
-    f.event_time = 1e300;
-    if (f.landed || f.impacts >= impact_limit || f.time >= span.h)
-        return;
-    Search(span, f).run();
-    if (f.held_count == 0 || f.hold_until >= std::min(f.event_time, span.h))
-        return;
-    f.event_time = f.hold_until;
-    f.event_own = f.event_shape = f.event_state = none;
-    f.event_version = 0;
+    while (!try_find_next_event(span, f))
+        span.state.contacts[f.passes].flags |= contact_flag::passing;
 }
 
 } // namespace carom::internal

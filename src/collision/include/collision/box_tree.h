@@ -130,6 +130,26 @@ public:
         return walk(test_all, 0, [&](std::int32_t leaf) { return visit(m_items[static_cast<std::size_t>(leaf)]); });
     }
 
+    /// Calls visit(own leaf, other leaf) where leaves of block k, a bit for each of its eight, overlap those of another tree: the eight go through
+    /// it together.
+    template <class Visit>
+    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const Visit& visit) const
+    {
+        FloatBox around;
+        for (unsigned l = lanes; l != 0; l &= l - 1)
+            around = unite(around, block(k).box(std::countr_zero(l)));
+        const auto visit_block = [&](int other_block)
+        {
+            for (unsigned l = lanes; l != 0; l &= l - 1)
+            {
+                const int i = std::countr_zero(l);
+                for (unsigned hits = others.block(other_block).overlapping(block(k).box(i)); hits != 0; hits &= hits - 1)
+                    visit(k * arity + i, other_block * arity + std::countr_zero(hits));
+            }
+        };
+        others.query_blocks(around, visit_block);
+    }
+
 private:
     // Down to the nodes of a level: 0 the leaves, 1 the blocks of leaves.
     template <class Test, class Visit>

@@ -106,6 +106,17 @@ public:
         return true;
     }
 
+    /// Calls visit(item, other) where the boxes of a tree overlap those of a layer.
+    template <class Visit>
+    void for_each_overlap(const BoxTree& tree, Layer layer, const Visit& visit) const
+    {
+        for (int k = 0; k < tree.block_count(); ++k)
+        {
+            const int left = tree.leaf_count() - k * BoxTree::arity;
+            visit_overlaps(tree, k, left >= BoxTree::arity ? (1u << BoxTree::arity) - 1 : (1u << left) - 1, layer, visit);
+        }
+    }
+
     /// Of the moving layer: eight neighbours each, which go through the trees together; one more for what is not in a tree yet.
     [[nodiscard]] int block_count() const
     {
@@ -186,47 +197,37 @@ private:
         }
     }
 
-    // The changed ones of a block against all blocks that they may overlap.
+    // The changed ones of a block against all that they may overlap.
     template <class Visit>
     void visit_block(const BoxTree& tree, int k, const Visit& visit) const
     {
-        int lanes[BoxTree::arity];
-        int count = 0;
-        FloatBox around;
+        unsigned lanes = 0;
         for (int i = 0; i < BoxTree::arity && k * BoxTree::arity + i < tree.leaf_count(); ++i)
         {
             const FloatBox b = tree.block(k).box(i);
-            if (b.lx > b.ux || !has_changed(tree.item(k * BoxTree::arity + i)))
-                continue;
-            lanes[count++] = i;
-            around = unite(around, b);
+            if (b.lx <= b.ux && has_changed(tree.item(k * BoxTree::arity + i)))
+                lanes |= 1u << i;
         }
-        if (count == 0)
-            return;
-        for (const Forest& forest : m_forests)
+        if (lanes != 0)
         {
-            for (const BoxTree& others : forest.trees)
+            for (const Layer layer : {Layer::Moving, Layer::Resting})
+                visit_overlaps(tree, k, lanes, layer, visit);
+        }
+    }
+
+    template <class Visit>
+    void visit_overlaps(const BoxTree& tree, int k, unsigned lanes, Layer layer, const Visit& visit) const
+    {
+        const Forest& forest = m_forests[static_cast<std::size_t>(layer)];
+        for (const BoxTree& others : forest.trees)
+            tree.for_each_overlap(k, lanes, others, [&](int own, int other) { visit(tree.item(own), others.item(other)); });
+        for (const std::int32_t other : forest.recent)
+        {
+            for (unsigned l = lanes; l != 0; l &= l - 1)
             {
-                others.query_blocks(around,
-                                    [&](int other_block)
-                                    {
-                                        const BoxBlock& boxes = others.block(other_block);
-                                        for (int i = 0; i < count; ++i)
-                                        {
-                                            const int item = tree.item(k * BoxTree::arity + lanes[i]);
-                                            unsigned hits = boxes.overlapping(tree.block(k).box(lanes[i]));
-                                            for (; hits != 0; hits &= hits - 1)
-                                                visit(item, others.item(other_block * BoxTree::arity + std::countr_zero(hits)));
-                                        }
-                                    });
-            }
-            for (const std::int32_t other : forest.recent)
-            {
-                for (int i = 0; i < count; ++i)
-                {
-                    if (overlaps(tree.block(k).box(lanes[i]), box(other)))
-                        visit(tree.item(k * BoxTree::arity + lanes[i]), other);
-                }
+                const int own = k * BoxTree::arity + std::countr_zero(l);
+                if (overlaps(tree.box(own), box(other)))
+                    visit(tree.item(own), other);
             }
         }
     }

@@ -46,4 +46,12 @@ void carry_impulses(const Manifold& old, Manifold& fresh);
     return least;
 }
 
+/// On the ways that both set out on they do not meet within the step.
+[[nodiscard]] inline bool stays_apart(const StepContext& ctx, const Contact& contact)
+{
+    return (contact.flags & contact_flag::plain) != 0 &&
+           (contact.manifold.count == 0 ||
+            least_separation(contact.manifold) > relative_motion(ctx.state, contact) + 0.1f * ctx.scene.tolerances.speculation);
+}
+
 } // namespace carom::internal

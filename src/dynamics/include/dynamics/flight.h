@@ -2,6 +2,7 @@
 
 // Bodies in free flight: exact paths, exact times of impact, exact impulses, within a sub-step of a unit.
 
+#include "core/crew.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
@@ -11,7 +12,10 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
 
 /// Flies the unit's bodies in flight through sub-step k, impact by impact, after the solver has moved everything else. What comes to rest against
 /// something becomes the solver's from the next sub-step on; its rows go to output.late_rows.
-void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
+void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output, Crew& crew);
+
+/// It is no longer on the way that the pairs of this step were found with.
+void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier);
 
 /// What advance_fliers writes down of the paths near triggers, for a unit where nothing flies.
 void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);

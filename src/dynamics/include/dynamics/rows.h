@@ -167,6 +167,7 @@ struct Flier
     std::int32_t event_own = none;
     std::int32_t event_shape = none; ///< none: a limit of the hinge, or a hold to be renewed
     std::int32_t event_state = none; ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
+    std::int32_t passes = none;      ///< contact with a one-way shape that it was found to go through, not noted yet
     std::int32_t event_version = 0;  ///< of that state when the event was computed
     bool deflected = false;          ///< its path is no longer the one that the pairs of this step were found with
     bool crowded = false;            ///< struck in a crowd: its way is checked against static shapes at the end of the step

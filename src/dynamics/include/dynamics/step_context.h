@@ -187,6 +187,7 @@ struct UnitOutput
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
     std::vector<std::int32_t> kicked_shapes;
+    std::vector<std::int32_t> deflected;  ///< fliers off the way they set out on, in order
     std::vector<PathPiece> path;          ///< of traced bodies, of each in the order of time
     std::vector<std::int32_t> last_piece; ///< of each state of the unit; empty before the first
     std::vector<RecordedPose> poses;      ///< after each sub-step, when asked for
@@ -231,6 +232,8 @@ struct Scratch
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
     std::vector<std::vector<Link>> links_of_task;
     std::vector<Link> links;
+    std::vector<TreeLeaf> reaches; ///< of what may be deflected
+    BoxTree reach_tree;
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
     std::vector<Link> solved_links; ///< those that get rows, by unit
@@ -253,7 +256,8 @@ struct Scratch
     std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
-    std::vector<Hold> holds; ///< Flier::most_held of each flier
+    std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
+    std::vector<Hold> holds;         ///< Flier::most_held of each flier
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
     std::vector<UnitOutput> outputs;
