@@ -12,8 +12,8 @@
 #include "dynamics/raw_events.h"
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
+#include "dynamics/unit_rows.h"
 #include "dynamics/wake.h"
-#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,35 +131,6 @@ void commit_state(const StepContext& ctx, std::int32_t index)
 
 // --- contacts and joints ---------------------------------------------------------------------------------------------------------------
 
-void commit_row(StepContext& ctx, const ContactRow& row)
-{
-    Contact& contact = ctx.state.contacts[row.contact];
-    Manifold& m = contact.manifold;
-    m.normal = row.n;
-    m.count = row.count;
-    m.rolling_impulse = row.rolling_impulse;
-    contact.flags &= ~contact_flag::loaded;
-    for (int i = 0; i < row.count; ++i)
-    {
-        const RowPoint& p = row.points[i];
-        m.points[i].anchor_a = p.ra;
-        m.points[i].anchor_b = p.rb;
-        m.points[i].normal_impulse = p.normal_impulse;
-        m.points[i].tangent_impulse = p.tangent_impulse;
-        m.points[i].total_impulse = p.total_impulse;
-        m.points[i].total_tangent = p.total_tangent;
-        if (p.normal_impulse > 0)
-            contact.flags |= contact_flag::loaded;
-    }
-}
-
-void commit_joint(StepContext& ctx, const JointWork& work)
-{
-    JointRecord& joint = ctx.state.joints[work.joint];
-    joint.force = (1 / ctx.dt) * work.force_sum;
-    joint.torque = work.torque_sum / ctx.dt;
-}
-
 // What a flier's hinge gave while flight kept it; forces are told as on body b.
 void commit_hinge(StepContext& ctx, const Flier& flier)
 {
@@ -207,7 +178,7 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
 {
     const SceneState& state = ctx.state;
     for (const ContactRow& row : output.late_rows)
-        commit_row(ctx, row);
+        commit_row(ctx.state, row);
     for (const RawTouch& t : output.begins)
     {
         ctx.state.graph_dirty = true;
@@ -354,12 +325,6 @@ void commit_and_sleep(StepContext& ctx)
         if ((scratch.states[i].flags & body_flag::unsound) != 0)
             scratch.unsound.push_back(scratch.state_bodies[i]);
     }
-    for_each_in_parts(ctx, scratch.wide_rows.size(), 64,
-                      [&](std::size_t i) { commit_wide_row(ctx.state, scratch.wide_rows[i]); });
-    for_each_in_parts(ctx, scratch.rows.size(), 512, [&](std::size_t i) { commit_row(ctx, scratch.rows[i]); });
-    for_each_in_parts(ctx, scratch.joints.size(), 512, [&](std::size_t i) { commit_joint(ctx, scratch.joints[i]); });
-    for_each_in_parts(ctx, scratch.wide_joints.size(), 64,
-                      [&](std::size_t i) { commit_wide_joint(ctx, scratch.wide_joints[i]); });
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
     note_untold_impacts(ctx);

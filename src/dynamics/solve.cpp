@@ -15,6 +15,7 @@
 #include "dynamics/springs.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_energy.h"
+#include "dynamics/unit_rows.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
@@ -914,8 +915,10 @@ void solve_large(StepContext& ctx)
         if (!is_large(scratch.units[u]))
             continue;
         UnitEnergy energy;
-        Crew::run(ctx.scene.def.tasks,
-                  [&](Crew& crew) { UnitSolver(ctx, scratch.units[u], scratch.outputs[u], energy, crew).run(); });
+        const TaskHooks& hooks = ctx.scene.def.tasks;
+        fill_unit(ctx, scratch.units[u], hooks);
+        Crew::run(hooks, [&](Crew& crew) { UnitSolver(ctx, scratch.units[u], scratch.outputs[u], energy, crew).run(); });
+        commit_unit(ctx, scratch.units[u], hooks);
     }
 }
 
@@ -945,8 +948,11 @@ void solve_small(StepContext& ctx)
                       const Unit& unit = scratch.units[u];
                       if (unit.alone)
                           fall(ctx, unit.first_state + 1);
-                      else if (!is_large(unit))
-                          UnitSolver(ctx, unit, scratch.outputs[u], energy, alone).run();
+                      if (unit.alone || is_large(unit))
+                          continue;
+                      fill_unit(ctx, unit, {});
+                      UnitSolver(ctx, unit, scratch.outputs[u], energy, alone).run();
+                      commit_unit(ctx, unit, {});
                   }
               });
 }

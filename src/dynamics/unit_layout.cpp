@@ -1,5 +1,5 @@
-// Everything that a unit needs is laid side by side: its states, copies of the kinematic bodies it meets, its rows sorted by colour. Places are
-// given out one after the other, which is little work; then all threads fill them.
+// Everything that a unit needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its rows sorted by colour. States are
+// filled here, on all threads; rows and joints in unit_rows.cpp, just before the unit is solved.
 
 #include "dynamics/unit_layout.h"
 
@@ -98,19 +98,6 @@ public:
             place_rows_of(unit);
     }
 
-    void fill_rows()
-    {
-        const std::size_t groups = m_scratch.lane_links.size() / lane_count;
-        m_scratch.wide_rows.resize(groups);
-        m_scratch.rows.resize(m_scratch.row_links.size());
-        for_items(
-            groups, [](const Unit& unit) { return unit.first_wide; },
-            [&](const StepContext&, const Unit& unit, std::int32_t g) { fill_group(unit, g); });
-        for_items(
-            m_scratch.rows.size(), [](const Unit& unit) { return unit.first_row; },
-            [&](const StepContext& unit_ctx, const Unit& unit, std::int32_t i) { fill_row(unit_ctx, unit, i); });
-    }
-
     // --- joints -----------------------------------------------------------------------------------------------------------------------
 
     void place_joints()
@@ -123,18 +110,13 @@ public:
             place_joints_of(unit);
     }
 
-    void fill_joints()
+    // For what unit_rows.cpp fills.
+    void make_room()
     {
+        m_scratch.wide_rows.resize(m_scratch.lane_links.size() / lane_count);
+        m_scratch.rows.resize(m_scratch.row_links.size());
         m_scratch.joints.resize(m_scratch.joint_places.size());
         m_scratch.wide_joints.resize(as_index(m_groups));
-        for_items(
-            m_scratch.joints.size(), [](const Unit& unit) { return unit.first_joint; },
-            [&](const StepContext& unit_ctx, const Unit&, std::int32_t i)
-            {
-                const JointPlace& place = m_scratch.joint_places[as_index(i)];
-                m_scratch.joints[as_index(i)] = prepare_joint(unit_ctx, place.joint, place.a, place.b);
-            });
-        fill_joint_lanes();
     }
 
     void count()
@@ -453,35 +435,6 @@ private:
             m_scratch.cores.push_back({lane, 0.5f * leaf.r0});
     }
 
-    void fill_group(const Unit& unit, std::int32_t group)
-    {
-        WideRow& row = m_scratch.wide_rows[as_index(group)];
-        const bool is_full = m_scratch.lane_links[as_index(group * lane_count + lane_count - 1)] != none;
-        is_full ? start_wide_row(row) : empty_wide_row(unit.first_state, row);
-        for (int i = 0; i < lane_count; ++i)
-        {
-            const std::int32_t link = m_scratch.lane_links[as_index(group * lane_count + i)];
-            if (link == none)
-                break;
-            const Link& l = m_scratch.solved_links[as_index(link)];
-            Contact& contact = m_state.contacts[l.contact];
-            contact.color = l.color;
-            contact.wide = group * lane_count + i;
-            fill_lane(m_ctx, l, row, i);
-        }
-        wide_kernels().prepare(&row, 1);
-    }
-
-    void fill_row(const StepContext& unit_ctx, const Unit& unit, std::int32_t i)
-    {
-        const Link& l = m_scratch.solved_links[as_index(m_scratch.row_links[as_index(i)])];
-        Contact& contact = m_state.contacts[l.contact];
-        contact.color = l.color;
-        ContactRow& row = m_scratch.rows[as_index(i)];
-        row = prepare_row(unit_ctx, l.contact, contact.manifold, l.a, l.b);
-        follow_closely(contact, unit, row);
-    }
-
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.
     void place_joints_of(Unit& unit)
     {
@@ -507,6 +460,8 @@ private:
             }
         }
         group_joints(unit, first_lane);
+        unit.first_joint_lane = static_cast<std::int32_t>(first_lane);
+        unit.joint_lane_count = static_cast<std::int32_t>(m_scratch.joint_lanes.size() - first_lane);
         unit.joint_count = static_cast<std::int32_t>(m_scratch.joint_places.size()) - unit.first_joint;
         unit.wide_joint_count = m_groups - unit.first_wide_joint;
     }
@@ -557,35 +512,6 @@ private:
         unit.joint_color_count = static_cast<std::int32_t>(m_scratch.joint_color_starts.size()) - unit.first_joint_color;
     }
 
-    // A task's share begins with a group.
-    void fill_joint_lanes()
-    {
-        const std::vector<JointLane>& lanes = m_scratch.joint_lanes;
-        const auto count = static_cast<int>(lanes.size());
-        const auto group_of = [&](int i) { return lanes[as_index(i)].lane / lane_count; };
-        run_tasks(m_ctx.scene.def.tasks, (count + items_per_task - 1) / items_per_task,
-                  [&](int task)
-                  {
-                      const auto next_group = [&](int i)
-                      {
-                          while (i > 0 && i < count && group_of(i) == group_of(i - 1))
-                              ++i;
-                          return i;
-                      };
-                      const int end = next_group(std::min((task + 1) * items_per_task, count));
-                      for (int i = next_group(task * items_per_task); i < end; ++i)
-                          fill_joint(lanes[as_index(i)]);
-                  });
-    }
-
-    void fill_joint(const JointLane& l)
-    {
-        WideJoint& group = m_scratch.wide_joints[as_index(l.lane / lane_count)];
-        if (l.lane % lane_count == 0)
-            group = empty_wide_joint(l.fixed);
-        fill_joint_lane(m_ctx, l.place.joint, l.place.a, l.place.b, group, l.lane % lane_count);
-    }
-
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
@@ -604,8 +530,7 @@ void lay_out_units(StepContext& ctx)
     layout.add_laws();
     layout.place_rows();
     layout.place_joints();
-    layout.fill_rows();
-    layout.fill_joints();
+    layout.make_room();
     layout.count();
 }
 

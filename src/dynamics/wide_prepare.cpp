@@ -252,7 +252,7 @@ void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a,
         wide.turns = 1;
 }
 
-void commit_wide_joint(StepContext& ctx, const WideJoint& wide)
+void commit_wide_joint(const StepContext& ctx, const WideJoint& wide)
 {
     for (int i = 0; i < lane_count; ++i)
     {

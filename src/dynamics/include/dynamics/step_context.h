@@ -49,6 +49,8 @@ struct Unit
     std::int32_t colors = 0;
     std::int32_t first_color = 0; ///< where the colors of its wide rows begin, and where the last ends, in Scratch::color_starts
     std::int32_t color_count = 0;
+    std::int32_t first_joint_lane = 0;
+    std::int32_t joint_lane_count = 0;
     std::int32_t first_joint_color = 0;
     std::int32_t joint_color_count = 0;
     std::int32_t slices = 1; ///< of each sub-step

@@ -35,6 +35,6 @@ void commit_wide_row(SceneState& state, const WideRow& row);
 
 [[nodiscard]] WideJoint empty_wide_joint(std::int32_t fixed);
 void fill_joint_lane(const StepContext& ctx, std::int32_t joint, std::int32_t a, std::int32_t b, WideJoint& wide, int lane);
-void commit_wide_joint(StepContext& ctx, const WideJoint& wide);
+void commit_wide_joint(const StepContext& ctx, const WideJoint& wide);
 
 } // namespace carom::internal
