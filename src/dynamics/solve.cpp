@@ -96,7 +96,7 @@ public:
                      .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
           m_joints(std::span(ctx.scratch.joints)
                        .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
-          m_wide(ctx.scratch.wide_rows.data() + unit.first_wide),
+          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store),
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness},
           m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
@@ -398,7 +398,7 @@ private:
 
     void guard_wide_core(const WideCore& core) const
     {
-        const WideRow& row = m_scratch.wide_rows[static_cast<std::size_t>(core.lane / lane_count)];
+        const WideRow& row = m_wide[core.lane / lane_count];
         const int i = core.lane % lane_count;
         const bool a_gives = row.inverse_mass_a.v[i] != 0;
         if (!a_gives && row.inverse_mass_b.v[i] == 0)
@@ -626,7 +626,7 @@ private:
             const bool loaded =
                 wide.points[0].normal_impulse.v[i] > 0 || (wide.count == 2 && wide.points[1].normal_impulse.v[i] > 0);
             if (loaded)
-                bounce_lane(wide, (m_unit.first_wide + group) * lane_count + i, k);
+                bounce_lane(wide, (m_unit.wide_store + group) * lane_count + i, k);
         }
     }
 
@@ -922,21 +922,50 @@ void solve_large(StepContext& ctx)
     }
 }
 
-// Batches of about 256 bodies: enough work for a task, and a choice that depends on the units alone.
-void solve_small(StepContext& ctx)
+// Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
+constexpr int batch_bodies = 512;
+
+// The units of a batch are solved one after the other in the same memory, which stays in the cache. Fills Scratch::order with where batches begin.
+void form_batches(Scratch& scratch)
 {
-    Scratch& scratch = ctx.scratch;
     std::vector<std::int32_t>& starts = scratch.order;
     starts.assign(1, 0);
+    std::int32_t store = 0;
+    std::int32_t large = 0;
+    std::int32_t most = 0; // groups of a unit of the batch
     int bodies = 0;
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
     {
-        bodies += is_large(scratch.units[i]) ? 0 : scratch.units[i].state_count;
-        if (bodies < 256 && i + 1 < scratch.units.size())
+        Unit& unit = scratch.units[i];
+        unit.wide_store = store;
+        if (is_large(unit))
+        {
+            unit.wide_store = large;
+            large += unit.wide_count;
+        }
+        else
+        {
+            bodies += unit.state_count;
+            most = std::max(most, unit.wide_count);
+        }
+        if (bodies < batch_bodies && i + 1 < scratch.units.size())
             continue;
         starts.push_back(static_cast<std::int32_t>(i) + 1);
+        store += most;
+        most = 0;
         bodies = 0;
     }
+    // The large ones come behind.
+    for (Unit& unit : scratch.units)
+        unit.wide_store += is_large(unit) ? store : 0;
+    if (scratch.wide_rows.size() < static_cast<std::size_t>(store + large))
+        scratch.wide_rows.resize(static_cast<std::size_t>(store + large));
+}
+
+void solve_small(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    const std::vector<std::int32_t>& starts = scratch.order;
     run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
               [&](int task)
               {
@@ -968,6 +997,7 @@ void solve_units(StepContext& ctx)
         scratch.outputs[i].clear();
     mark_traced(ctx);
     scratch.pushes.resize(scratch.states.size());
+    form_batches(scratch);
     solve_large(ctx);
     solve_small(ctx);
 }

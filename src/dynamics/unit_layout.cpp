@@ -113,7 +113,6 @@ public:
     // For what unit_rows.cpp fills.
     void make_room()
     {
-        m_scratch.wide_rows.resize(m_scratch.lane_links.size() / lane_count);
         m_scratch.rows.resize(m_scratch.row_links.size());
         m_scratch.joints.resize(m_scratch.joint_places.size());
         m_scratch.wide_joints.resize(as_index(m_groups));
@@ -432,7 +431,7 @@ private:
         const Contact& contact = m_state.contacts[l.contact];
         const Leaf& leaf = m_state.shapes[is_dynamic(unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
         if (leaf.type == LeafType::Circle)
-            m_scratch.cores.push_back({lane, 0.5f * leaf.r0});
+            m_scratch.cores.push_back({lane - unit.first_wide * lane_count, 0.5f * leaf.r0});
     }
 
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.

@@ -27,21 +27,23 @@ void for_each_place(const TaskHooks& hooks, std::int32_t begin, std::int32_t cou
               });
 }
 
-void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t group)
+// The unit's g-th.
+void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
 {
     const Scratch& scratch = ctx.scratch;
-    WideRow& row = ctx.scratch.wide_rows[as_index(group)];
-    const bool is_full = scratch.lane_links[as_index(group * lane_count + lane_count - 1)] != none;
+    const std::int32_t first_lane = (unit.first_wide + g) * lane_count;
+    WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
+    const bool is_full = scratch.lane_links[as_index(first_lane + lane_count - 1)] != none;
     is_full ? start_wide_row(row) : empty_wide_row(unit.first_state, row);
     for (int i = 0; i < lane_count; ++i)
     {
-        const std::int32_t link = scratch.lane_links[as_index(group * lane_count + i)];
+        const std::int32_t link = scratch.lane_links[as_index(first_lane + i)];
         if (link == none)
             break;
         const Link& l = scratch.solved_links[as_index(link)];
         Contact& contact = ctx.state.contacts[l.contact];
         contact.color = l.color;
-        contact.wide = group * lane_count + i;
+        contact.wide = (unit.wide_store + g) * lane_count + i;
         fill_lane(ctx, l, row, i);
     }
     wide_kernels().prepare(&row, 1);
@@ -95,8 +97,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 void fill_unit(const StepContext& ctx, const Unit& unit, const TaskHooks& hooks)
 {
     const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
-    for_each_place(hooks, unit.first_wide, unit.wide_count, groups_per_part,
-                   [&](std::int32_t g) { fill_group(unit_ctx, unit, g); });
+    for_each_place(hooks, 0, unit.wide_count, groups_per_part, [&](std::int32_t g) { fill_group(unit_ctx, unit, g); });
     for_each_place(hooks, unit.first_row, unit.row_count, rows_per_part, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
     for_each_place(hooks, unit.first_joint, unit.joint_count, rows_per_part,
                    [&](std::int32_t i)
@@ -110,7 +111,7 @@ void fill_unit(const StepContext& ctx, const Unit& unit, const TaskHooks& hooks)
 void commit_unit(const StepContext& ctx, const Unit& unit, const TaskHooks& hooks)
 {
     const Scratch& scratch = ctx.scratch;
-    for_each_place(hooks, unit.first_wide, unit.wide_count, groups_per_part,
+    for_each_place(hooks, unit.wide_store, unit.wide_count, groups_per_part,
                    [&](std::int32_t g) { commit_wide_row(ctx.state, scratch.wide_rows[as_index(g)]); });
     for_each_place(hooks, unit.first_row, unit.row_count, rows_per_part,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });

@@ -33,6 +33,8 @@ struct Unit
     std::int32_t first_row = 0; ///< contact rows, sorted by color
     std::int32_t row_count = 0;
     std::int32_t first_wide = 0; ///< groups of wide rows, sorted by color: of large units; rows are then what does not fit there
+    std::int32_t wide_store =
+        0; ///< where they are kept in Scratch::wide_rows: small units of a task, one after the other, in one place
     std::int32_t wide_count = 0;
     std::int32_t first_wide_joint = 0;
     std::int32_t wide_joint_count = 0;
@@ -139,7 +141,7 @@ struct BodyPush
 /// A ball in a wide row against what does not give way.
 struct WideCore
 {
-    std::int32_t lane; ///< group * lane_count + lane
+    std::int32_t lane; ///< of the unit: group * lane_count + lane
     float depth;
 };
 
