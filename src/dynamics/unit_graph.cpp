@@ -317,6 +317,7 @@ public:
             if (unit == none)
                 continue;
             ++tally(unit).joints;
+            tally(unit).hangs |= !is_moving_dynamic(state, joint.body_a) || !is_moving_dynamic(state, joint.body_b);
             if (tally(unit).bodies <= UnitEnergy::most_bodies)
                 slice(unit, swing_rate(joint), slice_swing);
         }
@@ -357,11 +358,12 @@ public:
             u = u == none ? none : place[static_cast<std::size_t>(u)];
     }
 
-    // Joints that lie on something: nearly as many contacts bear a load. What they hold exactly otherwise is held softly here, as in piles.
+    // Figures and chains that lie on something: for four joints a contact bears a load, and none holds to what does not move. What joints hold exactly
+    // otherwise is held softly here, as in piles.
     [[nodiscard]] bool is_heap(std::int32_t unit)
     {
         const UnitTally& t = tally(unit);
-        return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && 4 * t.bearing >= 3 * t.joints && t.fliers == 0 &&
+        return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && 4 * t.bearing >= t.joints && !t.hangs && t.fliers == 0 &&
                scratch.units[static_cast<std::size_t>(unit)].slices == 1;
     }
 

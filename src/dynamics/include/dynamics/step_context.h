@@ -100,6 +100,7 @@ struct UnitTally
     std::int32_t fliers = 0;
     std::int32_t joints = 0;
     std::int32_t bearing = 0; ///< contacts that bore a load in the last step
+    bool hangs = false;       ///< a joint holds to what does not move
 };
 
 inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
