@@ -21,6 +21,7 @@ constexpr float slice_turn = 0.02f;  // rad
 constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
 constexpr int contacts_per_task = 1024;
+constexpr std::size_t bodies_per_task = 1024;
 constexpr int heap_bodies = 256; // in a batch
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
@@ -123,15 +124,20 @@ public:
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
         if (!ctx.scene.def.continuous)
             return;
-        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
-        {
-            const int body = state.awake_bodies[i];
-            if (state.bodies[body].type != BodyType::Dynamic)
-                continue;
-            const std::int32_t kind = flight_of(state, body);
-            if (kind != earthbound && (kind == none || is_closed(ctx, kind, body)))
-                scratch.flight[i] = kind;
-        }
+        run_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                      for (std::size_t i = first; i < last; ++i)
+                          scratch.flight[i] = kind_of_flight(state.awake_bodies[i]);
+                  });
+    }
+
+    [[nodiscard]] std::int32_t kind_of_flight(int body) const
+    {
+        if (state.bodies[body].type != BodyType::Dynamic)
+            return earthbound;
+        const std::int32_t kind = flight_of(state, body);
+        return kind == earthbound || kind == none || is_closed(ctx, kind, body) ? kind : earthbound;
     }
 
     // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
@@ -414,10 +420,13 @@ public:
     void link_units()
     {
         reset_parents(ctx);
+        scratch.has_kinematic = false;
         for (const std::int32_t body : state.awake_bodies)
         {
             if (state.bodies[body].type == BodyType::Dynamic)
                 link_bodies(ctx, body, state.bodies[body].island);
+            else
+                scratch.has_kinematic = true;
         }
         for (const Link& l : scratch.links)
         {

@@ -244,6 +244,8 @@ private:
             l.a = state_at(unit, l.a);
             l.b = state_at(unit, l.b);
         }
+        if (!m_scratch.has_kinematic)
+            return;
         for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
         {
             const JointRecord& joint = m_state.joints[m_scratch.solved_joints[as_index(i)]];
@@ -486,12 +488,29 @@ private:
         return m_scratch.flight[place] != earthbound || m_scratch.grounded[place] != earthbound;
     }
 
+    // By counting; those of a bin stay in order.
+    void sort_by_bin(std::size_t first)
+    {
+        std::vector<JointLane>& lanes = m_scratch.joint_lanes;
+        if (lanes.size() == first)
+            return;
+        std::int32_t starts[2 * color_limit + 1] = {};
+        for (std::size_t i = first; i < lanes.size(); ++i)
+            ++starts[lanes[i].bin + 1];
+        for (int bin = 0; bin < 2 * color_limit; ++bin)
+            starts[bin + 1] += starts[bin];
+        std::vector<JointLane>& sorted = m_scratch.sorted_lanes;
+        sorted.resize(lanes.size() - first);
+        for (std::size_t i = first; i < lanes.size(); ++i)
+            sorted[as_index(starts[lanes[i].bin]++)] = lanes[i];
+        std::copy(sorted.begin(), sorted.end(), lanes.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+
     // Sorted by bin, eight by eight; each learns its lane.
     void group_joints(Unit& unit, std::size_t first)
     {
         const auto begin = m_scratch.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
-        std::stable_sort(begin, m_scratch.joint_lanes.end(),
-                         [](const JointLane& x, const JointLane& y) { return x.bin < y.bin; });
+        sort_by_bin(first);
         unit.first_joint_color = static_cast<std::int32_t>(m_scratch.joint_color_starts.size());
         std::int32_t bin = none;
         int lane = 0;

@@ -234,6 +234,7 @@ struct Scratch
     std::vector<std::vector<ContactNews>> news_of_task;
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
+    bool has_kinematic = false;              ///< a kinematic body is awake
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
     std::vector<std::vector<Link>> links_of_task;
     std::vector<Link> links;
@@ -271,6 +272,7 @@ struct Scratch
     std::vector<std::uint64_t> color_masks;
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
+    std::vector<JointLane> sorted_lanes;
     std::vector<FlierSeed> flier_seeds;
     std::vector<float> least_sleep; ///< s, of each island, at the place of its label
     std::vector<std::int32_t> order;
