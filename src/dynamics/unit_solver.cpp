@@ -1,0 +1,866 @@
+// One unit through all its sub-steps. In every sub-step the soft rows advance first, then the unit's balls in flight through the same interval, then
+// everything relaxes and bounces.
+
+#include "dynamics/unit_solver.h"
+
+#include "core/trigonometry.h"
+#include "dynamics/contact_solver.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
+#include "dynamics/flight.h"
+#include "dynamics/force_laws.h"
+#include "dynamics/joint_solver.h"
+#include "dynamics/material.h"
+#include "dynamics/prepare.h"
+#include "dynamics/springs.h"
+#include "dynamics/wide_kernels.h"
+#include "dynamics/wide_prepare.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int turns = 3;
+constexpr int settle_turns = 16;
+constexpr int groups_per_share = 16;
+constexpr int states_per_share = 256;
+constexpr float follow_turn = 0.03f; // rad
+
+// Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
+void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
+{
+    RowPoint points[2];
+    bool taken[2] = {};
+    for (int i = 0; i < fresh.count; ++i)
+    {
+        for (int j = 0; j < row.count; ++j)
+        {
+            const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && row.count == 1);
+            if (!same || taken[j])
+                continue;
+            points[i] = row.points[j];
+            taken[j] = true;
+            break;
+        }
+    }
+    for (int j = 0; j < row.count; ++j)
+    {
+        if (taken[j])
+            continue;
+        points[0].total_impulse += row.points[j].total_impulse;
+        points[0].total_tangent += row.points[j].total_tangent;
+    }
+    std::copy(std::begin(points), std::end(points), std::begin(row.points));
+}
+
+class UnitSolver
+{
+public:
+    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy, Crew& crew)
+        : m_ctx(unit.slices > 1 ? sliced(ctx, unit.slices) : ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
+          m_energy(energy), m_crew(crew),
+          m_watches_energy(unit.precise || (!unit.heap && unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
+          m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
+          m_rows(std::span(ctx.scratch.rows)
+                     .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
+          m_joints(std::span(ctx.scratch.joints)
+                       .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
+          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store),
+          m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness},
+          m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
+          m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
+          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.flier_count == 0)
+    {}
+
+    void run()
+    {
+        place_joints(m_view, m_ctx.state, m_joints);
+        for (int k = 0; k < m_ctx.substeps; ++k)
+            substep(k);
+        if (m_ctx.slices > 1)
+            scale_impulses(static_cast<float>(m_ctx.slices));
+    }
+
+private:
+    void substep(int k)
+    {
+        apply_force_laws(m_ctx, m_unit, k, m_output);
+        raise_fast(m_ctx, m_unit, k, m_output);
+        note_approaches();
+        if (m_watches_energy)
+            m_energy.begin(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
+                           0.1f * m_ctx.scene.tolerances.slop);
+        integrate_velocities(k);
+        warm_start_all(k);
+        predict_bends();
+        solve(true);
+        integrate_positions();
+        if (is_direct() && m_output.direct->turns_too_far())
+            close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
+        kick_springs_after(m_view, m_ctx.state, m_joints);
+        guard_cores();
+        fly(k);
+        refresh_rows();
+        place_joints(m_view, m_ctx.state, m_joints);
+        prepare_direct();
+        solve(false);
+        if (m_watches_energy)
+            m_energy.note_load(m_rows, late_rows());
+        if (m_starts_by_body)
+            note_pushes();
+        const bool kicked = bounce(k);
+        if (m_watches_energy && !kicked)
+            m_energy.restore(is_direct());
+        finish_substep(k);
+    }
+
+    void fly(int k)
+    {
+        if (m_unit.flier_count == 0)
+        {
+            trace_paths(m_ctx, m_unit, k, m_output);
+            return;
+        }
+        if (m_watches_energy)
+            m_energy.before_impacts();
+        advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
+        if (m_watches_energy)
+            m_energy.after_impacts();
+    }
+
+    // What is kept for the next step's warm start is of a whole sub-step.
+    void scale_impulses(float by)
+    {
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (ContactRow& row : rows)
+                scale_row(row, by);
+        }
+        for (const JointWork& work : m_joints)
+        {
+            for (float& impulse : m_ctx.state.joints[work.joint].impulses)
+                impulse *= by;
+        }
+    }
+
+    [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
+
+    void note_approaches()
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            note_approach(m_view, impact_row(i));
+        m_crew.share(m_unit.wide_count, groups_per_share,
+                     [&](int first, int last) { m_kernels.note_approach(m_wide + first, last - first, m_view.states); });
+        note_limit_approach(m_view, m_ctx.state, m_joints);
+    }
+
+    [[nodiscard]] ContactRow& impact_row(int i)
+    {
+        return m_scratch
+            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
+    }
+
+    // v += h a, then damping. Balls in flight have their own way.
+    void integrate_velocities(int k)
+    {
+        if (m_starts_by_body)
+        {
+            integrate_and_push(k);
+            return;
+        }
+        over_states(
+            [&](int i)
+            {
+                BodyState& s = m_view.states[i];
+                if ((s.flags & body_flag::dynamic) != 0 && (s.flags & body_flag::flier) == 0)
+                    accelerate(s, m_view.constants[i], m_ctx.h);
+            });
+    }
+
+    template <class Visit>
+    void over_states(const Visit& visit)
+    {
+        m_crew.share(m_unit.state_count, states_per_share,
+                     [&](int first, int last)
+                     {
+                         for (int i = m_unit.first_state + first; i < m_unit.first_state + last; ++i)
+                             visit(i);
+                     });
+    }
+
+    // Where points and normals keep through the step, all that the rows gave to a body in the last sub-step is given again at once: what warm
+    // starting adds up row by row.
+    void integrate_and_push(int k)
+    {
+        over_states(
+            [&](int i)
+            {
+                BodyState& s = m_view.states[i];
+                BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+                if ((s.flags & body_flag::dynamic) == 0)
+                    return;
+                accelerate(s, m_view.constants[i], m_ctx.h);
+                const BodyPush before{s.velocity, s.angular_velocity};
+                if (k > 0)
+                {
+                    s.velocity += push.velocity;
+                    s.angular_velocity += push.angular_velocity;
+                }
+                push = before;
+            });
+    }
+
+    void note_pushes()
+    {
+        over_states(
+            [&](int i)
+            {
+                const BodyState& s = m_view.states[i];
+                BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+                push = {s.velocity - push.velocity, s.angular_velocity - push.angular_velocity};
+            });
+    }
+
+    // Colour by colour: within one no two groups share a body that gives way, and all threads take shares.
+    template <class Pass>
+    void over_colors(std::span<const std::int32_t> starts, const Pass& pass)
+    {
+        if (starts.empty())
+            return;
+        if (!m_crew.has_helpers())
+        {
+            pass(starts.front(), starts.back());
+            return;
+        }
+        for (std::size_t c = 0; c + 1 < starts.size(); ++c)
+            m_crew.share(starts[c + 1] - starts[c], groups_per_share,
+                         [&](int first, int last) { pass(starts[c] + first, starts[c] + last); });
+    }
+
+    [[nodiscard]] std::span<const std::int32_t> contact_colors() const
+    {
+        return std::span(m_scratch.color_starts)
+            .subspan(static_cast<std::size_t>(m_unit.first_color), static_cast<std::size_t>(m_unit.color_count));
+    }
+    [[nodiscard]] std::span<const std::int32_t> joint_colors() const
+    {
+        return std::span(m_scratch.joint_color_starts)
+            .subspan(static_cast<std::size_t>(m_unit.first_joint_color), static_cast<std::size_t>(m_unit.joint_color_count));
+    }
+
+    void warm_start_all(int k)
+    {
+        kick_springs_before(m_view, m_ctx.state, m_joints);
+        prepare_direct();
+        if (!m_joints.empty())
+            warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
+        if (m_starts_by_body && k > 0)
+            return;
+        over_colors(joint_colors(), [&](int first, int last)
+                    { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
+        over_colors(contact_colors(),
+                    [&](int first, int last) { m_kernels.warm_start(m_wide + first, last - first, m_view.states); });
+        warm_start(m_view, m_rows);
+        warm_start(m_view, late_rows());
+    }
+
+    // At the present pose.
+    void prepare_direct()
+    {
+        if (m_joints.empty())
+            return;
+        if (!m_output.direct)
+            m_output.direct = std::make_unique<DirectSolve>();
+        m_output.direct->prepare(m_view, m_ctx.state, m_joints);
+    }
+    [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
+
+    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word. Contacts of a few bodies are solved until
+    // they agree: what a wall stops last still comes into its neighbours, and overlap is pushed out against the forces.
+    void solve(bool use_bias)
+    {
+        const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
+        const std::size_t contacts = m_rows.size() + late_rows().size();
+        const bool settles = m_unit.precise && contacts > 0 && contacts + m_joints.size() > 1;
+        const int most = settles ? settle_turns : alternate ? turns : 1;
+        for (int turn = 0; turn < most; ++turn)
+        {
+            if (settles)
+                note_velocities();
+            if (!m_joints.empty())
+                solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
+            m_softness.share = m_joint_softness.share = turn + 1 == most ? 1 : 0;
+            const auto joint_pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
+            over_colors(joint_colors(), [&](int first, int last)
+                        { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
+            const auto contact_pass = use_bias ? m_kernels.solve : m_kernels.relax;
+            over_colors(contact_colors(),
+                        [&](int first, int last) { contact_pass(m_wide + first, last - first, m_view.states, m_softness); });
+            solve_rows(m_view, m_rows, use_bias);
+            solve_rows(m_view, late_rows(), use_bias);
+            if (settles && have_settled() && (!alternate || turn + 1 >= turns))
+                break;
+        }
+        if (alternate)
+            m_output.direct->solve(use_bias);
+    }
+
+    struct Velocity
+    {
+        Vec2 linear;
+        float angular;
+    };
+
+    void note_velocities()
+    {
+        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            m_velocities[static_cast<std::size_t>(i)] = {s.velocity, s.angular_velocity};
+        }
+    }
+
+    // No body's speed has changed by more than a hundredth of the slop per sub-step.
+    [[nodiscard]] bool have_settled() const
+    {
+        const float tiny = 0.01f * m_ctx.scene.tolerances.slop * m_view.inverse_h;
+        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            const StateConstants& c = m_view.constants[m_unit.first_state + 1 + i];
+            const Velocity& old = m_velocities[static_cast<std::size_t>(i)];
+            const Vec2 dv = s.velocity - old.linear;
+            const float dw = s.angular_velocity - old.angular;
+            const float turning = c.inverse_inertia > 0 ? dw * dw * c.inverse_mass.x / c.inverse_inertia : 0;
+            if (dot(dv, dv) + turning > tiny * tiny)
+                return false;
+        }
+        return true;
+    }
+
+    // x += h v
+    void integrate_positions()
+    {
+        over_states(
+            [&](int i)
+            {
+                BodyState& s = m_view.states[i];
+                if ((s.flags & body_flag::flier) != 0)
+                    return;
+                s.delta_position += drift(m_view, i);
+                if (s.angular_velocity != 0)
+                    s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
+            });
+    }
+
+    // The last line of defence, for balls that something far heavier presses into what does not give way: no deeper than half the radius.
+    void guard_cores()
+    {
+        for (const ContactRow& row : m_rows)
+        {
+            if (row.core > 0 && row.count == 1)
+                guard_core(row);
+        }
+        for (int i = m_unit.first_core; i < m_unit.first_core + m_unit.core_count; ++i)
+            guard_wide_core(m_scratch.cores[static_cast<std::size_t>(i)]);
+    }
+
+    void guard_wide_core(const WideCore& core) const
+    {
+        const WideRow& row = m_wide[core.lane / lane_count];
+        const int i = core.lane % lane_count;
+        const bool a_gives = row.inverse_mass_a.v[i] != 0;
+        if (!a_gives && row.inverse_mass_b.v[i] == 0)
+            return;
+        const BodyState& a = m_view.states[row.a.v[i]];
+        const BodyState& b = m_view.states[row.b.v[i]];
+        const Vec2 n{row.nx.v[i], row.ny.v[i]};
+        const WidePoint& p = row.points[0];
+        const float separation = p.base.v[i] + dot(b.delta_position - a.delta_position, n) +
+                                 turned(b, p.along_b.v[i], p.across_b.v[i]) - turned(a, p.along_a.v[i], p.across_a.v[i]);
+        const float depth = -separation - core.depth;
+        if (depth > 0)
+            m_view.states[a_gives ? row.a.v[i] : row.b.v[i]].delta_position += (a_gives ? -depth : depth) * n;
+    }
+
+    // n · (R r - r)
+    [[nodiscard]] static float turned(const BodyState& s, float along, float across)
+    {
+        return (s.delta_rotation.c - 1) * along + s.delta_rotation.s * across;
+    }
+
+    void guard_core(const ContactRow& row)
+    {
+        const float depth = -row_separation(m_view, row, row.points[0]) - row.core;
+        if (depth <= 0)
+            return;
+        const bool a_gives = m_view.constants[row.a].inverse_mass != Vec2{};
+        BodyState& ball = m_view.states[a_gives ? row.a : row.b];
+        ball.delta_position += (a_gives ? -depth : depth) * row.n;
+    }
+
+    // --- contacts in small units: looked at anew within the step -----------------------------------------------------------------------
+
+    [[nodiscard]] BodyPose pose_of(int body, std::int32_t state, float ahead) const
+    {
+        const BodySim& sim = m_ctx.state.sims[static_cast<std::size_t>(body)];
+        const BodyState& s = m_scratch.states[static_cast<std::size_t>(state)];
+        Rotation q = s.delta_rotation;
+        if (ahead != 0 && s.angular_velocity != 0)
+            q = Rotation::from_angle(ahead * s.angular_velocity) * q;
+        return {sim.center + s.delta_position + ahead * s.velocity, q * sim.rotation, sim.local_center};
+    }
+
+    [[nodiscard]] Manifold manifold_of(int index, const ContactRow& row, float ahead) const
+    {
+        const Contact& contact = m_ctx.state.contacts[index];
+        return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, row.a, ahead), pose_of(contact.body_b, row.b, ahead),
+                              1e9f);
+    }
+
+    struct Facing
+    {
+        int contact;
+        Manifold manifold;
+    };
+
+    // The contact through which the row's shapes face each other now: a ball that rolls over a seam changes from piece to piece.
+    [[nodiscard]] Facing facing(const ContactRow& row, float ahead) const
+    {
+        const SceneState& state = m_ctx.state;
+        Facing best{row.contact, manifold_of(row.contact, row, ahead)};
+        const Contact& contact = state.contacts[row.contact];
+        const bool chain_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
+        const int piece = chain_is_a ? contact.shape_a : contact.shape_b;
+        const int visitor = chain_is_a ? contact.shape_b : contact.shape_a;
+        if (best.manifold.count == 1 || state.shapes[piece].owner == piece)
+            return best;
+        for (int edge = state.bodies[state.shapes[visitor].body].first_contact; edge != none;
+             edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& other = state.contacts[edge >> 1];
+            const int other_piece = chain_is_a ? other.shape_a : other.shape_b;
+            if ((chain_is_a ? other.shape_b : other.shape_a) != visitor ||
+                state.shapes[other_piece].owner != state.shapes[piece].owner)
+                continue;
+            const Manifold m = manifold_of(edge >> 1, row, ahead);
+            if (m.count == 1 && (best.manifold.count != 1 || m.points[0].separation < best.manifold.points[0].separation))
+                best = {edge >> 1, m};
+        }
+        return best;
+    }
+
+    // The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
+    void predict_bends()
+    {
+        for (ContactRow& row : m_rows)
+            predict_bend(row);
+        for (ContactRow& row : late_rows())
+            predict_bend(row);
+    }
+
+    void predict_bend(ContactRow& row) const
+    {
+        if (row.followed != 0 && is_carried(row))
+            predict_turn(row);
+        if (row.refreshed == 0 || row.count != 1)
+            return;
+        RowPoint& p = row.points[0];
+        p.predicted_bend = 0;
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const float now = row_separation(m_view, row, p);
+        const float reach = m_ctx.h * (length(b.velocity - a.velocity) + std::fabs(a.angular_velocity) * length(p.ra));
+        if (now > reach)
+            return;
+        const Manifold ahead = facing(row, m_ctx.h).manifold;
+        if (ahead.count != 1 || dot(ahead.normal, row.n) < 0.5f)
+            return;
+        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
+        p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
+    }
+
+    // By a kinematic body that turns.
+    [[nodiscard]] bool is_carried(const ContactRow& row) const
+    {
+        const auto carries = [](const BodyState& s) { return (s.flags & body_flag::dynamic) == 0 && s.angular_velocity != 0; };
+        return carries(m_view.states[row.a]) || carries(m_view.states[row.b]);
+    }
+
+    // Of corners and edges, to second order in the turn: points go around, and the face of a, or of b, turns meanwhile.
+    void predict_turn(ContactRow& row) const
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const float wa = a.angular_velocity;
+        const float wb = b.angular_velocity;
+        const float turning = 0.5f * m_ctx.h * m_ctx.h;
+        for (int i = 0; i < row.count; ++i)
+        {
+            RowPoint& p = row.points[i];
+            const Vec2 v = b.velocity + cross(wb, p.rb) - a.velocity - cross(wa, p.ra);
+            p.predicted_bend =
+                turning * (wa * wa * dot(row.n, p.ra) - wb * wb * dot(row.n, p.rb) + (wa + wb) * dot(perp(row.n), v));
+        }
+    }
+
+    void refresh_rows()
+    {
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (ContactRow& row : rows)
+            {
+                if (row.followed != 0)
+                    follow(row);
+                else
+                    refresh_row(row);
+            }
+        }
+    }
+
+    // Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
+    void follow(ContactRow& row)
+    {
+        if (row.count == 0)
+            return; // of a body that has taken off
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const float least = (is_carried(row) ? 0.1f : 1.0f) * follow_turn;
+        if (!has_turned(row.turn_a, a.delta_rotation, least) && !has_turned(row.turn_b, b.delta_rotation, least))
+            return;
+        Manifold fresh = manifold_of(row.contact, row, 0);
+        carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
+        set_row_geometry(m_scratch, row, fresh);
+        m_ctx.state.contacts[row.contact].manifold = fresh;
+    }
+
+    [[nodiscard]] static bool has_turned(Rotation from, Rotation to, float least)
+    {
+        return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > least;
+    }
+
+    void refresh_row(ContactRow& row)
+    {
+        if (row.refreshed == 0 || row.count != 1)
+            return;
+        const Facing now = facing(row, 0);
+        if (now.manifold.count != 1)
+            return;
+        if (now.contact != row.contact && has_row(now.contact))
+        {
+            row.count = 0; // rolled over to a piece that has its own row
+            return;
+        }
+        set_row_geometry(m_scratch, row, now.manifold);
+        if (now.contact == row.contact)
+            return;
+        m_ctx.state.contacts[now.contact].color = m_ctx.state.contacts[row.contact].color;
+        m_ctx.state.contacts[row.contact].color = none;
+        forget_impulses(m_ctx.state.contacts[row.contact]);
+        row.contact = now.contact;
+    }
+
+    [[nodiscard]] bool has_row(int contact)
+    {
+        const auto is_it = [&](const ContactRow& row) { return row.contact == contact; };
+        return std::any_of(m_rows.begin(), m_rows.end(), is_it) ||
+               std::any_of(m_output.late_rows.begin(), m_output.late_rows.end(), is_it);
+    }
+
+    // --- impacts ---------------------------------------------------------------------------------------------------------------------
+
+    // True where something kicked.
+    bool bounce(int k)
+    {
+        const int before = m_output.bulk_impacts;
+        const std::size_t kicks = m_output.kicked_shapes.size();
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            bounce_row(impact_row(i), k);
+        for (int g = 0; g < m_unit.wide_count; ++g)
+            bounce_wide_row(g, k);
+        bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
+        if (is_direct() && m_output.bulk_impacts != before)
+            m_output.direct->keep_together();
+        return m_output.kicked_shapes.size() != kicks;
+    }
+
+    // Lanes that bear a load: told once, bounced once.
+    void bounce_wide_row(int group, int k)
+    {
+        WideRow& wide = m_wide[group];
+        unsigned news = wide.may_hit | wide.untold;
+        for (; news != 0; news &= news - 1)
+        {
+            const int i = std::countr_zero(news);
+            const bool loaded =
+                wide.points[0].normal_impulse.v[i] > 0 || (wide.count == 2 && wide.points[1].normal_impulse.v[i] > 0);
+            if (loaded)
+                bounce_lane(wide, (m_unit.wide_store + group) * lane_count + i, k);
+        }
+    }
+
+    void bounce_lane(WideRow& wide, std::int32_t lane, int k)
+    {
+        const unsigned bit = 1u << (lane % lane_count);
+        float approach = 0;
+        for (int p = 0; p < wide.count; ++p)
+        {
+            if (wide.points[p].normal_impulse.v[lane % lane_count] > 0)
+                approach = std::max(approach, wide.points[p].approach.v[lane % lane_count]);
+        }
+        const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
+        if (!strikes && (wide.untold & bit) == 0)
+            return;
+        ContactRow row = row_of_lane(m_ctx, lane);
+        row.hit = strikes ? 0 : 1;
+        const ContactRow before = row;
+        if ((wide.untold & bit) != 0)
+            begin_touch(row, k);
+        wide.untold &= ~bit;
+        if (!strikes)
+            return;
+        resolve_impact(row, approach, k);
+        wide.may_hit &= ~bit;
+        put_impulses(m_scratch, row, lane);
+        forget_pushes(before, row);
+    }
+
+    // What flies off is not pushed again by warm starting.
+    void forget_pushes(const ContactRow& before, const ContactRow& after)
+    {
+        if (!m_starts_by_body)
+            return;
+        for (int i = 0; i < before.count; ++i)
+        {
+            if (after.points[i].normal_impulse != 0)
+                continue;
+            const RowPoint& p = before.points[i];
+            const Vec2 impulse = p.normal_impulse * before.n + p.tangent_impulse * perp(before.n);
+            take_push(before.a, p.ra, -impulse);
+            take_push(before.b, p.rb, impulse);
+        }
+    }
+
+    void take_push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    {
+        const StateConstants& c = m_view.constants[state];
+        BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(state)];
+        push.velocity.x -= c.inverse_mass.x * impulse.x;
+        push.velocity.y -= c.inverse_mass.y * impulse.y;
+        push.angular_velocity -= c.inverse_inertia * cross(arm, impulse);
+    }
+
+    void bounce_row(ContactRow& row, int k)
+    {
+        if (row.hit != 0)
+            return;
+        float approach = 0;
+        float load = 0;
+        for (int i = 0; i < row.count; ++i)
+        {
+            load += row.points[i].normal_impulse;
+            if (row.points[i].normal_impulse > 0)
+                approach = std::max(approach, row.points[i].approach);
+        }
+        if (load <= 0)
+            return;
+        const bool first_touch = (m_ctx.state.contacts[row.contact].flags & contact_flag::touching) == 0;
+        if (first_touch)
+            begin_touch(row, k);
+        if (approach > m_ctx.rest_speed)
+            resolve_impact(row, approach, k);
+    }
+
+    void resolve_impact(ContactRow& row, float approach, int k)
+    {
+        row.hit = 1;
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        if (kick.a_fired)
+            m_output.kicked_shapes.push_back(contact.shape_a);
+        if (kick.b_fired)
+            m_output.kicked_shapes.push_back(contact.shape_b);
+        RawImpact raw{contact.shape_a, contact.shape_b, {}};
+        bounce_points(row, e, kick.speed);
+        for (int i = 0; i < row.count; ++i)
+            account_for_bounce(row.points[i], e, kick.speed, raw.event);
+        fill_impact(row, raw.event, approach, e, kick.speed, k);
+        m_output.impacts.push_back(raw);
+        ++m_output.bulk_impacts;
+    }
+
+    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
+    {
+        return e * std::max(p.approach, 0.0f) + kick;
+    }
+
+    // How much separating speed a point still lacks.
+    [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
+        return wanted_speed(p, e, kick) - dot(v, row.n);
+    }
+
+    void push(const ContactRow& row, RowPoint& p, float impulse) const
+    {
+        p.normal_impulse += impulse;
+        apply_impulse(m_view.states[row.a], m_view.constants[row.a], p.ra, -impulse * row.n);
+        apply_impulse(m_view.states[row.b], m_view.constants[row.b], p.rb, impulse * row.n);
+    }
+
+    // Two points struck at once bounce at once: a box that lands flat bounces flat.
+    void bounce_points(ContactRow& row, float e, float kick) const
+    {
+        if (e <= 0 && kick <= 0)
+            return;
+        RowPoint& p = row.points[0];
+        RowPoint& q = row.points[1];
+        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
+        {
+            const float k11 = 1 / p.normal_mass;
+            const float k22 = 1 / q.normal_mass;
+            const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
+            const float d1 = missing_speed(row, p, e, kick);
+            const float d2 = missing_speed(row, q, e, kick);
+            const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
+            const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
+            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0)
+            {
+                push(row, p, j1);
+                push(row, q, j2);
+                return;
+            }
+        }
+        for (int i = 0; i < row.count; ++i)
+        {
+            RowPoint& r = row.points[i];
+            if (r.normal_impulse > 0)
+                push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
+        }
+    }
+
+    static void account_for_bounce(RowPoint& p, float e, float kick, ImpactEvent& event)
+    {
+        const float wanted = wanted_speed(p, e, kick);
+        event.impulse += p.normal_impulse;
+        event.friction_impulse += p.tangent_impulse;
+        event.energy_lost += 0.5f * p.normal_impulse * (p.approach - wanted);
+        if (wanted > 0)
+        { // what flies off is not pushed again by warm starting
+            p.total_impulse += p.normal_impulse;
+            p.total_tangent += p.tangent_impulse;
+            p.normal_impulse = p.tangent_impulse = 0;
+        }
+    }
+
+    void fill_impact(const ContactRow& row, ImpactEvent& event, float approach, float e, float kick, int k)
+    {
+        const RowPoint& p = row.points[0];
+        const float mass_a = point_mass(m_view.constants[row.a], row.n, p.ra);
+        const float mass_b = point_mass(m_view.constants[row.b], row.n, p.rb);
+        event.normal = row.n;
+        event.point = point_of(row);
+        event.time = m_ctx.h * static_cast<float>(k + 1);
+        event.approach_speed = approach;
+        event.restitution = e;
+        event.friction = row.friction;
+        event.kick_speed = kick;
+        event.effective_mass_a = mass_a;
+        event.effective_mass_b = mass_b;
+        // Speeds before the impact, from those after it and the impulse.
+        const BodyState& a = m_view.states[row.a];
+        event.speed_a = dot(a.velocity + cross(a.angular_velocity, p.ra), row.n) + (mass_a > 0 ? event.impulse / mass_a : 0);
+        event.speed_b = event.speed_a - approach;
+    }
+
+    static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
+    {
+        const float turn = cross(arm, n);
+        const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
+        return inverse > 0 ? 1 / inverse : 0;
+    }
+
+    [[nodiscard]] Position point_of(const ContactRow& row) const
+    {
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position +
+               row.points[0].ra;
+    }
+
+    void begin_touch(const ContactRow& row, int k)
+    {
+        Contact& contact = m_ctx.state.contacts[row.contact];
+        contact.flags |= contact_flag::touching | contact_flag::begun;
+        m_output.begins.push_back(
+            {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
+    }
+
+    // --- sums over the step ------------------------------------------------------------------------------------------------------------
+
+    void finish_substep(int k)
+    {
+        for (ContactRow& row : m_rows)
+            sum_impulses(row);
+        for (ContactRow& row : late_rows())
+            sum_impulses(row);
+        finish_joint_substep(m_view, m_ctx.state, m_joints);
+        if (m_ctx.scene.def.record_substeps && (k + 1) % m_ctx.slices == 0)
+            record_poses(k);
+    }
+
+    static void sum_impulses(ContactRow& row)
+    {
+        for (int i = 0; i < row.count; ++i)
+        {
+            row.points[i].total_impulse += row.points[i].normal_impulse;
+            row.points[i].total_tangent += row.points[i].tangent_impulse;
+        }
+    }
+
+    void record_poses(int k);
+
+    StepContext m_ctx;
+    Scratch& m_scratch;
+    const Unit& m_unit;
+    UnitOutput& m_output;
+    UnitEnergy& m_energy; ///< memory that the units of a task share
+    Crew& m_crew;
+    bool m_watches_energy;
+    SolverView m_view;
+    std::span<ContactRow> m_rows;
+    std::span<JointWork> m_joints;
+    WideRow* m_wide;
+    WideSoftness m_softness;
+    WideJoint* m_wide_joints;
+    JointSoftness m_joint_softness;
+    bool m_starts_by_body;
+    const WideKernels& m_kernels = wide_kernels();
+    std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise units
+};
+
+void UnitSolver::record_poses(int k)
+{
+    for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+    {
+        const int body = m_scratch.state_bodies[static_cast<std::size_t>(i)];
+        if (body != none && (m_scratch.states[static_cast<std::size_t>(i)].flags & body_flag::dynamic) != 0)
+            m_output.poses.push_back({body, m_ctx.h * static_cast<float>(k + 1), pose_of(body, i, 0).frame()});
+    }
+}
+
+} // namespace
+
+void solve_unit(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy, Crew& crew)
+{
+    UnitSolver(ctx, unit, output, energy, crew).run();
+}
+
+} // namespace carom::internal
