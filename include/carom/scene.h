@@ -46,7 +46,8 @@ enum class MixedValue : std::uint8_t
 using MixFunction = float (*)(MixedValue what, float a, std::uint64_t user_data_a, float b, std::uint64_t user_data_b);
 
 /// Your own job system. The engine calls run() with a number of tasks; it must have run task(context, 0 ... count - 1),
-/// in any order, on any threads, before it returns. Results do not depend on the threads.
+/// in any order, on any threads, before it returns. Results do not depend on the threads. Tasks of one call may work together: one that
+/// starts while another runs may stay until that one ends; none waits for one that has not started.
 struct TaskHooks
 {
     int worker_count = 1; ///< 1 to 64
