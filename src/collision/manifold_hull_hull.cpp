@@ -51,24 +51,13 @@ struct ClipPoint
     Vec2 core;
     float radius;
     int id;
-};
 
-// Keeps the part of the edge on the side of the plane where dot(n, p) >= offset; false where nothing is left.
-bool clip(ClipPoint points[2], Vec2 n, float offset)
-{
-    const float d0 = dot(n, points[0].core) - offset;
-    const float d1 = dot(n, points[1].core) - offset;
-    if (d0 < 0 && d1 < 0)
-        return false;
-    if (d0 >= 0 && d1 >= 0)
-        return true;
-    const float t = d0 / (d0 - d1);
-    const ClipPoint cut{points[0].core + t * (points[1].core - points[0].core),
-                        points[0].radius + t * (points[1].radius - points[0].radius), 0};
-    ClipPoint& outside = d0 < 0 ? points[0] : points[1];
-    outside = {cut.core, cut.radius, outside.id};
-    return true;
-}
+    void put_between(const ClipPoint& a, const ClipPoint& b, float t)
+    {
+        core = a.core + t * (b.core - a.core);
+        radius = a.radius + t * (b.radius - a.radius);
+    }
+};
 
 struct Reference
 {

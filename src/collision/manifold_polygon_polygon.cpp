@@ -86,21 +86,9 @@ struct ClipPoint
 {
     Vec2 core;
     int id;
-};
 
-// Keeps what lies on the side where dot(n, p) >= offset; false where nothing is left.
-bool clip(ClipPoint points[2], Vec2 n, float offset)
-{
-    const float d0 = dot(n, points[0].core) - offset;
-    const float d1 = dot(n, points[1].core) - offset;
-    if (d0 < 0 && d1 < 0)
-        return false;
-    if (d0 >= 0 && d1 >= 0)
-        return true;
-    const float t = d0 / (d0 - d1);
-    (d0 < 0 ? points[0] : points[1]).core = points[0].core + t * (points[1].core - points[0].core);
-    return true;
-}
+    void put_between(const ClipPoint& a, const ClipPoint& b, float t) { core = a.core + t * (b.core - a.core); }
+};
 
 class PolygonPair
 {

@@ -30,18 +30,6 @@ Rotation renormalized(Rotation q)
     return l > 0 ? Rotation{q.c / l, q.s / l} : Rotation{};
 }
 
-// On all threads: each item writes to what is its own.
-template <class Visit>
-void for_each_in_parts(const StepContext& ctx, std::size_t count, std::size_t part, const Visit& visit)
-{
-    run_parts(ctx.scene.def.tasks, count, part,
-              [&](std::size_t first, std::size_t last)
-              {
-                  for (std::size_t i = first; i < last; ++i)
-                      visit(i);
-              });
-}
-
 // --- poses ---------------------------------------------------------------------------------------------------------------------------
 
 // Their path is a function of time alone.
@@ -254,7 +242,7 @@ void keep_carried_awake(const StepContext& ctx)
 void put_to_sleep(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    for_each_in_parts(ctx, state.awake_bodies.size(), 1024,
+    for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), 1024,
                       [&](std::size_t i) { update_sleep_time(ctx, state.awake_bodies[i]); });
     if (!ctx.scene.def.sleeping)
         return;
@@ -319,7 +307,8 @@ void commit_and_sleep(StepContext& ctx)
             record_kinematic(ctx, body);
         commit_kinematic(ctx, ctx.state.bodies[body], ctx.state.sims[static_cast<std::size_t>(body)]);
     }
-    for_each_in_parts(ctx, scratch.states.size(), 512, [&](std::size_t i) { commit_state(ctx, static_cast<std::int32_t>(i)); });
+    for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), 512,
+                      [&](std::size_t i) { commit_state(ctx, static_cast<std::int32_t>(i)); });
     for (std::size_t i = 0; i < scratch.states.size(); ++i)
     {
         if ((scratch.states[i].flags & body_flag::unsound) != 0)

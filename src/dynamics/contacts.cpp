@@ -9,7 +9,7 @@
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
 
-#include <algorithm>
+#include <span>
 
 namespace carom::internal {
 
@@ -167,15 +167,15 @@ News news_of(const StepContext& ctx, const Contact& contact)
     return !touching && one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
 
-constexpr int contacts_per_task = 512;
+constexpr std::size_t contacts_per_task = 512;
 
 // Writes to its own contacts alone.
-void update_some(const StepContext& ctx, int first, int last, std::vector<ContactNews>& news)
+void update_some(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<ContactNews>& news)
 {
     news.clear();
-    for (int i = first; i < last; ++i)
+    for (std::size_t i = first; i < last; ++i)
     {
-        const std::int32_t index = ctx.state.awake_contacts[static_cast<std::size_t>(i)];
+        const std::int32_t index = ctx.state.awake_contacts[i];
         Contact& contact = ctx.state.contacts[index];
         update_manifold(ctx, index);
         contact.flags &= ~contact_flag::fresh;
@@ -189,21 +189,14 @@ void update_some(const StepContext& ctx, int first, int last, std::vector<Contac
 void update_contacts(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    const auto count = static_cast<int>(state.awake_contacts.size());
-    const int tasks = (count + contacts_per_task - 1) / contacts_per_task;
-    std::vector<std::vector<ContactNews>>& parts = ctx.scratch.news_of_task;
-    if (static_cast<int>(parts.size()) < tasks)
-        parts.resize(static_cast<std::size_t>(tasks));
-    run_tasks(ctx.scene.def.tasks, tasks,
-              [&](int task)
-              {
-                  const int first = task * contacts_per_task;
-                  update_some(ctx, first, std::min(first + contacts_per_task, count), parts[static_cast<std::size_t>(task)]);
-              });
+    using Some = std::vector<ContactNews>;
+    const std::span<Some> parts =
+        find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_per_task, ctx.scratch.news_of_task,
+                      [&](std::size_t first, std::size_t last, Some& some) { update_some(ctx, first, last, some); });
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
-    for (int i = 0; i < tasks; ++i)
-        news.insert(news.end(), parts[static_cast<std::size_t>(i)].begin(), parts[static_cast<std::size_t>(i)].end());
+    for (const Some& some : parts)
+        news.insert(news.end(), some.begin(), some.end());
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)

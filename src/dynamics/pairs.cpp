@@ -10,6 +10,7 @@
 #include "dynamics/wake.h"
 
 #include <algorithm>
+#include <span>
 
 namespace carom::internal {
 
@@ -70,19 +71,14 @@ void look_around(StepContext& ctx, int shape, const FloatBox& box)
 template <class Look>
 void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, const Look& look)
 {
-    std::vector<Pairs>& found = ctx.scratch.pairs_of_task;
-    const std::size_t tasks = (count + part - 1) / part;
-    if (found.size() < tasks)
-        found.resize(tasks);
-    run_parts(ctx.scene.def.tasks, count, part,
-              [&](std::size_t first, std::size_t last)
-              {
-                  Pairs& pairs = found[first / part];
-                  pairs.clear();
-                  look(first, last, pairs);
-              });
-    for (std::size_t i = 0; i < tasks; ++i)
-        ctx.scratch.new_pairs.insert(ctx.scratch.new_pairs.end(), found[i].begin(), found[i].end());
+    const std::span<Pairs> parts = find_in_parts(ctx.scene.def.tasks, count, part, ctx.scratch.pairs_of_task,
+                                                 [&](std::size_t first, std::size_t last, Pairs& pairs)
+                                                 {
+                                                     pairs.clear();
+                                                     look(first, last, pairs);
+                                                 });
+    for (const Pairs& some : parts)
+        ctx.scratch.new_pairs.insert(ctx.scratch.new_pairs.end(), some.begin(), some.end());
 }
 
 void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
@@ -258,12 +254,8 @@ void follow_pairs(StepContext& ctx)
     std::vector<BoxPair>& pairs = state.box_pairs;
     std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
     fates.resize(pairs.size());
-    run_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
-              [&](std::size_t first, std::size_t last)
-              {
-                  for (std::size_t i = first; i < last; ++i)
-                      fates[i] = fate_of(ctx, pairs[i]);
-              });
+    for_each_in_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
+                      [&](std::size_t i) { fates[i] = fate_of(ctx, pairs[i]); });
     state.parted_pairs.clear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i)

@@ -7,14 +7,14 @@
 #include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
 
-#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace carom::internal {
 
 namespace {
 
-constexpr int bodies_per_task = 512;
+constexpr std::size_t bodies_per_task = 512;
 
 // The velocity that reaches the target at the end of the step, the shorter way round.
 void aim_at_target(BodySim& sim, float dt)
@@ -99,27 +99,21 @@ void sweep_paths(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     put_aside_unsound(ctx);
-    const auto count = static_cast<int>(ctx.state.awake_bodies.size());
-    const int tasks = (count + bodies_per_task - 1) / bodies_per_task;
-    scratch.motion.resize(ctx.state.awake_bodies.size());
-    if (static_cast<int>(scratch.moved_of_task.size()) < tasks)
-        scratch.moved_of_task.resize(static_cast<std::size_t>(tasks));
-    run_tasks(ctx.scene.def.tasks, tasks,
-              [&](int task)
-              {
-                  MovedBoxes& moved = scratch.moved_of_task[static_cast<std::size_t>(task)];
-                  moved.items.clear();
-                  moved.boxes.clear();
-                  const int end = std::min((task + 1) * bodies_per_task, count);
-                  for (auto i = static_cast<std::size_t>(task * bodies_per_task); i < static_cast<std::size_t>(end); ++i)
-                      sweep_body(ctx, ctx.state.awake_bodies[i], scratch.motion[i], moved);
-              });
+    const std::vector<std::int32_t>& bodies = ctx.state.awake_bodies;
+    scratch.motion.resize(bodies.size());
+    const std::span<MovedBoxes> parts = find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.moved_of_task,
+                                                      [&](std::size_t first, std::size_t last, MovedBoxes& moved)
+                                                      {
+                                                          moved.items.clear();
+                                                          moved.boxes.clear();
+                                                          for (std::size_t i = first; i < last; ++i)
+                                                              sweep_body(ctx, bodies[i], scratch.motion[i], moved);
+                                                      });
     MovedBoxes& all = scratch.moved;
     all.items.clear();
     all.boxes.clear();
-    for (int i = 0; i < tasks; ++i)
+    for (const MovedBoxes& some : parts)
     {
-        const MovedBoxes& some = scratch.moved_of_task[static_cast<std::size_t>(i)];
         all.items.insert(all.items.end(), some.items.begin(), some.items.end());
         all.boxes.insert(all.boxes.end(), some.boxes.begin(), some.boxes.end());
     }

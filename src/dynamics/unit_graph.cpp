@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace carom::internal {
 
@@ -20,7 +21,7 @@ namespace {
 constexpr float slice_turn = 0.02f;  // rad
 constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
-constexpr int contacts_per_task = 1024;
+constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
 constexpr int heap_bodies = 256; // in a batch
 
@@ -124,12 +125,8 @@ public:
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
         if (!ctx.scene.def.continuous)
             return;
-        run_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
-                  [&](std::size_t first, std::size_t last)
-                  {
-                      for (std::size_t i = first; i < last; ++i)
-                          scratch.flight[i] = kind_of_flight(state.awake_bodies[i]);
-                  });
+        for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
+                          [&](std::size_t i) { scratch.flight[i] = kind_of_flight(state.awake_bodies[i]); });
     }
 
     [[nodiscard]] std::int32_t kind_of_flight(int body) const
@@ -143,23 +140,13 @@ public:
     // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
     void gather_links()
     {
-        const auto count = static_cast<int>(state.awake_contacts.size());
-        const int tasks = (count + contacts_per_task - 1) / contacts_per_task;
-        if (static_cast<int>(scratch.links_of_task.size()) < tasks)
-            scratch.links_of_task.resize(static_cast<std::size_t>(tasks));
-        run_tasks(ctx.scene.def.tasks, tasks,
-                  [&](int task)
-                  {
-                      const int first = task * contacts_per_task;
-                      gather_some(first, std::min(first + contacts_per_task, count),
-                                  scratch.links_of_task[static_cast<std::size_t>(task)]);
-                  });
+        using Some = std::vector<Link>;
+        const std::span<Some> parts =
+            find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_per_task, scratch.links_of_task,
+                          [&](std::size_t first, std::size_t last, Some& some) { gather_some(first, last, some); });
         scratch.links.clear();
-        for (int i = 0; i < tasks; ++i)
-        {
-            const std::vector<Link>& some = scratch.links_of_task[static_cast<std::size_t>(i)];
+        for (const Some& some : parts)
             scratch.links.insert(scratch.links.end(), some.begin(), some.end());
-        }
         for (const Link& l : scratch.links)
         {
             ctx.report.touching += l.touching ? 1 : 0;
@@ -171,12 +158,12 @@ public:
     }
 
     // Writes to its own contacts alone.
-    void gather_some(int first, int last, std::vector<Link>& links) const
+    void gather_some(std::size_t first, std::size_t last, std::vector<Link>& links) const
     {
         links.clear();
-        for (int i = first; i < last; ++i)
+        for (std::size_t i = first; i < last; ++i)
         {
-            const std::int32_t index = state.awake_contacts[static_cast<std::size_t>(i)];
+            const std::int32_t index = state.awake_contacts[i];
             Contact& contact = state.contacts[index];
             contact.color = contact.wide = none;
             const bool touching = (contact.flags & contact_flag::touching) != 0;
@@ -408,12 +395,6 @@ public:
             state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
         return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
                       : 0;
-    }
-
-    [[nodiscard]] bool flies(int body) const
-    {
-        return is_moving_dynamic(state, body) &&
-               scratch.flight[static_cast<std::size_t>(state.bodies[body].awake_index)] != earthbound;
     }
 
     // Islands first, then what this step adds.

@@ -11,7 +11,6 @@
 #include "dynamics/prepare.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_graph.h"
-#include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>

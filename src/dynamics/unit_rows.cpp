@@ -19,12 +19,7 @@ std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 template <class Visit>
 void for_each_place(const TaskHooks& hooks, std::int32_t begin, std::int32_t count, std::size_t part, const Visit& visit)
 {
-    run_parts(hooks, as_index(count), part,
-              [&](std::size_t first, std::size_t last)
-              {
-                  for (std::size_t i = first; i < last; ++i)
-                      visit(begin + static_cast<std::int32_t>(i));
-              });
+    for_each_in_parts(hooks, as_index(count), part, [&](std::size_t i) { visit(begin + static_cast<std::int32_t>(i)); });
 }
 
 // The unit's g-th.

@@ -35,6 +35,20 @@ template <class Normal>
     return edge;
 }
 
+/// Keeps the part of an edge on the side where dot(n, p) >= offset; false where nothing is left. A point has a core, and goes between two others by
+/// put_between(a, b, t); what else it has stays.
+template <class Point>
+[[nodiscard]] bool clip(Point points[2], Vec2 n, float offset)
+{
+    const float d0 = dot(n, points[0].core) - offset;
+    const float d1 = dot(n, points[1].core) - offset;
+    if (d0 < 0 && d1 < 0)
+        return false;
+    if (d0 < 0 || d1 < 0)
+        (d0 < 0 ? points[0] : points[1]).put_between(points[0], points[1], d0 / (d0 - d1));
+    return true;
+}
+
 /// Of a point that was clipped to an edge; flipped: the edge is b's.
 [[nodiscard]] inline std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
 {

@@ -6,6 +6,8 @@
 #include "carom/scene.h"
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace carom::internal {
 
@@ -33,6 +35,31 @@ void run_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, cons
                   const std::size_t first = static_cast<std::size_t>(task) * part;
                   work(first, first + part < count ? first + part : count);
               });
+}
+
+/// Calls visit(i) for each of 0 ... count, a part of them to a task.
+template <class Visit>
+void for_each_in_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, const Visit& visit)
+{
+    run_parts(hooks, count, part,
+              [&](std::size_t first, std::size_t last)
+              {
+                  for (std::size_t i = first; i < last; ++i)
+                      visit(i);
+              });
+}
+
+/// Calls work(first, last, found) for parts of 0 ... count; what each finds stands in the order of the parts. Results keep their memory: the span
+/// holds those of this call, not cleared.
+template <class Found, class Work>
+[[nodiscard]] std::span<Found> find_in_parts(const TaskHooks& hooks, std::size_t count, std::size_t part,
+                                             std::vector<Found>& results, const Work& work)
+{
+    const std::size_t parts = (count + part - 1) / part;
+    if (results.size() < parts)
+        results.resize(parts);
+    run_parts(hooks, count, part, [&](std::size_t first, std::size_t last) { work(first, last, results[first / part]); });
+    return std::span(results).first(parts);
 }
 
 } // namespace carom::internal
