@@ -84,6 +84,7 @@ const StepReport& step(SceneData& scene, float dt)
               timed(ms.commit, [&] { commit_and_sleep(ctx); });
               timed(ms.events, [&] { publish_events(ctx); });
               end_step(ctx);
+              tidy(ctx);
           });
     scene.report.ms = ms;
     return scene.report;

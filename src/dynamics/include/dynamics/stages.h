@@ -39,6 +39,9 @@ void update_triggers(StepContext& ctx);
 /// Sorts the events of the step and makes the public ones of raw impacts and touches.
 void publish_events(StepContext& ctx);
 
+/// Puts bodies and contacts that are walked together side by side in memory, now and then.
+void tidy(StepContext& ctx);
+
 /// Runs the users' callbacks from the events.
 void run_callbacks(SceneData& scene, Scene& owner);
 

@@ -10,6 +10,7 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -91,6 +92,17 @@ struct Link
     bool in_lane = false;
     std::uint8_t points = 0;
     std::uint8_t color = 0;
+};
+
+/// Where a contact should stand among the awake ones.
+struct ContactPlace
+{
+    std::uint32_t color;  ///< counted over all units
+    std::uint32_t body;   ///< place in awake_bodies
+    std::int32_t present; ///< place in awake_contacts
+    std::int32_t contact;
+
+    auto operator<=>(const ContactPlace&) const = default;
 };
 
 /// What a unit is made of.
@@ -276,6 +288,10 @@ struct Scratch
     std::vector<FlierSeed> flier_seeds;
     std::vector<float> least_sleep; ///< s, of each island, at the place of its label
     std::vector<std::int32_t> order;
+    std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
+    std::vector<Contact> moved_contacts;
+    std::vector<KeptManifold> moved_kept;
+    std::vector<std::int32_t> moved_to; ///< by contact slot
 };
 
 struct StepContext

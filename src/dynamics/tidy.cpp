@@ -1,0 +1,156 @@
+// What is walked together is kept together: now and then awake bodies are put in the order of the plane, and contacts in the order in which their
+// lanes were last filled. Walks over contacts then go straight through memory, and the bodies they meet on the way are neighbours. Colours are
+// chosen in that order as well, so they stay what they are.
+
+#include "dynamics/contact_store.h"
+#include "dynamics/stages.h"
+#include "dynamics/unit_graph.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::uint64_t steps_between = 8;
+constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
+constexpr std::uint32_t unsolved = 0xffffffffu;
+
+void sort_bodies(SceneState& state)
+{
+    std::sort(state.awake_bodies.begin(), state.awake_bodies.end());
+    for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
+        state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
+}
+
+class ContactOrder
+{
+public:
+    explicit ContactOrder(StepContext& ctx) : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order) {}
+
+    void find()
+    {
+        m_order.clear();
+        m_scratch.order.assign(m_state.awake_contacts.size(), 0); // placed already
+        for (const Unit& unit : m_scratch.units)
+        {
+            const auto lanes = std::span(m_scratch.lane_links);
+            place(lanes.subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
+                                static_cast<std::size_t>(unit.wide_count) * lane_count));
+            const auto rows = std::span(m_scratch.row_links);
+            place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
+        }
+        for (const std::int32_t contact : m_state.awake_contacts)
+            place(contact, unsolved);
+        std::sort(m_order.begin(), m_order.end());
+    }
+
+    // Into the slots that these contacts have among them, the least first.
+    void apply()
+    {
+        std::vector<std::int32_t>& slots = m_scratch.order;
+        slots = m_state.awake_contacts;
+        std::sort(slots.begin(), slots.end());
+        std::vector<std::int32_t>& moved_to = m_scratch.moved_to;
+        moved_to.resize(static_cast<std::size_t>(m_state.contacts.capacity()));
+        for (std::size_t i = 0; i < moved_to.size(); ++i)
+            moved_to[i] = static_cast<std::int32_t>(i);
+        std::vector<Contact>& contacts = m_scratch.moved_contacts;
+        std::vector<KeptManifold>& kept = m_scratch.moved_kept;
+        contacts.clear();
+        kept.clear();
+        for (std::size_t i = 0; i < m_order.size(); ++i)
+        {
+            moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
+            contacts.push_back(m_state.contacts[m_order[i].contact]);
+            kept.push_back(m_state.kept_manifolds[static_cast<std::size_t>(m_order[i].contact)]);
+        }
+        for (std::size_t i = 0; i < m_order.size(); ++i)
+        {
+            m_state.contacts[slots[i]] = contacts[i];
+            m_state.contacts[slots[i]].awake_index = static_cast<std::int32_t>(i);
+            m_state.kept_manifolds[static_cast<std::size_t>(slots[i])] = kept[i];
+        }
+        m_state.awake_contacts = slots;
+        rename();
+    }
+
+private:
+    // Of links that are solved one colour after the other.
+    void place(std::span<const std::int32_t> links)
+    {
+        int color = none;
+        int points = none;
+        for (const std::int32_t i : links)
+        {
+            if (i == none)
+                continue;
+            const Link& l = m_scratch.solved_links[static_cast<std::size_t>(i)];
+            if (l.color != color || l.points != points)
+                ++m_class;
+            color = l.color;
+            points = l.points;
+            place(l.contact, m_class);
+        }
+    }
+
+    void place(std::int32_t contact, std::uint32_t in_class)
+    {
+        const Contact& c = m_state.contacts[contact];
+        if (!m_state.contacts.is_live(contact) || c.awake_index == none || (c.flags & contact_flag::trigger) != 0 ||
+            std::exchange(m_scratch.order[static_cast<std::size_t>(c.awake_index)], 1) != 0)
+            return;
+        const bool of_a = is_moving_dynamic(m_state, c.body_a);
+        const auto body = static_cast<std::uint32_t>(m_state.bodies[of_a ? c.body_a : c.body_b].awake_index);
+        m_order.push_back({in_class, body, c.awake_index, contact});
+    }
+
+    void rename()
+    {
+        const std::vector<std::int32_t>& moved_to = m_scratch.moved_to;
+        const auto rename_edge = [&](std::int32_t& edge)
+        {
+            if (edge != none)
+                edge = moved_to[static_cast<std::size_t>(edge >> 1)] * 2 + (edge & 1);
+        };
+        for (int i = 0; i < m_state.contacts.capacity(); ++i)
+        {
+            if (!m_state.contacts.is_live(i))
+                continue;
+            Contact& contact = m_state.contacts[i];
+            for (int side = 0; side < 2; ++side)
+            {
+                rename_edge(contact.next[side]);
+                rename_edge(contact.previous[side]);
+            }
+            if (contact.pair != none)
+                m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = i;
+        }
+        for (int i = 0; i < m_state.bodies.capacity(); ++i)
+        {
+            if (m_state.bodies.is_live(i))
+                rename_edge(m_state.bodies[i].first_contact);
+        }
+    }
+
+    SceneState& m_state;
+    Scratch& m_scratch;
+    std::vector<ContactPlace>& m_order;
+    std::uint32_t m_class = 0;
+};
+
+} // namespace
+
+void tidy(StepContext& ctx)
+{
+    if (ctx.state.step_count % steps_between != 1 || ctx.state.awake_contacts.size() < worth_it)
+        return;
+    sort_bodies(ctx.state);
+    ContactOrder order(ctx);
+    order.find();
+    order.apply();
+}
+
+} // namespace carom::internal
