@@ -4,17 +4,17 @@
 
 namespace carom::internal {
 
-void BroadPhase::insert(int item, const FloatBox& box, Layer layer, bool unbounded)
+void BroadPhase::insert(int item, const FloatBox& box, Layer layer, ItemTraits traits)
 {
     if (item >= static_cast<int>(m_places.size()))
     {
         m_places.resize(static_cast<std::size_t>(item) + 1);
-        m_paths.resize(static_cast<std::size_t>(item) + 1);
+        m_leaves.resize(static_cast<std::size_t>(item) + 1);
     }
-    Place& place = m_places[static_cast<std::size_t>(item)];
-    place = {box, {}, layer, unbounded, -1, -1};
+    m_places[static_cast<std::size_t>(item)] = {{}, layer, traits, box, {}};
+    m_leaves[static_cast<std::size_t>(item)] = {};
     stand_still(item);
-    if (unbounded)
+    if (traits.unbounded)
         m_unbounded.insert(std::lower_bound(m_unbounded.begin(), m_unbounded.end(), item), item);
     else
         add_recent(item, layer);
@@ -25,7 +25,7 @@ void BroadPhase::remove(int item)
     if (!has(item))
         return;
     Place& place = m_places[static_cast<std::size_t>(item)];
-    if (place.unbounded)
+    if (place.traits.unbounded)
         std::erase(m_unbounded, item);
     else
         take_out(item);
@@ -37,7 +37,7 @@ void BroadPhase::move_to(int item, Layer layer)
     Place& place = m_places[static_cast<std::size_t>(item)];
     if (place.layer == layer)
         return;
-    if (!place.unbounded)
+    if (!place.traits.unbounded)
     {
         take_out(item);
         add_recent(item, layer);
@@ -50,8 +50,8 @@ void BroadPhase::move_to(int item, Layer layer)
 
 void BroadPhase::stand_still(int item)
 {
-    const Place& place = m_places[static_cast<std::size_t>(item)];
-    m_paths[static_cast<std::size_t>(item)] = {place.box, {}, 0, place.layer == Layer::Moving};
+    Place& place = m_places[static_cast<std::size_t>(item)];
+    place.path = {place.box, {}, 0};
 }
 
 void BroadPhase::set_box(int item, const FloatBox& box)
@@ -65,8 +65,9 @@ void BroadPhase::widen(int item, const FloatBox& box)
 {
     Place& place = m_places[static_cast<std::size_t>(item)];
     place.box = box;
-    if (!place.unbounded && place.tree >= 0)
-        m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(place.tree)].update(place.index, box);
+    const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
+    if (!place.traits.unbounded && leaf.tree >= 0)
+        m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(leaf.tree)].update(leaf.index, box);
 }
 
 bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
@@ -92,9 +93,7 @@ bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
 void BroadPhase::add_recent(int item, Layer layer)
 {
     Forest& forest = m_forests[static_cast<std::size_t>(layer)];
-    Place& place = m_places[static_cast<std::size_t>(item)];
-    place.tree = -1;
-    place.index = static_cast<std::int32_t>(forest.recent.size());
+    m_leaves[static_cast<std::size_t>(item)] = {-1, static_cast<std::int32_t>(forest.recent.size())};
     forest.recent.push_back(item);
     if (forest.recent.size() > recent_limit)
         merge_recent(forest);
@@ -102,20 +101,20 @@ void BroadPhase::add_recent(int item, Layer layer)
 
 void BroadPhase::take_out(int item)
 {
-    Place& place = m_places[static_cast<std::size_t>(item)];
-    Forest& forest = m_forests[static_cast<std::size_t>(place.layer)];
-    if (place.tree < 0)
+    Leaf& leaf = m_leaves[static_cast<std::size_t>(item)];
+    Forest& forest = m_forests[static_cast<std::size_t>(m_places[static_cast<std::size_t>(item)].layer)];
+    if (leaf.tree < 0)
     {
-        const auto index = static_cast<std::size_t>(place.index);
+        const auto index = static_cast<std::size_t>(leaf.index);
         forest.recent[index] = forest.recent.back();
-        m_places[static_cast<std::size_t>(forest.recent[index])].index = place.index;
+        m_leaves[static_cast<std::size_t>(forest.recent[index])].index = leaf.index;
         forest.recent.pop_back();
         return;
     }
-    const auto t = static_cast<std::size_t>(place.tree);
+    const auto t = static_cast<std::size_t>(leaf.tree);
     BoxTree& tree = forest.trees[t];
-    tree.remove(place.index);
-    place.tree = place.index = -1;
+    tree.remove(leaf.index);
+    leaf = {};
     if (tree.live_count() * 2 < tree.leaf_count())
         rebuild(forest, t);
 }
@@ -140,8 +139,9 @@ void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
         {
             const std::int32_t item = tree.item(i);
             const Place& place = m_places[static_cast<std::size_t>(item)];
+            const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
             // A leaf that was taken out leaves its item's place pointing elsewhere.
-            if (place.layer != Layer::None && place.tree == static_cast<std::int32_t>(t) && place.index == i &&
+            if (place.layer != Layer::None && leaf.tree == static_cast<std::int32_t>(t) && leaf.index == i &&
                 &m_forests[static_cast<std::size_t>(place.layer)] == &forest)
                 leaves.push_back({place.box, item});
         }
@@ -157,9 +157,7 @@ void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
     tree.build(leaves);
     for (int i = 0; i < tree.leaf_count(); ++i)
     {
-        Place& place = m_places[static_cast<std::size_t>(tree.item(i))];
-        place.tree = static_cast<std::int32_t>(from_tree);
-        place.index = i;
+        m_leaves[static_cast<std::size_t>(tree.item(i))] = {static_cast<std::int32_t>(from_tree), i};
     }
 }
 

@@ -46,14 +46,16 @@ void record_kinematic(StepContext& ctx, int body)
     }
 }
 
-void commit_kinematic(const StepContext& ctx, BodyRecord& record, BodySim& sim)
+void commit_kinematic(const StepContext& ctx, int body)
 {
+    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     sim.previous_center = sim.center;
     sim.previous_rotation = sim.rotation;
-    if (record.has_target)
+    if (ctx.state.bodies[body].has_target)
     {
-        sim.center = sim.target_center;
-        sim.rotation = sim.target_rotation;
+        const BodyTarget& target = ctx.state.targets[static_cast<std::size_t>(body)];
+        sim.center = target.center;
+        sim.rotation = target.rotation;
         return;
     }
     sim.center += ctx.dt * sim.velocity;
@@ -305,7 +307,7 @@ void commit_and_sleep(StepContext& ctx)
             continue;
         if (ctx.scene.def.record_substeps)
             record_kinematic(ctx, body);
-        commit_kinematic(ctx, ctx.state.bodies[body], ctx.state.sims[static_cast<std::size_t>(body)]);
+        commit_kinematic(ctx, body);
     }
     for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), 512,
                       [&](std::size_t i) { commit_state(ctx, static_cast<std::int32_t>(i)); });

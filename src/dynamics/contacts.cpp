@@ -147,7 +147,7 @@ void begin_touch(StepContext& ctx, int index)
 bool may_hit(const StepContext& ctx, const Contact& contact)
 {
     const bool moves = relative_motion(ctx.state, contact) > ctx.scene.tolerances.speculation;
-    return moves && contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
+    return moves && (contact.flags & contact_flag::passing) == 0;
 }
 
 void wake_both(StepContext& ctx, int index)
@@ -163,8 +163,10 @@ News news_of(const StepContext& ctx, const Contact& contact)
     const bool should = should_touch(ctx, contact);
     if (should != touching)
         return touching ? News::Ends : News::Begins;
+    if (touching || contact.manifold.count == 0)
+        return News::Nothing;
     const bool one_sleeps = !is_awake(ctx.state, contact.body_a) || !is_awake(ctx.state, contact.body_b);
-    return !touching && one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
+    return one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
 
 constexpr std::size_t contacts_per_task = 512;

@@ -192,28 +192,30 @@ void add_pairs(StepContext& ctx)
     }
 }
 
-bool is_trigger_or_unbounded(const ShapeRecord& shape) { return shape.trigger || shape.leaf.type == LeafType::HalfSpace; }
+bool is_trigger(const BroadPhase& boxes, const BoxPair& pair) { return boxes.traits(pair.a).trigger || boxes.traits(pair.b).trigger; }
+
+bool is_plain(const BroadPhase& boxes, const BoxPair& pair)
+{
+    return !is_trigger(boxes, pair) && !boxes.traits(pair.a).unbounded && !boxes.traits(pair.b).unbounded;
+}
 
 // A contact of two that move goes a little later than it would come, so that it does not flicker. What rests is seen from farther: a body that
 // is struck on its way must not be led into it.
 bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
 {
-    const SceneState& state = ctx.state;
-    const BoxPath& a = state.broad_phase.path(pair.a);
-    const BoxPath& b = state.broad_phase.path(pair.b);
-    const bool early = pair.contact == none && a.moves && b.moves;
-    if (may_meet(a, b, (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin))
+    const BroadPhase& boxes = ctx.state.broad_phase;
+    const bool early = pair.contact == none && boxes.moves(pair.a) && boxes.moves(pair.b);
+    if (may_meet(boxes.path(pair.a), boxes.path(pair.b), (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin))
         return true;
-    // These are asked by their fat boxes: a body may be thrown into a trigger that it did not go for.
-    return (is_trigger_or_unbounded(state.shapes[pair.a]) || is_trigger_or_unbounded(state.shapes[pair.b])) &&
-           boxes_meet(state, pair.a, pair.b);
+    // Triggers and half-spaces are asked by their fat boxes: a body may be thrown into a trigger that it did not go for.
+    return !is_plain(boxes, pair) && boxes_meet(ctx.state, pair.a, pair.b);
 }
 
 // Filters may have changed since the pair was found. Triggers' pairs may be found twice, see find_deflected_pairs.
 void give_contact(StepContext& ctx, std::size_t index)
 {
     const BoxPair pair = ctx.state.box_pairs[index];
-    const bool trigger = ctx.state.shapes[pair.a].trigger || ctx.state.shapes[pair.b].trigger;
+    const bool trigger = is_trigger(ctx.state.broad_phase, pair);
     if (pair.contact == none && may_collide(ctx.state, pair.a, pair.b) && !(trigger && has_contact(ctx.state, pair.a, pair.b)))
         create_contact(ctx.scene, pair.a, pair.b, static_cast<std::int32_t>(index));
 }
@@ -230,14 +232,12 @@ constexpr std::uint8_t parted = 8; ///< it stays, but its boxes do not meet
 std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
 {
     const SceneState& state = ctx.state;
-    if (!state.broad_phase.has(pair.a) || !state.broad_phase.has(pair.b))
+    const BroadPhase& boxes = state.broad_phase;
+    if (!boxes.has(pair.a) || !boxes.has(pair.b))
         return fate::goes;
-    const bool meet = boxes_meet(state, pair.a, pair.b);
-    if (!state.broad_phase.path(pair.a).moves && !state.broad_phase.path(pair.b).moves)
-    { // triggers see what rests as well, once
-        const bool trigger = state.shapes[pair.a].trigger || state.shapes[pair.b].trigger;
-        return trigger && meet ? fate::gets_contact | fate::goes : fate::goes;
-    }
+    const bool meet = is_plain(boxes, pair) ? overlaps(boxes.box(pair.a), boxes.box(pair.b)) : boxes_meet(state, pair.a, pair.b);
+    if (!boxes.moves(pair.a) && !boxes.moves(pair.b)) // triggers see what rests as well, once
+        return is_trigger(boxes, pair) && meet ? fate::gets_contact | fate::goes : fate::goes;
     const std::uint8_t parted = meet ? 0 : fate::parted;
     if (may_meet_in_step(ctx, pair))
         return pair.contact == none ? fate::gets_contact | parted : parted;

@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t bodies_per_task = 512;
 
 // The velocity that reaches the target at the end of the step, the shorter way round.
-void aim_at_target(BodySim& sim, float dt)
+void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)
 {
-    const Rotation turn = sim.target_rotation * inverse(sim.rotation);
-    sim.velocity = (1 / dt) * (sim.target_center - sim.center);
+    const Rotation turn = target.rotation * inverse(sim.rotation);
+    sim.velocity = (1 / dt) * (target.center - sim.center);
     sim.angular_velocity = static_cast<float>(arc_tangent(turn.s, turn.c)) / dt;
 }
 
@@ -55,7 +55,7 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     BodyRecord& record = state.bodies[body];
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     if (record.has_target)
-        aim_at_target(sim, ctx.dt);
+        aim_at_target(sim, state.targets[static_cast<std::size_t>(body)], ctx.dt);
     const Vec2 shift = predicted_shift(ctx, record, sim);
     const float any_way = free_motion(ctx, body, sim, shift);
     motion = length(shift) + any_way;
@@ -64,7 +64,7 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
                   [&](int shape)
                   {
                       const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
-                      const BoxPath path{tight, shift, any_way, true};
+                      const BoxPath path{tight, shift, any_way};
                       state.broad_phase.set_path(shape, path);
                       const FloatBox needed = grow(swept(path), 0.25f * margin);
                       const FloatBox& fat = state.broad_phase.box(shape);

@@ -342,9 +342,11 @@ void Body::set_target_pose(Position position, float angle)
     if (!t || !check.finite("position", position) || !check.finite("angle", angle) ||
         !check.holds(t.record().type == BodyType::Kinematic, "the body", "not kinematic", "only kinematic bodies follow targets"))
         return;
-    BodySim& sim = t.sim();
-    sim.target_rotation = Rotation::from_angle(angle);
-    sim.target_center = position + rotate(sim.target_rotation, sim.local_center);
+    std::vector<BodyTarget>& targets = m_data->state.targets;
+    if (const auto index = static_cast<std::size_t>(t.slot); targets.size() <= index)
+        targets.resize(index + 1);
+    const Rotation rotation = Rotation::from_angle(angle);
+    targets[static_cast<std::size_t>(t.slot)] = {position + rotate(rotation, t.sim().local_center), rotation};
     t.record().has_target = true;
     t.wake();
     t.wake_neighbours();

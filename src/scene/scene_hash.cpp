@@ -55,8 +55,6 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
     h.add(s.linear_damping);
     h.add(s.angular_damping);
     h.add(s.sleep_time);
-    add(h, s.target_center);
-    add(h, s.target_rotation);
 }
 
 void add_material(Hasher& h, const ShapeRecord& s)
@@ -150,6 +148,11 @@ std::uint64_t Scene::state_hash() const
     {
         if (state.bodies.is_live(i))
             add_body(h, state.bodies[i], state.sims[static_cast<std::size_t>(i)]);
+        if (state.bodies.is_live(i) && state.bodies[i].has_target)
+        {
+            add(h, state.targets[static_cast<std::size_t>(i)].center);
+            add(h, state.targets[static_cast<std::size_t>(i)].rotation);
+        }
     }
     for (int i = 0; i < state.shapes.capacity(); ++i)
     {

@@ -367,6 +367,7 @@ void Shape::set_def(const ShapeDef& def)
                           if (meets_others)
                           {
                               destroy_contacts_of_shape(*m_data, leaf);
+                              state.broad_phase.set_trigger(leaf, def.trigger);
                               look_again(state, leaf);
                           }
                       });

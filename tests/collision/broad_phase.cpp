@@ -104,7 +104,7 @@ TEST(CollisionBroadPhase, StaysRightUnderTenThousandChanges)
         if (entry.layer == Layer::None)
         {
             entry = {random_box(random, 10), random.chance(0.5) ? Layer::Moving : Layer::Resting, random.chance(0.02)};
-            broad.insert(item, entry.box, entry.layer, entry.unbounded);
+            broad.insert(item, entry.box, entry.layer, {.unbounded = entry.unbounded});
         }
         else
         {

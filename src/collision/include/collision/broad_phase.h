@@ -23,11 +23,16 @@ enum class Layer : std::int8_t
 struct BoxPath
 {
     FloatBox box{};
-    Vec2 shift{};       ///< of the whole box, along its path
-    float any_way = 0;  ///< how far any point of it may come beside that
-    bool moves = false; ///< belongs to the moving layer
+    Vec2 shift{};      ///< of the whole box, along its path
+    float any_way = 0; ///< how far any point of it may come beside that
 };
-static_assert(sizeof(BoxPath) == 32);
+
+/// What sets an item apart from those with a box that meet what they touch.
+struct ItemTraits
+{
+    bool trigger = false;
+    bool unbounded = false; ///< a half-space
+};
 
 /// The box around all that it covers.
 [[nodiscard]] inline FloatBox swept(const BoxPath& p)
@@ -54,18 +59,25 @@ static_assert(sizeof(BoxPath) == 32);
 class BroadPhase
 {
 public:
-    void insert(int item, const FloatBox& box, Layer layer, bool unbounded);
+    void insert(int item, const FloatBox& box, Layer layer, ItemTraits traits);
     void remove(int item);
     void move_to(int item, Layer layer);
     void set_box(int item, const FloatBox& box);
+    void set_trigger(int item, bool trigger)
+    {
+        if (has(item))
+            m_places[static_cast<std::size_t>(item)].traits.trigger = trigger;
+    }
 
     /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: the layer is sorted anew.
     /// True: sorted anew.
     bool update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
 
     /// Of this step; between steps, and for what rests, the box stands still.
-    void set_path(int item, const BoxPath& path) { m_paths[static_cast<std::size_t>(item)] = path; }
-    [[nodiscard]] const BoxPath& path(int item) const { return m_paths[static_cast<std::size_t>(item)]; }
+    void set_path(int item, const BoxPath& path) { m_places[static_cast<std::size_t>(item)].path = path; }
+    [[nodiscard]] const BoxPath& path(int item) const { return m_places[static_cast<std::size_t>(item)].path; }
+    [[nodiscard]] bool moves(int item) const { return m_places[static_cast<std::size_t>(item)].layer == Layer::Moving; }
+    [[nodiscard]] ItemTraits traits(int item) const { return m_places[static_cast<std::size_t>(item)].traits; }
 
     [[nodiscard]] const FloatBox& box(int item) const { return m_places[static_cast<std::size_t>(item)].box; }
     [[nodiscard]] bool has(int item) const
@@ -164,14 +176,21 @@ public:
 private:
     static constexpr std::size_t recent_limit = 32; // longer lists cost queries more than the merge they put off
 
-    struct Place
+    // All that decides about pairs.
+    struct alignas(64) Place
     {
+        BoxPath path{};
+        Layer layer = Layer::None;
+        ItemTraits traits{};
         FloatBox box{};
         FloatBox before{};
-        Layer layer = Layer::None;
-        bool unbounded = false;
+    };
+    static_assert(sizeof(Place) == 64);
+
+    struct Leaf
+    {
         std::int32_t tree = -1;  ///< -1: in the recent list
-        std::int32_t index = -1; ///< leaf in the tree, or place in the list
+        std::int32_t index = -1; ///< in the tree, or place in the list
     };
 
     struct Forest
@@ -240,7 +259,7 @@ private:
     void rebuild(Forest& forest, std::size_t from_tree);
 
     std::vector<Place> m_places;
-    std::vector<BoxPath> m_paths; ///< by item
+    std::vector<Leaf> m_leaves; ///< by item, as the places
     Forest m_forests[2];
     std::vector<std::int32_t> m_unbounded;
 };

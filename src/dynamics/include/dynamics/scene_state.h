@@ -27,7 +27,7 @@ struct BodyRecord
     bool can_sleep = true;
     bool mass_overridden = false;
     bool crowded = false;            ///< was solved in a large unit in the last step
-    bool has_target = false;         ///< kinematic: BodySim::target is to be reached in the next step
+    bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
     std::int32_t last_shape = none;
@@ -36,31 +36,39 @@ struct BodyRecord
     std::int32_t island = none;        ///< label: the least body of the island, valid while awake
 };
 
-struct BodySim
+/// The first half is what neighbours read: a cache line.
+struct alignas(64) BodySim
 {
     Position center{}; ///< of mass, in the world
     Rotation rotation{};
     Vec2 local_center{}; ///< of mass, in the body's frame
     Vec2 velocity{};
     float angular_velocity = 0;
+    float extent = 0;     ///< farthest point of any shape from the center of mass
+    float size = 1e30f;   ///< least inner radius of its shapes
+    float sleep_time = 0; ///< s below the sleep speed
     float mass = 0;
     float inertia = 0;
-    Vec2 inverse_mass{}; ///< per axis: 0 where locked
-    float inverse_inertia = 0;
-    Vec2 force{};
-    float torque = 0;
-    float gravity_scale = 1;
-    float linear_damping = 0;
-    float angular_damping = 0;
-    float sleep_time = 0;       ///< s below the sleep speed
-    float extent = 0;           ///< farthest point of any shape from the center of mass
-    float size = 1e30f;         ///< least inner radius of its shapes
     Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
-    Position target_center{};
-    Rotation target_rotation{};
+    Vec2 inverse_mass{}; ///< per axis: 0 where locked
+    float inverse_inertia = 0;
+    float gravity_scale = 1;
+    Vec2 force{};
+    float torque = 0;
+    float linear_damping = 0;
+    float angular_damping = 0;
 
     [[nodiscard]] Pose pose() const { return {center - rotate(rotation, local_center), rotation}; }
+};
+
+static_assert(sizeof(BodySim) == 128);
+
+/// Where a kinematic body is to be at the end of the next step.
+struct BodyTarget
+{
+    Position center{}; ///< of mass
+    Rotation rotation{};
 };
 
 namespace body_flag {
@@ -237,7 +245,8 @@ inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.imp
 struct SceneState
 {
     Pool<BodyRecord> bodies;
-    std::vector<BodySim> sims; ///< by body slot
+    std::vector<BodySim> sims;       ///< by body slot
+    std::vector<BodyTarget> targets; ///< by body slot, as far as any body has had one
     Pool<ShapeRecord> shapes;
     VertexStore vertices;
     Pool<JointRecord> joints;
