@@ -205,7 +205,7 @@ bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
 {
     const BroadPhase& boxes = ctx.state.broad_phase;
     const bool early = pair.contact == none && boxes.moves(pair.a) && boxes.moves(pair.b);
-    if (may_meet(boxes.path(pair.a), boxes.path(pair.b), (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin))
+    if (least_gap(boxes.path(pair.a), boxes.path(pair.b)) <= (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin)
         return true;
     // Triggers and half-spaces are asked by their fat boxes: a body may be thrown into a trigger that it did not go for.
     return !is_plain(boxes, pair) && boxes_meet(ctx.state, pair.a, pair.b);
@@ -238,11 +238,13 @@ std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
     const bool meet = is_plain(boxes, pair) ? overlaps(boxes.box(pair.a), boxes.box(pair.b)) : boxes_meet(state, pair.a, pair.b);
     if (!boxes.moves(pair.a) && !boxes.moves(pair.b)) // triggers see what rests as well, once
         return is_trigger(boxes, pair) && meet ? fate::gets_contact | fate::goes : fate::goes;
+    const bool near = may_meet_in_step(ctx, pair);
+    const bool has_contact = pair.contact != none;
     const std::uint8_t parted = meet ? 0 : fate::parted;
-    if (may_meet_in_step(ctx, pair))
-        return pair.contact == none ? fate::gets_contact | parted : parted;
-    if (pair.contact == none)
-        return meet ? 0 : fate::goes;
+    if (near == has_contact) // as it was
+        return near ? parted : meet ? 0 : fate::goes;
+    if (near)
+        return fate::gets_contact | parted;
     if ((state.contacts[pair.contact].flags & (contact_flag::touching | contact_flag::trigger)) != 0)
         return parted;
     return meet ? fate::loses_contact : fate::loses_contact | fate::goes;

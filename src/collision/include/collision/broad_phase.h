@@ -43,17 +43,18 @@ struct ItemTraits
     return grow(s, p.any_way);
 }
 
-/// May the two come nearer than the margin? Seen from one of them: what moves along with it stays away.
-[[nodiscard]] inline bool may_meet(const BoxPath& a, const BoxPath& b, float margin)
+/// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.
+[[nodiscard]] inline float least_gap(const BoxPath& a, const BoxPath& b)
 {
-    const float g = margin + a.any_way + b.any_way;
     const float dx = b.shift.x - a.shift.x;
     const float dy = b.shift.y - a.shift.y;
-    const float lx = b.box.lx + (dx < 0 ? dx : 0);
-    const float ux = b.box.ux + (dx > 0 ? dx : 0);
-    const float ly = b.box.ly + (dy < 0 ? dy : 0);
-    const float uy = b.box.uy + (dy > 0 ? dy : 0);
-    return lx <= a.box.ux + g && ux >= a.box.lx - g && ly <= a.box.uy + g && uy >= a.box.ly - g;
+    const float right = b.box.lx + (dx < 0 ? dx : 0) - a.box.ux;
+    const float left = a.box.lx - b.box.ux - (dx > 0 ? dx : 0);
+    const float above = b.box.ly + (dy < 0 ? dy : 0) - a.box.uy;
+    const float below = a.box.ly - b.box.uy - (dy > 0 ? dy : 0);
+    const float x = right > left ? right : left;
+    const float y = above > below ? above : below;
+    return (x > y ? x : y) - (a.any_way + b.any_way);
 }
 
 class BroadPhase
