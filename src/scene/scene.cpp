@@ -40,7 +40,7 @@ Tolerances tolerances_of(const SceneDef& def)
     return {.slop = 0.005f * l,
             .speculation = 0.02f * l,
             .keep = 0.02f * l,
-            .box_margin = 0.1f * l,
+            .box_margin = 0.05f * l,
             .push_speed = def.contact_push_speed * l,
             .sleep_speed = 0.05f * l,
             .rest_speed = 0.001f * l};
