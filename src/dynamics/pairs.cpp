@@ -192,7 +192,10 @@ void add_pairs(StepContext& ctx)
     }
 }
 
-bool is_trigger(const BroadPhase& boxes, const BoxPair& pair) { return boxes.traits(pair.a).trigger || boxes.traits(pair.b).trigger; }
+bool is_trigger(const BroadPhase& boxes, const BoxPair& pair)
+{
+    return boxes.traits(pair.a).trigger || boxes.traits(pair.b).trigger;
+}
 
 bool is_plain(const BroadPhase& boxes, const BoxPair& pair)
 {

@@ -28,6 +28,7 @@ void UnitOutput::clear()
     deferred.clear();
     kicked_shapes.clear();
     deflected.clear();
+    reaches.clear();
     path.clear();
     last_piece.clear();
     poses.clear();

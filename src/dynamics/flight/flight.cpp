@@ -24,6 +24,17 @@ Flier* earliest(const FlightSpan& span)
     return *best <= span.h ? &span.scratch.fliers[static_cast<std::size_t>(best - span.scratch.event_times.begin())] : nullptr;
 }
 
+// A deflected body is off on another way.
+void note_reach(const FlightSpan& span, std::int32_t state)
+{
+    const std::vector<std::int32_t>& deflected = span.output.deflected;
+    const std::int32_t f = span.scratch.flier_of_state[static_cast<std::size_t>(state)];
+    const auto place = std::lower_bound(deflected.begin(), deflected.end(), f);
+    if (place != deflected.end() && *place == f)
+        span.output.reaches[static_cast<std::size_t>(place - deflected.begin())] =
+            reach_of(span, span.scratch.fliers[static_cast<std::size_t>(f)].body);
+}
+
 // Others near a struck body of the solver's may now meet it sooner.
 void reconsider_neighbours(const FlightSpan& span, std::int32_t struck)
 {
@@ -56,6 +67,7 @@ void process(const FlightSpan& span, Flier& f)
     {
         ++span.scratch.versions[static_cast<std::size_t>(s)];
         trace(span, s, f.time);
+        note_reach(span, s);
     }
     for (const std::int32_t s : changed)
     {
@@ -64,6 +76,12 @@ void process(const FlightSpan& span, Flier& f)
         else
             reconsider_neighbours(span, s);
     }
+}
+
+void note_all_reaches(const FlightSpan& span)
+{
+    for (std::size_t i = 0; i < span.output.deflected.size(); ++i)
+        span.output.reaches[i] = reach_of(span, span.scratch.fliers[static_cast<std::size_t>(span.output.deflected[i])].body);
 }
 
 constexpr int fliers_per_share = 16;
@@ -95,7 +113,9 @@ void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier)
     if (f.deflected)
         return;
     f.deflected = true;
-    output.deflected.insert(std::lower_bound(output.deflected.begin(), output.deflected.end(), flier), flier);
+    const auto place = std::lower_bound(output.deflected.begin(), output.deflected.end(), flier);
+    output.reaches.insert(output.reaches.begin() + (place - output.deflected.begin()), Reach{});
+    output.deflected.insert(place, flier);
 }
 
 void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
@@ -127,6 +147,7 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     for (Flier& f : span.fliers())
         start_flight(span, f);
     trace_all(span);
+    note_all_reaches(span);
     find_first_events(span, crew);
     while (Flier* next = earliest(span))
         process(span, *next);

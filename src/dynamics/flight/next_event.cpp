@@ -36,7 +36,7 @@ class Search
 public:
     Search(const FlightSpan& span, Flier& f)
         : m_span(span), m_flier(f), m_origin(span.sim_of(f.body).center), m_own_path(path_from(span, f.body, f.time, m_origin)),
-          m_own(motion_of_flier(f))
+          m_reach(reach_of(span, f.body))
     {}
 
     void run()
@@ -113,10 +113,13 @@ private:
     // Who has been struck may be anywhere, whether it flies still or has come to rest against something.
     void look_at_deflected()
     {
-        for (const std::int32_t f : m_span.output.deflected)
+        const std::vector<Reach>& reaches = m_span.output.reaches;
+        for (std::size_t i = 0; i < reaches.size(); ++i)
         {
-            const Flier& other = m_span.scratch.fliers[static_cast<std::size_t>(f)];
-            if (other.body != m_flier.body && !is_out_of_reach(other.body))
+            if (are_apart(m_reach, reaches[i]))
+                continue;
+            const Flier& other = m_span.scratch.fliers[static_cast<std::size_t>(m_span.output.deflected[i])];
+            if (other.body != m_flier.body)
                 for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_at(own, other); });
         }
     }
@@ -227,57 +230,46 @@ private:
     // Two moving bodies that stay apart whatever they turn: most of a crowd.
     [[nodiscard]] bool is_out_of_reach(int body) const
     {
-        const std::int32_t s = m_span.state_in_unit(body);
-        if (s == none)
-            return false;
-        const BodySim& a = m_span.sim_of(m_flier.body);
-        const BodySim& b = m_span.sim_of(body);
-        double x = b.center.x - a.center.x - m_own.center.x;
-        double y = b.center.y - a.center.y - m_own.center.y;
-        double reach = static_cast<double>(a.extent) + static_cast<double>(b.extent);
-        if (const Flier* other = m_span.flier_at(s))
-        {
-            const Motion there = motion_of_flier(*other);
-            const double left = m_span.h - std::min(m_flier.time, other->time);
-            x += there.center.x;
-            y += there.center.y;
-            reach += left * (m_own.speed + there.speed + left * (m_own.gain + there.gain));
-        }
-        else
-        { // where the solver has put it at the end of the sub-step
-            const BodyState& there = m_span.state_of(s);
-            const double left = m_span.h - m_flier.time;
-            x += static_cast<double>(there.delta_position.x);
-            y += static_cast<double>(there.delta_position.y);
-            reach += left * (m_own.speed + left * m_own.gain) + 2 * m_span.h * static_cast<double>(length(there.velocity));
-        }
-        return x * x + y * y > reach * reach;
+        return m_span.state_in_unit(body) != none && are_apart(m_reach, reach_of(m_span, body));
     }
 
-    // Of the center of mass, relative to where it was when the step began; how fast it is, and how much faster it may become.
-    struct Motion
+    [[nodiscard]] static bool are_apart(const Reach& a, const Reach& b)
     {
-        CenterMotion center;
-        double speed;
-        double gain;
-    };
-
-    [[nodiscard]] static Motion motion_of_flier(const Flier& f)
-    {
-        const CenterMotion c = center_of(f);
-        const double gain =
-            f.ax != 0 || f.ay != 0 || f.alpha != 0 ? length_of(f.ax, f.ay) + std::fabs(f.alpha) * length_of(f.arm_x, f.arm_y) : 0;
-        return {c, length_of(c.vx, c.vy), gain};
+        const double x = b.x - a.x;
+        const double y = b.y - a.y;
+        const double r = a.radius + b.radius;
+        return x * x + y * y > r * r;
     }
 
     const FlightSpan& m_span;
     Flier& m_flier;
     Position m_origin;
     FramePath m_own_path;
-    Motion m_own;
+    Reach m_reach;
 };
 
 } // namespace
+
+Reach reach_of(const FlightSpan& span, int body)
+{
+    const BodySim& sim = span.sim_of(body);
+    const std::int32_t s = span.state_in_unit(body);
+    if (const Flier* f = span.flier_at(s))
+    {
+        const CenterMotion c = center_of(*f);
+        const double left = span.h - f->time;
+        const double gain = f->ax != 0 || f->ay != 0 || f->alpha != 0
+                                ? length_of(f->ax, f->ay) + std::fabs(f->alpha) * length_of(f->arm_x, f->arm_y)
+                                : 0;
+        return {sim.center.x + c.x, sim.center.y + c.y,
+                static_cast<double>(sim.extent) + left * (length_of(c.vx, c.vy) + left * gain)};
+    }
+    // The solver has put it where it is at the end of the sub-step.
+    const BodyState& there = span.state_of(s);
+    return {sim.center.x + static_cast<double>(there.delta_position.x),
+            sim.center.y + static_cast<double>(there.delta_position.y),
+            static_cast<double>(sim.extent) + 2 * span.h * static_cast<double>(length(there.velocity))};
+}
 
 bool try_find_next_event(const FlightSpan& span, Flier& f)
 {

@@ -194,6 +194,14 @@ struct RecordedPose
     Pose pose;
 };
 
+/// Where a body may come in the rest of a sub-step: a circle, in the world.
+struct Reach
+{
+    double x = 0;
+    double y = 0;
+    double radius = 1e300;
+};
+
 /// Per unit, so that units may run side by side; merged in the order of the units.
 struct UnitOutput
 {
@@ -205,6 +213,7 @@ struct UnitOutput
     std::vector<DeferredImpulse> deferred;
     std::vector<std::int32_t> kicked_shapes;
     std::vector<std::int32_t> deflected;  ///< fliers off the way they set out on, in order
+    std::vector<Reach> reaches;           ///< of each of these
     std::vector<PathPiece> path;          ///< of traced bodies, of each in the order of time
     std::vector<std::int32_t> last_piece; ///< of each state of the unit; empty before the first
     std::vector<RecordedPose> poses;      ///< after each sub-step, when asked for

@@ -17,4 +17,7 @@ void find_next_event(const FlightSpan& span, Flier& f);
     return state == none ? 0 : span.scratch.versions[static_cast<std::size_t>(state)];
 }
 
+/// Of a dynamic body of the unit, whether it flies or not, for the rest of the sub-step.
+[[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
+
 } // namespace carom::internal
