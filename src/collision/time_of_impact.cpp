@@ -29,7 +29,7 @@ Vector turned_back(SinCos q, Vector v) { return {q.cos * v.x + q.sin * v.y, q.co
 
 SinCos rotation_at(const FramePath& f, double t)
 {
-    if (f.w == 0 && f.alpha == 0)
+    if (t == 0 || (f.w == 0 && f.alpha == 0))
         return {f.s, f.c};
     const SinCos turn = sin_cos(t * (f.w + 0.5 * t * f.alpha));
     return {f.s * turn.cos + f.c * turn.sin, f.c * turn.cos - f.s * turn.sin};
@@ -418,35 +418,68 @@ Reach reach_of(const LeafView& v, const FramePath& path, Vector direction)
     return reach;
 }
 
+// Two leaves along an axis from a to b, and how near they may come in that time.
+class Interval
+{
+public:
+    Interval(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Vector axis, double duration)
+        : m_path_a(path_a), m_path_b(path_b), m_axis(axis), m_a(reach_of(a, path_a, axis)),
+          m_b(reach_of(b, path_b, {-axis.x, -axis.y}))
+    {
+        const CenterPath& ca = path_a.center;
+        const CenterPath& cb = path_b.center;
+        m_gap = dot({cb.x - ca.x, cb.y - ca.y}, axis) - m_a.along - m_b.along;
+        const double speed = -dot({cb.vx - ca.vx, cb.vy - ca.vy}, axis);
+        const double acceleration = -dot({cb.ax - ca.ax, cb.ay - ca.ay}, axis);
+        const auto turn = [duration](const FramePath& path)
+        { return std::min(2.0, duration * (std::fabs(path.w) + 0.5 * duration * std::fabs(path.alpha))); };
+        m_closing = duration * (std::max(speed, 0.0) + 0.5 * duration * std::max(acceleration, 0.0)) + m_a.most * turn(path_a) +
+                    m_b.most * turn(path_b) + nearly_touch * std::min(m_a.most, m_b.most);
+    }
+
+    [[nodiscard]] bool stays_open() const { return m_gap > m_closing; }
+
+    /// A corner on the far side: it cannot come to where the other leaf is.
+    [[nodiscard]] bool leaves_out(const Probe& probe, bool on_a) const
+    {
+        const FramePath& path = on_a ? m_path_a : m_path_b;
+        const Vector d = turned_back({path.s, path.c}, on_a ? m_axis : Vector{-m_axis.x, -m_axis.y});
+        const Vector p = {static_cast<double>(probe.point.x) - static_cast<double>(path.local_center.x),
+                          static_cast<double>(probe.point.y) - static_cast<double>(path.local_center.y)};
+        return m_gap + (on_a ? m_a : m_b).along - dot(p, d) - probe.radius > m_closing;
+    }
+
+private:
+    const FramePath& m_path_a;
+    const FramePath& m_path_b;
+    Vector m_axis;
+    Reach m_a;
+    Reach m_b;
+    double m_gap;
+    double m_closing;
+};
+
 } // namespace
 
-bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double axis_x,
-                double axis_y, double duration)
+bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
+                double duration)
 {
-    const Vector axis = {axis_x, axis_y};
-    const Reach ra = reach_of(a, path_a, axis);
-    const Reach rb = reach_of(b, path_b, {-axis.x, -axis.y});
-    const CenterPath& ca = path_a.center;
-    const CenterPath& cb = path_b.center;
-    const double gap = dot({cb.x - ca.x, cb.y - ca.y}, axis) - ra.along - rb.along;
-    const double speed = -dot({cb.vx - ca.vx, cb.vy - ca.vy}, axis);
-    const double acceleration = -dot({cb.ax - ca.ax, cb.ay - ca.ay}, axis);
-    const auto turn = [duration](const FramePath& path)
-    { return std::min(2.0, duration * (std::fabs(path.w) + 0.5 * duration * std::fabs(path.alpha))); };
-    const double closed = duration * (std::max(speed, 0.0) + 0.5 * duration * std::max(acceleration, 0.0));
-    return gap > closed + ra.most * turn(path_a) + rb.most * turn(path_b) + nearly_touch * std::min(ra.most, rb.most);
+    return Interval(a, path_a, b, path_b, {axis.x, axis.y}, duration).stays_open();
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach, double wait, const ProbeSet& held)
+                                 double duration, double least_approach, double wait, const ProbeSet& held, Axis axis)
 {
     const double length = std::min(probe_size(a), probe_size(b));
+    std::optional<Interval> interval;
+    if (axis.x != 0 || axis.y != 0)
+        interval.emplace(a, path_a, b, path_b, Vector{axis.x, axis.y}, duration);
     std::optional<Touch> first;
     for_each_probe_pair(
         a, b,
         [&](const Probe& probe, int number, bool on_a)
         {
-            if (held.has(number, on_a))
+            if (held.has(number, on_a) || (interval && interval->leaves_out(probe, on_a)))
                 return;
             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
             const double left = first ? first->time : duration;

@@ -177,11 +177,15 @@ private:
             return;
         const FramePath target = path_from(m_span, body, start, m_origin);
         const FramePath own_path = start > m_flier.time ? path_after(m_own_path, start - m_flier.time) : m_own_path;
-        if (stays_away(own, shape, target, own_path, contact, left))
+        const LeafView a = leaf_view(state, shape);
+        const LeafView b = leaf_view(state, own);
+        const Axis line = line_of_centers(target, own_path);
+        const Axis normal = normal_at_start(shape, contact);
+        if (stays_apart_along(line, a, target, b, own_path, left) || stays_apart_along(normal, a, target, b, own_path, left))
             return;
-        const std::optional<Touch> hit = first_touch(
-            leaf_view(state, shape), target, leaf_view(state, own), own_path, left, m_span.least_approach,
-            state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0, held_corners(m_flier, own, shape));
+        const std::optional<Touch> hit = first_touch(a, target, b, own_path, left, m_span.least_approach,
+                                                     state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0,
+                                                     held_corners(m_flier, own, shape), is_none(normal) ? line : normal);
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.
@@ -207,24 +211,31 @@ private:
         return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
     }
 
-    // Along the line of their centers, or the normal at the start of the step: a look at every corner is dear.
-    [[nodiscard]] bool stays_away(int own, int shape, const FramePath& target, const FramePath& own_path, int contact,
-                                  double left) const
+    // A look at every corner is dear: most pairs are told by the line of their centers, or by the normal at the start of the step.
+    [[nodiscard]] static bool stays_apart_along(Axis axis, const LeafView& a, const FramePath& path_a, const LeafView& b,
+                                                const FramePath& path_b, double left)
     {
-        const SceneState& state = m_span.state;
-        const LeafView a = leaf_view(state, shape);
-        const LeafView b = leaf_view(state, own);
-        if (contact != none && state.contacts[contact].manifold.count > 0)
-        {
-            const double sign = state.contacts[contact].shape_a == shape ? 1 : -1;
-            const Vec2 n = state.contacts[contact].manifold.normal;
-            if (stay_apart(a, target, b, own_path, sign * static_cast<double>(n.x), sign * static_cast<double>(n.y), left))
-                return true;
-        }
+        return !is_none(axis) && stay_apart(a, path_a, b, path_b, axis, left);
+    }
+
+    [[nodiscard]] static bool is_none(Axis axis) { return axis.x == 0 && axis.y == 0; }
+
+    [[nodiscard]] static Axis line_of_centers(const FramePath& target, const FramePath& own_path)
+    {
         const double dx = own_path.center.x - target.center.x;
         const double dy = own_path.center.y - target.center.y;
         const double l = std::sqrt(dx * dx + dy * dy);
-        return l > 0 && stay_apart(a, target, b, own_path, dx / l, dy / l, left);
+        return l > 0 ? Axis{dx / l, dy / l} : Axis{};
+    }
+
+    // From the shape to the flier.
+    [[nodiscard]] Axis normal_at_start(int shape, int contact) const
+    {
+        if (contact == none || m_span.state.contacts[contact].manifold.count == 0)
+            return {};
+        const Contact& c = m_span.state.contacts[contact];
+        const double sign = c.shape_a == shape ? 1 : -1;
+        return {sign * static_cast<double>(c.manifold.normal.x), sign * static_cast<double>(c.manifold.normal.y)};
     }
 
     // Two moving bodies that stay apart whatever they turn: most of a crowd.

@@ -54,6 +54,13 @@ struct ProbeSet
     [[nodiscard]] bool has(int probe, bool on_a) const { return (((on_a ? of_a : of_b) >> (probe & 31)) & 1) != 0; }
 };
 
+/// Of unit length; 0: none.
+struct Axis
+{
+    double x = 0;
+    double y = 0;
+};
+
 struct Touch
 {
     double time = 0;
@@ -70,14 +77,14 @@ struct Touch
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
 /// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew only when it has pressed
-/// for `wait` seconds. The corners of `held` are left out.
+/// for `wait` seconds. The corners of `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach, double wait = 0,
-                                               const ProbeSet& held = {});
+                                               const ProbeSet& held = {}, Axis axis = {});
 
-/// True where nothing of the two can meet in that time: along an axis (from a to b, unit length) they stay apart. False says nothing.
-[[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                              double axis_x, double axis_y, double duration);
+/// True where nothing of the two can meet in that time: along an axis from a to b they stay apart. False says nothing.
+[[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
+                              double duration);
 
 /// All points at which the leaves are nearer than `tolerance` at t = 0.
 struct Touches
