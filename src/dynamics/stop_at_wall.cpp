@@ -37,6 +37,12 @@ Core core_of(const LeafView& v)
     return {(1 / static_cast<float>(leaf.count)) * sum, radius};
 }
 
+FloatBox box_around(Position start, double radius, double dx, double dy)
+{
+    return round_outwards(start.x + std::min(dx, 0.0) - radius, start.y + std::min(dy, 0.0) - radius,
+                          start.x + std::max(dx, 0.0) + radius, start.y + std::max(dy, 0.0) + radius);
+}
+
 double free_part(const StepContext& ctx, int shape, double dx, double dy)
 {
     const SceneState& state = ctx.state;
@@ -59,8 +65,7 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
             part = hit->time; // 0 where the core is in the wall already and would go deeper
         return true;
     };
-    const FloatBox box = round_outwards(start.x + std::min(dx, 0.0) - core.radius, start.y + std::min(dy, 0.0) - core.radius,
-                                        start.x + std::max(dx, 0.0) + core.radius, start.y + std::max(dy, 0.0) + core.radius);
+    const FloatBox box = box_around(start, core.radius, dx, dy);
     state.broad_phase.query(Layer::Resting, box, visit);
     for (const std::int32_t half_space : state.broad_phase.unbounded())
     {
@@ -70,11 +75,25 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
     return part;
 }
 
+// Most bodies go where nothing rests.
+bool may_meet_walls(const StepContext& ctx, int body, double dx, double dy)
+{
+    const SceneState& state = ctx.state;
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    const FloatBox box = box_around(sim.center, static_cast<double>(sim.extent), dx, dy);
+    const bool free = state.broad_phase.query(Layer::Resting, box, [](int) { return false; });
+    const std::vector<std::int32_t>& half_spaces = state.broad_phase.unbounded();
+    return !free || std::any_of(half_spaces.begin(), half_spaces.end(),
+                                [&](std::int32_t half_space) { return reaches_half_space(state, half_space, box, 0); });
+}
+
 } // namespace
 
 double free_part_of_path(const StepContext& ctx, int body, double dx, double dy)
 {
     double part = 1;
+    if (!may_meet_walls(ctx, body, dx, dy))
+        return part;
     for_each_leaf(ctx.state, body,
                   [&](int shape)
                   {

@@ -47,9 +47,9 @@ struct Probe
            dx * static_cast<double>(leaf.p1.x) + dy * static_cast<double>(leaf.p1.y) >= static_cast<double>(leaf.cos_half_sweep);
 }
 
-/// Calls visit(probe) for each.
+/// Calls visit(probe) for each; bands only matter against lines.
 template <class Visit>
-void for_each_probe(const LeafView& v, Visit&& visit)
+void for_each_probe(const LeafView& v, bool against_line, Visit&& visit)
 {
     const Leaf& leaf = *v.leaf;
     const auto r0 = static_cast<double>(leaf.r0);
@@ -66,7 +66,7 @@ void for_each_probe(const LeafView& v, Visit&& visit)
         return;
     case LeafType::Polygon:
     {
-        const double band = 0.25 * inner_radius(v);
+        const double band = against_line ? 0.25 * inner_radius(v) : 0;
         for (int i = 0; i < leaf.count; ++i)
         {
             const Vec2 before = v.normals[i > 0 ? i - 1 : leaf.count - 1];
@@ -93,12 +93,13 @@ void for_each_probe_pair(const LeafView& a, const LeafView& b, Visit&& visit)
 {
     const bool a_is_circle = a.leaf->type == LeafType::Circle;
     const bool b_is_circle = b.leaf->type == LeafType::Circle;
+    const auto is_line = [](const LeafView& v) { return v.leaf->type == LeafType::Segment || v.leaf->type == LeafType::Arc; };
     int number = 0;
     if (!b_is_circle || a_is_circle)
-        for_each_probe(a, [&](const Probe& p) { visit(p, number++, true); });
+        for_each_probe(a, is_line(b), [&](const Probe& p) { visit(p, number++, true); });
     number = 0;
     if (!a_is_circle)
-        for_each_probe(b, [&](const Probe& p) { visit(p, number++, false); });
+        for_each_probe(b, is_line(a), [&](const Probe& p) { visit(p, number++, false); });
 }
 
 } // namespace carom::internal
