@@ -172,9 +172,14 @@ public:
                 forget_impulses(contact);
             if (!touching && !solved)
                 continue;
-            Link l{.contact = index, .a = place_of(contact.body_a), .b = place_of(contact.body_b)};
-            if (l.a < 0 && l.b < 0)
+            const std::int32_t a = place_of(contact.body_a);
+            const std::int32_t b = place_of(contact.body_b);
+            if (a < 0 && b < 0)
                 continue;
+            Link& l = links.emplace_back(); // filled where it stands: a copy would wait for its bytes
+            l.contact = index;
+            l.a = a;
+            l.b = b;
             l.touching = touching;
             l.solved = solved;
             l.bears = (contact.flags & contact_flag::loaded) != 0;
@@ -182,7 +187,6 @@ public:
             l.plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
             l.round = (contact.flags & contact_flag::round) != 0;
             l.points = static_cast<std::uint8_t>(contact.manifold.count);
-            links.push_back(l);
         }
     }
 
