@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 namespace carom::internal {
@@ -206,12 +207,24 @@ public:
         scratch.flight[static_cast<std::size_t>(place)] = earthbound;
     }
 
-    // Islands: relabelled only when the graph has changed.
+    // Islands, at the root of each of its bodies; relabelled only when the graph has changed.
+    void link_islands()
+    {
+        reset_parents(ctx);
+        if (state.graph_dirty)
+            label_islands();
+        scratch.has_kinematic = false;
+        for (const std::int32_t body : state.awake_bodies)
+        {
+            if (state.bodies[body].type == BodyType::Dynamic)
+                link_bodies(ctx, body, state.bodies[body].island);
+            else
+                scratch.has_kinematic = true;
+        }
+    }
+
     void label_islands()
     {
-        if (!state.graph_dirty)
-            return;
-        reset_parents(ctx);
         for (const Link& l : scratch.links)
         {
             if (l.touching && l.a >= 0 && l.b >= 0)
@@ -278,6 +291,8 @@ public:
             ++t.bodies;
             t.fliers += scratch.flight[i] != earthbound ? 1 : 0;
         }
+        if (state.joints.count() == 0) // who bears matters to heaps
+            return;
         for (const Link& l : scratch.links)
         {
             if (l.solved && l.bears)
@@ -401,21 +416,12 @@ public:
                       : 0;
     }
 
-    // Islands first, then what this step adds.
+    // What this step adds to the islands.
     void link_units()
     {
-        reset_parents(ctx);
-        scratch.has_kinematic = false;
-        for (const std::int32_t body : state.awake_bodies)
-        {
-            if (state.bodies[body].type == BodyType::Dynamic)
-                link_bodies(ctx, body, state.bodies[body].island);
-            else
-                scratch.has_kinematic = true;
-        }
         for (const Link& l : scratch.links)
         {
-            if (l.solved && l.a >= 0 && l.b >= 0)
+            if (l.solved && !l.touching && l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
     }
@@ -507,15 +513,28 @@ public:
     {
         std::vector<std::int32_t>& starts = scratch.unit_starts;
         starts.assign(scratch.units.size() + 1, 0);
+        std::int32_t last = 0;
+        bool in_order = true;
         for (const Item& item : items)
         {
-            if (const std::int32_t unit = unit_of(item); unit != none)
-                ++starts[static_cast<std::size_t>(unit) + 1];
+            const std::int32_t unit = unit_of(item);
+            if (unit == none)
+                continue;
+            ++starts[static_cast<std::size_t>(unit) + 1];
+            in_order &= last <= unit;
+            last = unit;
         }
         for (std::size_t u = 0; u < scratch.units.size(); ++u)
         {
             set_range(scratch.units[u], starts[u], starts[u + 1]);
             starts[u + 1] += starts[u];
+        }
+        if (in_order)
+        {
+            sorted.clear();
+            std::copy_if(items.begin(), items.end(), std::back_inserter(sorted),
+                         [&](const Item& i) { return unit_of(i) != none; });
+            return;
         }
         sorted.resize(static_cast<std::size_t>(starts.back()));
         for (const Item& item : items)
@@ -600,7 +619,7 @@ void build_unit_graph(StepContext& ctx)
     UnitGraph graph(ctx);
     graph.find_fliers();
     graph.gather_links();
-    graph.label_islands();
+    graph.link_islands();
     graph.link_units();
     graph.number_units();
     graph.ground_crowds();

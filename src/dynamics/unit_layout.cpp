@@ -340,19 +340,31 @@ private:
     void choose_colors(Unit& unit)
     {
         const bool wide = is_wide(unit);
+        const bool uniform = wide && is_uniform(unit);
         for (Link& l : links_of(unit))
         {
             const int color = free_color(unit, l.a, l.b);
             l.color = static_cast<std::uint8_t>(color);
-            l.in_lane = wide && color != color_limit && fits_lane(m_ctx, l);
+            l.in_lane = wide && color != color_limit && (uniform ? l.plain : fits_lane(m_ctx, l));
             ++m_bins[bin_of(l)];
-            unbind(l.a);
-            unbind(l.b);
             if (color == color_limit)
                 m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
             else
                 unit.colors = std::max(unit.colors, color + 1);
         }
+        for (std::int32_t s = unit.first_state; s < unit.first_state + unit.state_count; ++s)
+        {
+            if (m_scratch.color_masks[as_index(s)] != 0)
+                unbind(s);
+        }
+    }
+
+    // All of its bodies may move along every axis, or along none.
+    [[nodiscard]] bool is_uniform(const Unit& unit) const
+    {
+        const auto begin = m_scratch.constants.begin() + unit.first_state;
+        return std::all_of(begin, begin + unit.state_count,
+                           [](const StateConstants& c) { return c.inverse_mass.x == c.inverse_mass.y; });
     }
 
     // Lanes by color and number of points, then rows by color.
