@@ -11,9 +11,11 @@
 #include "dynamics/unit_energy.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <utility>
 
 namespace carom::internal {
 
@@ -24,7 +26,8 @@ constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
 constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
-constexpr int heap_bodies = 256; // in a batch
+constexpr std::size_t reaches_per_task = 16; // blocks of eight
+constexpr int heap_bodies = 256;             // in a batch
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
 
@@ -440,29 +443,51 @@ public:
             const Position c = state.sims[static_cast<std::size_t>(body)].center;
             const double r =
                 static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
-            reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), body});
+            reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), static_cast<std::int32_t>(i)});
         }
         scratch.may_be_struck.assign(state.awake_bodies.size(), 0);
         if (reaches.empty())
             return false;
-        BoxTree& tree = scratch.reach_tree;
-        tree.build(reaches);
+        scratch.reach_tree.build(reaches);
+        using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
+        const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
+        const std::span<Meetings> parts =
+            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings_of_task,
+                          [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
         bool linked = false;
-        state.broad_phase.for_each_overlap(tree, Layer::Moving,
-                                           [&](int body, int shape)
-                                           {
-                                               const int other = state.shapes[shape].body;
-                                               linked |= link_bodies(ctx, body, other);
-                                               const auto place = static_cast<std::size_t>(state.bodies[other].awake_index);
-                                               scratch.may_be_struck[place] = 1;
-                                           });
-        for (int k = 0; k < tree.block_count(); ++k) // two that are both deflected
+        for (const Meetings& some : parts)
         {
-            const int left = std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity);
-            tree.for_each_overlap(k, (1u << left) - 1, tree,
-                                  [&](int own, int other) { linked |= link_bodies(ctx, tree.item(own), tree.item(other)); });
+            for (const auto& [place, other] : some)
+                linked |= link(scratch.parent, place, other);
         }
         return linked;
+    }
+
+    // Of bodies in different units, by place; notes what else may be struck.
+    void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
+    {
+        const BoxTree& tree = scratch.reach_tree;
+        meetings.clear();
+        const auto note = [&](std::int32_t place, std::int32_t other)
+        {
+            const std::int32_t unit = scratch.unit_of[static_cast<std::size_t>(other)]; // kinematic bodies have none
+            if (unit != none && unit != scratch.unit_of[static_cast<std::size_t>(place)])
+                meetings.emplace_back(place, other);
+        };
+        for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
+        {
+            const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
+            state.broad_phase.for_each_overlap(
+                tree, k, lanes, Layer::Moving,
+                [&](std::int32_t place, int shape)
+                {
+                    const std::int32_t other = state.bodies[state.shapes[shape].body].awake_index;
+                    std::atomic_ref(scratch.may_be_struck[static_cast<std::size_t>(other)]).store(1, std::memory_order_relaxed);
+                    note(place, other);
+                });
+            // two that are both deflected
+            tree.for_each_overlap(k, lanes, tree, [&](int own, int other) { note(tree.item(own), tree.item(other)); });
+        }
     }
 
     [[nodiscard]] bool may_be_deflected(int body) const

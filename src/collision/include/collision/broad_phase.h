@@ -119,14 +119,21 @@ public:
         return true;
     }
 
-    /// Calls visit(item, other) where the boxes of a tree overlap those of a layer.
+    /// Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those of a layer.
     template <class Visit>
-    void for_each_overlap(const BoxTree& tree, Layer layer, const Visit& visit) const
+    void for_each_overlap(const BoxTree& tree, int k, unsigned lanes, Layer layer, const Visit& visit) const
     {
-        for (int k = 0; k < tree.block_count(); ++k)
+        const Forest& forest = m_forests[static_cast<std::size_t>(layer)];
+        for (const BoxTree& others : forest.trees)
+            tree.for_each_overlap(k, lanes, others, [&](int own, int other) { visit(tree.item(own), others.item(other)); });
+        for (const std::int32_t other : forest.recent)
         {
-            const int left = tree.leaf_count() - k * BoxTree::arity;
-            visit_overlaps(tree, k, left >= BoxTree::arity ? (1u << BoxTree::arity) - 1 : (1u << left) - 1, layer, visit);
+            for (unsigned l = lanes; l != 0; l &= l - 1)
+            {
+                const int own = k * BoxTree::arity + std::countr_zero(l);
+                if (overlaps(tree.box(own), box(other)))
+                    visit(tree.item(own), other);
+            }
         }
     }
 
@@ -231,24 +238,7 @@ private:
         if (lanes != 0)
         {
             for (const Layer layer : {Layer::Moving, Layer::Resting})
-                visit_overlaps(tree, k, lanes, layer, visit);
-        }
-    }
-
-    template <class Visit>
-    void visit_overlaps(const BoxTree& tree, int k, unsigned lanes, Layer layer, const Visit& visit) const
-    {
-        const Forest& forest = m_forests[static_cast<std::size_t>(layer)];
-        for (const BoxTree& others : forest.trees)
-            tree.for_each_overlap(k, lanes, others, [&](int own, int other) { visit(tree.item(own), others.item(other)); });
-        for (const std::int32_t other : forest.recent)
-        {
-            for (unsigned l = lanes; l != 0; l &= l - 1)
-            {
-                const int own = k * BoxTree::arity + std::countr_zero(l);
-                if (overlaps(tree.box(own), box(other)))
-                    visit(tree.item(own), other);
-            }
+                for_each_overlap(tree, k, lanes, layer, visit);
         }
     }
 

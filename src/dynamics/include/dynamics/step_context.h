@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace carom::internal {
@@ -261,6 +262,7 @@ struct Scratch
     std::vector<Link> links;
     std::vector<TreeLeaf> reaches; ///< of what may be deflected
     BoxTree reach_tree;
+    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
     std::vector<Link> solved_links; ///< those that get rows, by unit
