@@ -116,6 +116,7 @@ void BoxTree::update(int leaf, const FloatBox& box)
 void BoxTree::remove(int leaf)
 {
     m_levels[0][static_cast<std::size_t>(leaf / arity)].set(leaf % arity, {});
+    m_items[static_cast<std::size_t>(leaf)] = -1;
     --m_live;
 }
 

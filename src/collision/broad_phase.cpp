@@ -76,7 +76,7 @@ bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
     std::size_t total = forest.recent.size();
     for (const BoxTree& tree : forest.trees)
         total += static_cast<std::size_t>(tree.live_count());
-    // Sorting costs about as much as widening a quarter of the paths, and leaves a better tree.
+    // Fitting all boxes costs about as much as widening a quarter of the paths, and leaves a better tree.
     const bool many = items.size() * 4 > total;
     for (std::size_t i = 0; i < items.size(); ++i)
     {
@@ -86,8 +86,18 @@ bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
             widen(items[i], boxes[i]);
     }
     if (many)
-        rebuild(forest, 0);
+        fit_moving();
     return many;
+}
+
+// Neighbours remain neighbours for a few steps.
+void BroadPhase::fit_moving()
+{
+    Forest& forest = m_forests[0];
+    if (++m_fits < fits_per_sort && forest.trees.size() == 1 && forest.recent.empty())
+        forest.trees[0].refit([&](std::int32_t item) { return box(item); });
+    else
+        rebuild(forest, 0);
 }
 
 void BroadPhase::add_recent(int item, Layer layer)
@@ -137,19 +147,16 @@ void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
         const BoxTree& tree = forest.trees[t];
         for (int i = 0; i < tree.leaf_count(); ++i)
         {
-            const std::int32_t item = tree.item(i);
-            const Place& place = m_places[static_cast<std::size_t>(item)];
-            const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
-            // A leaf that was taken out leaves its item's place pointing elsewhere.
-            if (place.layer != Layer::None && leaf.tree == static_cast<std::int32_t>(t) && leaf.index == i &&
-                &m_forests[static_cast<std::size_t>(place.layer)] == &forest)
-                leaves.push_back({place.box, item});
+            if (const std::int32_t item = tree.item(i); item >= 0)
+                leaves.push_back({box(item), item});
         }
     }
     for (const std::int32_t item : forest.recent)
         leaves.push_back({box(item), item});
     forest.recent.clear();
     forest.trees.resize(from_tree);
+    if (&forest == &m_forests[0])
+        m_fits = 0;
     if (leaves.empty())
         return;
     forest.trees.emplace_back();

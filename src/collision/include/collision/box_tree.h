@@ -81,6 +81,18 @@ public:
     static constexpr int max_levels = 12; // 8^11 leaves
 
     void build(std::span<const TreeLeaf> leaves);
+    /// New boxes for all leaves, in the order in which they are: box_of(item).
+    template <class BoxOf>
+    void refit(const BoxOf& box_of)
+    {
+        for (std::size_t i = 0; i < m_items.size(); ++i)
+        {
+            if (m_items[i] >= 0)
+                m_levels[0][i / arity].set(static_cast<int>(i % arity), box_of(m_items[i]));
+        }
+        build_levels();
+    }
+
     /// Replaces a leaf's box; the boxes above it grow as needed.
     void update(int leaf, const FloatBox& box);
     /// An empty box overlaps nothing. The leaf stays until the next build.
@@ -88,6 +100,7 @@ public:
 
     [[nodiscard]] int leaf_count() const { return static_cast<int>(m_items.size()); }
     [[nodiscard]] int live_count() const { return m_live; }
+    /// -1 where it was removed.
     [[nodiscard]] std::int32_t item(int leaf) const { return m_items[static_cast<std::size_t>(leaf)]; }
     [[nodiscard]] FloatBox box(int leaf) const { return block(leaf / arity).box(leaf % arity); }
     [[nodiscard]] FloatBox bounds() const { return m_items.empty() ? FloatBox{} : m_levels.back()[0].bounds(); }

@@ -70,8 +70,8 @@ public:
             m_places[static_cast<std::size_t>(item)].traits.trigger = trigger;
     }
 
-    /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: the layer is sorted anew.
-    /// True: sorted anew.
+    /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: all boxes are fitted anew, and now
+    /// and then sorted. True: all are fitted.
     bool update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
 
     /// Of this step; between steps, and for what rests, the box stands still.
@@ -182,6 +182,7 @@ public:
     [[nodiscard]] const std::vector<std::int32_t>& unbounded() const { return m_unbounded; }
 
 private:
+    static constexpr int fits_per_sort = 8;
     static constexpr std::size_t recent_limit = 32; // longer lists cost queries more than the merge they put off
 
     // All that decides about pairs.
@@ -243,6 +244,7 @@ private:
     }
 
     void stand_still(int item);
+    void fit_moving();
     void widen(int item, const FloatBox& box);
     void add_recent(int item, Layer layer);
     void take_out(int item);
@@ -253,6 +255,7 @@ private:
     std::vector<Leaf> m_leaves; ///< by item, as the places
     Forest m_forests[2];
     std::vector<std::int32_t> m_unbounded;
+    int m_fits = 0; ///< of the moving layer since it was sorted
 };
 
 } // namespace carom::internal
