@@ -41,26 +41,30 @@ namespace {
 
 constexpr int crew_groups = 256; // from so many on a unit is worth all threads
 
-// A parabola and an even turn, sub-step by sub-step as everything else; positions add up exactly.
+// A parabola and an even turn: in double, rounded once. Damping acts after each sub-step, as on everything else.
 void fall(const StepContext& ctx, std::int32_t index)
 {
     BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
     const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(index)];
-    double x = 0;
-    double y = 0;
-    double angle = 0;
-    for (int k = 0; k < ctx.substeps; ++k)
+    const double h = static_cast<double>(ctx.h);
+    const auto sum = [&](float& speed, float acceleration, float decay)
     {
-        accelerate(s, c, ctx.h);
-        const Vec2 way =
-            ctx.h * s.velocity - (0.5f * ctx.h * ctx.h) * c.acceleration; // the mean of the velocities before and after
-        x += static_cast<double>(way.x);
-        y += static_cast<double>(way.y);
-        angle += static_cast<double>(ctx.h * s.angular_velocity);
-    }
-    s.delta_position = {static_cast<float>(x), static_cast<float>(y)};
+        double way = 0;
+        auto v = static_cast<double>(speed);
+        for (int k = 0; k < ctx.substeps; ++k)
+        {
+            const double after = static_cast<double>(decay) * (v + h * static_cast<double>(acceleration));
+            way += h * (after - 0.5 * h * static_cast<double>(acceleration)); // the mean of the velocities before and after
+            v = after;
+        }
+        speed = static_cast<float>(v);
+        return static_cast<float>(way);
+    };
+    s.delta_position.x = sum(s.velocity.x, c.acceleration.x, c.linear_decay);
+    s.delta_position.y = sum(s.velocity.y, c.acceleration.y, c.linear_decay);
+    const float angle = sum(s.angular_velocity, c.angular_acceleration, c.angular_decay);
     if (angle != 0)
-        s.delta_rotation = Rotation::from_angle(static_cast<float>(angle));
+        s.delta_rotation = Rotation::from_angle(angle);
 }
 
 [[nodiscard]] bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= crew_groups; }
