@@ -24,6 +24,7 @@ namespace {
 constexpr float slice_turn = 0.02f;  // rad
 constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
+constexpr int hinge_slice_limit = 64; // between bodies that move by themselves: what they err by is their own energy
 constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
@@ -312,16 +313,17 @@ public:
     // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
     void choose_slices()
     {
-        const auto slice = [&](std::int32_t unit, float rate, float most_turn)
+        const auto slice = [&](std::int32_t unit, float rate, float most_turn, int limit)
         {
-            const auto wanted = static_cast<int>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(slice_limit))));
+            const auto wanted = static_cast<int>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
             std::int32_t& slices = scratch.units[static_cast<std::size_t>(unit)].slices;
             slices = std::max(slices, wanted);
         };
         for (const Link& l : scratch.links)
         {
             if (l.solved && tally(unit_of_link(l)).bodies <= precise_limit)
-                slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn);
+                slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn,
+                      l.a >= 0 && l.b >= 0 ? hinge_slice_limit : slice_limit);
         }
         for (int j = 0; j < state.joints.capacity(); ++j)
         {
@@ -334,7 +336,7 @@ public:
             ++tally(unit).joints;
             tally(unit).hangs |= !is_moving_dynamic(state, joint.body_a) || !is_moving_dynamic(state, joint.body_b);
             if (tally(unit).bodies <= UnitEnergy::most_bodies)
-                slice(unit, swing_rate(joint), slice_swing);
+                slice(unit, swing_rate(joint), slice_swing, slice_limit);
         }
     }
 
