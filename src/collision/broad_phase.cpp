@@ -98,6 +98,21 @@ void BroadPhase::fit_moving()
         forest.trees[0].refit([&](std::int32_t item) { return box(item); });
     else
         rebuild(forest, 0);
+    m_past.resize(static_cast<std::size_t>(block_count()));
+}
+
+void BroadPhase::note_changes(int block)
+{
+    const BoxTree& tree = m_forests[0].trees[0];
+    BlockPast& past = m_past[static_cast<std::size_t>(block)];
+    past.changed = 0;
+    for (int i = 0; i < BoxTree::arity; ++i)
+    {
+        const int leaf = block * BoxTree::arity + i;
+        const std::int32_t item = leaf < tree.leaf_count() ? tree.item(leaf) : -1;
+        past.before.set(i, item >= 0 ? box_before(item) : FloatBox{});
+        past.changed |= item >= 0 && has_changed(item) ? 1u << i : 0u;
+    }
 }
 
 void BroadPhase::add_recent(int item, Layer layer)

@@ -95,14 +95,18 @@ void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
 
 void look_around_moved(StepContext& ctx)
 {
-    const BroadPhase& boxes = ctx.state.broad_phase;
-    if (ctx.scratch.sorted_anew)
+    BroadPhase& boxes = ctx.state.broad_phase;
+    if (ctx.scratch.all_fitted)
     {
-        look_on_all_threads(ctx, static_cast<std::size_t>(boxes.block_count()), blocks_per_task,
+        const auto blocks = static_cast<std::size_t>(boxes.block_count());
+        for_each_in_parts(ctx.scene.def.tasks, blocks, blocks_per_task,
+                          [&](std::size_t k) { boxes.note_changes(static_cast<int>(k)); });
+        look_on_all_threads(ctx, blocks, blocks_per_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
-                                const auto offer = [&](int shape, int other) { offer_changed(ctx, shape, other, pairs); };
-                                boxes.for_each_changed_overlap(static_cast<int>(first), static_cast<int>(last), offer);
+                                for (std::size_t k = first; k < last; ++k)
+                                    boxes.for_each_new_overlap(static_cast<int>(k), [&](int shape, int other)
+                                                               { offer_pair(ctx, shape, other, pairs); });
                             });
     }
     else

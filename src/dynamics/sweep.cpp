@@ -117,7 +117,7 @@ void sweep_paths(StepContext& ctx)
         all.items.insert(all.items.end(), some.items.begin(), some.items.end());
         all.boxes.insert(all.boxes.end(), some.boxes.begin(), some.boxes.end());
     }
-    scratch.sorted_anew = !all.items.empty() && ctx.state.broad_phase.update_moving(all.items, all.boxes);
+    scratch.all_fitted = !all.items.empty() && ctx.state.broad_phase.update_moving(all.items, all.boxes);
 }
 
 } // namespace carom::internal

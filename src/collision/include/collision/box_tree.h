@@ -109,6 +109,11 @@ public:
     [[nodiscard]] int block_count() const { return m_items.empty() ? 0 : static_cast<int>(m_levels[0].size()); }
     [[nodiscard]] const BoxBlock& block(int i) const { return m_levels[0][static_cast<std::size_t>(i)]; }
 
+    [[nodiscard]] FloatBox block_bounds(int i) const
+    {
+        return m_levels.size() > 1 ? m_levels[1][static_cast<std::size_t>(i / arity)].box(i % arity) : block(i).bounds();
+    }
+
     /// Calls visit(block) for every block of leaves that may have a box which overlaps.
     template <class Visit>
     void query_blocks(const FloatBox& box, Visit&& visit) const
@@ -143,24 +148,37 @@ public:
         return walk(test_all, 0, [&](std::int32_t leaf) { return visit(m_items[static_cast<std::size_t>(leaf)]); });
     }
 
-    /// Calls visit(own leaf, other leaf) where leaves of block k, a bit for each of its eight, overlap those of another tree: the eight go through
-    /// it together.
+    /// Calls visit(other block, lanes) where some of block k, a bit for each of its eight, may overlap what is in a block of another tree: the eight go
+    /// through it together.
     template <class Visit>
-    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const Visit& visit) const
+    void for_each_block_overlap(int k, unsigned lanes, const BoxTree& others, const Visit& visit) const
     {
         FloatBox around;
         for (unsigned l = lanes; l != 0; l &= l - 1)
             around = unite(around, block(k).box(std::countr_zero(l)));
-        const auto visit_block = [&](int other_block)
-        {
-            for (unsigned l = lanes; l != 0; l &= l - 1)
-            {
-                const int i = std::countr_zero(l);
-                for (unsigned hits = others.block(other_block).overlapping(block(k).box(i)); hits != 0; hits &= hits - 1)
-                    visit(k * arity + i, other_block * arity + std::countr_zero(hits));
-            }
-        };
-        others.query_blocks(around, visit_block);
+        others.query_blocks(around,
+                            [&](int other)
+                            {
+                                if (const unsigned near = lanes & block(k).overlapping(others.block_bounds(other)); near != 0)
+                                    visit(other, near);
+                            });
+    }
+
+    /// Calls visit(own leaf, other leaf) where leaves of block k overlap those of another tree.
+    template <class Visit>
+    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const Visit& visit) const
+    {
+        for_each_block_overlap(k, lanes, others,
+                               [&](int other, unsigned near)
+                               {
+                                   for (; near != 0; near &= near - 1)
+                                   {
+                                       const int i = std::countr_zero(near);
+                                       for (unsigned hits = others.block(other).overlapping(block(k).box(i)); hits != 0;
+                                            hits &= hits - 1)
+                                           visit(k * arity + i, other * arity + std::countr_zero(hits));
+                                   }
+                               });
     }
 
 private:

@@ -137,29 +137,37 @@ public:
         }
     }
 
-    /// Of the moving layer: eight neighbours each, which go through the trees together; one more for what is not in a tree yet.
-    [[nodiscard]] int block_count() const
-    {
-        int count = 1;
-        for (const BoxTree& tree : m_forests[0].trees)
-            count += tree.block_count();
-        return count;
-    }
+    /// Where update_moving has fitted all boxes: blocks of eight neighbours of the moving layer.
+    [[nodiscard]] int block_count() const { return m_forests[0].trees.empty() ? 0 : m_forests[0].trees[0].block_count(); }
 
-    /// Calls visit(item, other) where the box of an item of these blocks that has changed overlaps any other.
+    /// Notes what has changed in a block; before anything looks for new overlaps.
+    void note_changes(int block);
+
+    /// Calls visit(item, other), once for each two, where the box of an item of this block has changed and overlaps one that it did not before.
     template <class Visit>
-    void for_each_changed_overlap(int first, int last, const Visit& visit) const
+    void for_each_new_overlap(int k, const Visit& visit) const
     {
-        if (first == 0)
-            visit_recent(visit);
-        int before = 1;
-        for (const BoxTree& tree : m_forests[0].trees)
-        {
-            const int end = last - before < tree.block_count() ? last - before : tree.block_count();
-            for (int k = first > before ? first - before : 0; k < end; ++k)
-                visit_block(tree, k, visit);
-            before += tree.block_count();
-        }
+        const BoxTree& tree = m_forests[0].trees[0];
+        const BlockPast& own = m_past[static_cast<std::size_t>(k)];
+        if (own.changed == 0)
+            return;
+        tree.for_each_block_overlap(k, own.changed, tree,
+                                    [&](int o, unsigned near)
+                                    {
+                                        for (; near != 0; near &= near - 1)
+                                        {
+                                            const int i = std::countr_zero(near);
+                                            for (unsigned hits = new_overlaps(tree, k, i, o); hits != 0; hits &= hits - 1)
+                                                visit(tree.item(k * BoxTree::arity + i),
+                                                      tree.item(o * BoxTree::arity + std::countr_zero(hits)));
+                                        }
+                                    });
+        for_each_overlap(tree, k, own.changed, Layer::Resting,
+                         [&](std::int32_t item, std::int32_t other)
+                         {
+                             if (!overlaps(box_before(item), box_before(other)))
+                                 visit(item, other);
+                         });
     }
 
     template <class Test, class Visit>
@@ -208,39 +216,21 @@ private:
         std::vector<std::int32_t> recent;
     };
 
-    template <class Visit>
-    void visit_recent(const Visit& visit) const
+    // Of eight neighbours of the moving layer, when pairs were last looked for.
+    struct BlockPast
     {
-        for (const std::int32_t item : m_forests[0].recent)
-        {
-            if (!has_changed(item))
-                continue;
-            for (const Layer layer : {Layer::Moving, Layer::Resting})
-                query(layer, box(item),
-                      [&](int other)
-                      {
-                          visit(item, other);
-                          return true;
-                      });
-        }
-    }
+        BoxBlock before;
+        unsigned changed = 0; ///< a bit for each whose box is another one now
+    };
 
-    // The changed ones of a block against all that they may overlap.
-    template <class Visit>
-    void visit_block(const BoxTree& tree, int k, const Visit& visit) const
+    // What box i of block k has come to overlap in block o. Of two that have changed the first in the tree finds the other.
+    [[nodiscard]] unsigned new_overlaps(const BoxTree& tree, int k, int i, int o) const
     {
-        unsigned lanes = 0;
-        for (int i = 0; i < BoxTree::arity && k * BoxTree::arity + i < tree.leaf_count(); ++i)
-        {
-            const FloatBox b = tree.block(k).box(i);
-            if (b.lx <= b.ux && has_changed(tree.item(k * BoxTree::arity + i)))
-                lanes |= 1u << i;
-        }
-        if (lanes != 0)
-        {
-            for (const Layer layer : {Layer::Moving, Layer::Resting})
-                for_each_overlap(tree, k, lanes, layer, visit);
-        }
+        const BlockPast& past = m_past[static_cast<std::size_t>(o)];
+        const unsigned later = o > k ? ~0u : o == k ? ~0u << (i + 1) : 0;
+        const unsigned mine = (later | ~past.changed) & (o == k ? ~(1u << i) : ~0u);
+        const unsigned hits = mine & tree.block(o).overlapping(tree.block(k).box(i));
+        return hits == 0 ? 0 : hits & ~past.before.overlapping(m_past[static_cast<std::size_t>(k)].before.box(i));
     }
 
     void stand_still(int item);
@@ -254,6 +244,7 @@ private:
     std::vector<Place> m_places;
     std::vector<Leaf> m_leaves; ///< by item, as the places
     Forest m_forests[2];
+    std::vector<BlockPast> m_past; ///< of the blocks of the moving layer, once all are fitted
     std::vector<std::int32_t> m_unbounded;
     int m_fits = 0; ///< of the moving layer since it was sorted
 };

@@ -245,7 +245,7 @@ struct Scratch
     std::vector<std::int32_t> unsound; ///< bodies whose state is no longer finite
     MovedBoxes moved;
     std::vector<MovedBoxes> moved_of_task;
-    bool sorted_anew = false; ///< the moving layer, in this step
+    bool all_fitted = false; ///< the moving layer, in this step
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
     std::vector<std::uint8_t> pair_fates;
