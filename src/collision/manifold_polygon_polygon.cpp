@@ -3,6 +3,7 @@
 
 #include "collision/edge_rules.h"
 #include "collision/manifold.h"
+#include "core/float4.h"
 
 #include <cmath>
 #include <cstring>
@@ -12,8 +13,6 @@ namespace carom::internal {
 namespace {
 
 constexpr int most_corners = 8;
-
-using F4 = float __attribute__((vector_size(16)));
 
 struct Corners
 {
@@ -26,13 +25,6 @@ struct Axis
     int edge = 0;
     float separation = -3e38f;
 };
-
-F4 load4(const float* p)
-{
-    F4 r;
-    std::memcpy(&r, p, sizeof r);
-    return r;
-}
 
 // x and y of four vectors; those beyond the last are the last.
 void split(const Vec2* v, int first, int count, F4& x, F4& y)

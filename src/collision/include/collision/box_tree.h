@@ -5,11 +5,11 @@
 // at a time, so that all eight are tested at once. Building it is a radix sort and one pass; boxes may shrink, grow and vanish
 // afterwards without moving.
 
+#include "core/float4.h"
 #include "geometry/bounds.h"
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -51,26 +51,9 @@ struct alignas(32) BoxBlock
     [[nodiscard]] unsigned overlapping(const FloatBox& b) const { return overlapping_half(b, 0) | overlapping_half(b, 4) << 4; }
 
 private:
-    using F4 = float __attribute__((vector_size(16)));
-    using I4 = std::int32_t __attribute__((vector_size(16)));
-
-    static F4 load(const float* p)
-    {
-        F4 v;
-        std::memcpy(&v, p, sizeof v);
-        return v;
-    }
-
     [[nodiscard]] unsigned overlapping_half(const FloatBox& b, int i) const
     {
-        const I4 hit = (load(lx + i) <= b.ux) & (load(ux + i) >= b.lx) & (load(ly + i) <= b.uy) & (load(uy + i) >= b.ly);
-#if defined(__SSE__)
-        F4 mask;
-        std::memcpy(&mask, &hit, sizeof mask);
-        return static_cast<unsigned>(__builtin_ia32_movmskps(mask));
-#else
-        return (hit[0] & 1u) | (hit[1] & 2u) | (hit[2] & 4u) | (hit[3] & 8u);
-#endif
+        return bits((load4(lx + i) <= b.ux) & (load4(ux + i) >= b.lx) & (load4(ly + i) <= b.uy) & (load4(uy + i) >= b.ly));
     }
 };
 

@@ -46,14 +46,14 @@ struct ItemTraits
 /// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.
 [[nodiscard]] inline float least_gap(const BoxPath& a, const BoxPath& b)
 {
-    const float dx = b.shift.x - a.shift.x;
-    const float dy = b.shift.y - a.shift.y;
-    const float right = b.box.lx + (dx < 0 ? dx : 0) - a.box.ux;
-    const float left = a.box.lx - b.box.ux - (dx > 0 ? dx : 0);
-    const float above = b.box.ly + (dy < 0 ? dy : 0) - a.box.uy;
-    const float below = a.box.ly - b.box.uy - (dy > 0 ? dy : 0);
-    const float x = right > left ? right : left;
-    const float y = above > below ? above : below;
+    const F4 d = {b.shift.x - a.shift.x, b.shift.y - a.shift.y, a.shift.x - b.shift.x, a.shift.y - b.shift.y};
+    const F4 none{};
+    const F4 from = load4(&b.box.lx);
+    const F4 to = load4(&a.box.lx);
+    const F4 low = __builtin_shufflevector(from, to, 0, 1, 4, 5) + (d < none ? d : none);
+    const F4 gap = low - __builtin_shufflevector(to, from, 2, 3, 6, 7);
+    const float x = gap[0] > gap[2] ? gap[0] : gap[2];
+    const float y = gap[1] > gap[3] ? gap[1] : gap[3];
     return (x > y ? x : y) - (a.any_way + b.any_way);
 }
 
@@ -128,12 +128,8 @@ public:
             tree.for_each_overlap(k, lanes, others, [&](int own, int other) { visit(tree.item(own), others.item(other)); });
         for (const std::int32_t other : forest.recent)
         {
-            for (unsigned l = lanes; l != 0; l &= l - 1)
-            {
-                const int own = k * BoxTree::arity + std::countr_zero(l);
-                if (overlaps(tree.box(own), box(other)))
-                    visit(tree.item(own), other);
-            }
+            for (unsigned hits = lanes & tree.block(k).overlapping(box(other)); hits != 0; hits &= hits - 1)
+                visit(tree.item(k * BoxTree::arity + std::countr_zero(hits)), other);
         }
     }
 

@@ -5,12 +5,11 @@
 // Minimum and maximum are comparisons. Only kernels that are compiled once per instruction set include this file (see dynamics/wide/):
 // everything in it is inlined, so that no copy made for one machine is called on another.
 
+#include "core/float4.h"
 #include "core/lanes.h"
 
 #include <cstdint>
 #include <cstring>
-
-#define CAROM_INLINE inline __attribute__((always_inline))
 
 namespace carom::internal {
 
@@ -54,8 +53,6 @@ CAROM_INLINE unsigned bits(I8 mask)
         r |= mask[i] != 0 ? 1u << i : 0u;
     return r;
 }
-
-using F4 = float __attribute__((vector_size(16)));
 
 /// Eight records of four floats become four vectors of eight lanes. Lane i is what `at(i)` points to.
 template <class At>

@@ -2,6 +2,7 @@
 
 // Boxes: in floats, rounded outwards, for the broad phase (conservative however far from the origin), and their arithmetic.
 
+#include "core/float4.h"
 #include "geometry/leaf.h"
 
 #include <cmath>
@@ -16,9 +17,11 @@ struct FloatBox
     float uy = -3e38f;
 };
 
-[[nodiscard]] constexpr bool overlaps(const FloatBox& a, const FloatBox& b)
+[[nodiscard]] inline bool overlaps(const FloatBox& a, const FloatBox& b)
 {
-    return (a.lx <= b.ux) & (b.lx <= a.ux) & (a.ly <= b.uy) & (b.ly <= a.uy);
+    const F4 x = load4(&a.lx);
+    const F4 y = load4(&b.lx);
+    return bits(__builtin_shufflevector(x, y, 0, 1, 4, 5) <= __builtin_shufflevector(y, x, 2, 3, 6, 7)) == 15;
 }
 [[nodiscard]] constexpr bool contains(const FloatBox& outer, const FloatBox& inner)
 {
