@@ -157,6 +157,8 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
             continue;
         }
         const Contact& contact = ctx.state.contacts[touch.contact];
+        if ((contact.flags & contact_flag::loaded) != 0)
+            continue; // it bears something in the end
         const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a),
                                           pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
         if (m.count == 0)
