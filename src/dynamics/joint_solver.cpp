@@ -135,6 +135,22 @@ float hinge_angle(const SceneState& state, const JointRecord& joint)
     return static_cast<float>(arc_tangent(relative.s, relative.c));
 }
 
+JointArms joint_arms(const SceneState& state, const JointRecord& joint)
+{
+    const auto place = [&](int body, Vec2 anchor, Vec2& arm)
+    {
+        if (body == none)
+            return Position(anchor);
+        const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+        arm = rotate(sim.rotation, anchor - sim.local_center);
+        return sim.center + arm;
+    };
+    JointArms arms;
+    const Position a = place(joint.body_a, joint.anchor_a, arms.a);
+    arms.gap = place(joint.body_b, joint.anchor_b, arms.b) - a;
+    return arms;
+}
+
 JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::int32_t b)
 {
     const JointRecord& joint = ctx.state.joints[index];
@@ -147,25 +163,12 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
         for (float& impulse : ctx.state.joints[index].impulses)
             impulse /= static_cast<float>(ctx.slices);
     }
-    const auto place = [&](int body, Vec2 anchor, Vec2& arm, Rotation& q)
-    {
-        if (body == none)
-        {
-            arm = {};
-            q = {};
-            return Position(anchor);
-        }
-        const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-        q = sim.rotation;
-        arm = rotate(q, anchor - sim.local_center);
-        return sim.center + arm;
-    };
-    Rotation qa;
-    Rotation qb;
-    const Position pa = place(joint.body_a, joint.anchor_a, work.ra0, qa);
-    const Position pb = place(joint.body_b, joint.anchor_b, work.rb0, qb);
-    work.gap0 = pb - pa;
-    work.axis0 = rotate(qa, joint.axis_a);
+    const JointArms arms = joint_arms(ctx.state, joint);
+    work.ra0 = arms.a;
+    work.rb0 = arms.b;
+    work.gap0 = arms.gap;
+    work.axis0 = joint.body_a == none ? joint.axis_a
+                                      : rotate(ctx.state.sims[static_cast<std::size_t>(joint.body_a)].rotation, joint.axis_a);
     work.softness = make_softness(joint.hertz, joint.damping_ratio, ctx.h);
     if (has_angle(joint))
         work.angle0 = hinge_angle(ctx.state, joint);

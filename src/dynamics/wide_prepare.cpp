@@ -225,7 +225,7 @@ void fill_angle(const StepContext& ctx, const JointRecord& joint, float start, W
 void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a, std::int32_t b, WideJoint& wide, int i)
 {
     const JointRecord& joint = ctx.state.joints[index];
-    const JointWork work = prepare_joint(ctx, index, a, b);
+    const JointArms arms = joint_arms(ctx.state, joint);
     wide.a.v[i] = a;
     wide.b.v[i] = b;
     wide.joint.v[i] = index;
@@ -233,12 +233,12 @@ void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a,
     wide.inverse_mass_b.v[i] = constants_of(ctx, b).inverse_mass.x;
     wide.inverse_inertia_a.v[i] = constants_of(ctx, a).inverse_inertia;
     wide.inverse_inertia_b.v[i] = constants_of(ctx, b).inverse_inertia;
-    wide.arm_ax.v[i] = work.ra0.x;
-    wide.arm_ay.v[i] = work.ra0.y;
-    wide.arm_bx.v[i] = work.rb0.x;
-    wide.arm_by.v[i] = work.rb0.y;
-    wide.gap_x.v[i] = work.gap0.x;
-    wide.gap_y.v[i] = work.gap0.y;
+    wide.arm_ax.v[i] = arms.a.x;
+    wide.arm_ay.v[i] = arms.a.y;
+    wide.arm_bx.v[i] = arms.b.x;
+    wide.arm_by.v[i] = arms.b.y;
+    wide.gap_x.v[i] = arms.gap.x;
+    wide.gap_y.v[i] = arms.gap.y;
     wide.impulse_x.v[i] = joint.impulses[slot_x];
     wide.impulse_y.v[i] = joint.impulses[slot_y];
     const auto gives_way = [&](std::int32_t s)
@@ -247,7 +247,7 @@ void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a,
         wide.fixed_a &= ~(1u << i);
     if (gives_way(b))
         wide.fixed_b &= ~(1u << i);
-    fill_angle(ctx, joint, work.angle0, wide.angle, i);
+    fill_angle(ctx, joint, has_angle(joint) ? hinge_angle(ctx.state, joint) : 0, wide.angle, i);
     if (!only_holds(joint))
         wide.turns = 1;
 }

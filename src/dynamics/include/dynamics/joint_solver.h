@@ -10,6 +10,15 @@ namespace carom::internal {
 /// Angle of body b against body a, less the reference angle; (-pi, pi].
 [[nodiscard]] float hinge_angle(const SceneState& state, const JointRecord& joint);
 
+/// Anchors from the centers of mass at the start of the step, and anchor b - anchor a; world axes.
+struct JointArms
+{
+    Vec2 a{};
+    Vec2 b{};
+    Vec2 gap{};
+};
+[[nodiscard]] JointArms joint_arms(const SceneState& state, const JointRecord& joint);
+
 [[nodiscard]] JointWork prepare_joint(const StepContext& ctx, int joint, std::int32_t a, std::int32_t b);
 
 void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct);
