@@ -16,10 +16,11 @@ namespace {
 
 constexpr std::uint64_t steps_between = 8;
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
-constexpr std::uint32_t unsolved = 0xffffffffu;
 
 void sort_bodies(SceneState& state)
 {
+    if (std::is_sorted(state.awake_bodies.begin(), state.awake_bodies.end()))
+        return;
     std::sort(state.awake_bodies.begin(), state.awake_bodies.end());
     for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
@@ -28,7 +29,9 @@ void sort_bodies(SceneState& state)
 class ContactOrder
 {
 public:
-    explicit ContactOrder(StepContext& ctx) : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order) {}
+    explicit ContactOrder(StepContext& ctx)
+        : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order), m_sorted(ctx.scratch.sorted_contacts)
+    {}
 
     void find()
     {
@@ -42,9 +45,21 @@ public:
             const auto rows = std::span(m_scratch.row_links);
             place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
         }
+        ++m_color;
         for (const std::int32_t contact : m_state.awake_contacts)
-            place(contact, unsolved);
-        std::sort(m_order.begin(), m_order.end());
+            place(contact);
+        sort_by(m_state.awake_bodies.size(), [](const ContactPlace& p) { return p.body; });
+        sort_by(m_color + 1, [](const ContactPlace& p) { return p.color; });
+    }
+
+    [[nodiscard]] bool is_kept_already() const
+    {
+        for (std::size_t i = 0; i < m_order.size(); ++i)
+        {
+            if (m_order[i].contact != m_state.awake_contacts[i] || (i > 0 && m_order[i].contact < m_order[i - 1].contact))
+                return false;
+        }
+        return true;
     }
 
     // Into the slots that these contacts have among them, the least first.
@@ -89,22 +104,38 @@ private:
                 continue;
             const Link& l = m_scratch.solved_links[static_cast<std::size_t>(i)];
             if (l.color != color || l.points != points)
-                ++m_class;
+                ++m_color;
             color = l.color;
             points = l.points;
-            place(l.contact, m_class);
+            place(l.contact);
         }
     }
 
-    void place(std::int32_t contact, std::uint32_t in_class)
+    void place(std::int32_t contact)
     {
         const Contact& c = m_state.contacts[contact];
         if (!m_state.contacts.is_live(contact) || c.awake_index == none || (c.flags & contact_flag::trigger) != 0 ||
             std::exchange(m_scratch.order[static_cast<std::size_t>(c.awake_index)], 1) != 0)
             return;
         const bool of_a = is_moving_dynamic(m_state, c.body_a);
-        const auto body = static_cast<std::uint32_t>(m_state.bodies[of_a ? c.body_a : c.body_b].awake_index);
-        m_order.push_back({in_class, body, c.awake_index, contact});
+        const std::int32_t body = m_state.bodies[of_a ? c.body_a : c.body_b].awake_index;
+        m_order.push_back({m_color, static_cast<std::uint32_t>(std::max(body, 0)), contact});
+    }
+
+    // By counting; those with the same key stay in order.
+    template <class Key>
+    void sort_by(std::size_t keys, const Key& key)
+    {
+        std::vector<std::int32_t>& starts = m_scratch.order;
+        starts.assign(keys + 1, 0);
+        for (const ContactPlace& p : m_order)
+            ++starts[key(p) + 1];
+        for (std::size_t k = 0; k < keys; ++k)
+            starts[k + 1] += starts[k];
+        m_sorted.resize(m_order.size());
+        for (const ContactPlace& p : m_order)
+            m_sorted[static_cast<std::size_t>(starts[key(p)]++)] = p;
+        m_order.swap(m_sorted);
     }
 
     void rename()
@@ -138,7 +169,8 @@ private:
     SceneState& m_state;
     Scratch& m_scratch;
     std::vector<ContactPlace>& m_order;
-    std::uint32_t m_class = 0;
+    std::vector<ContactPlace>& m_sorted;
+    std::uint32_t m_color = 0;
 };
 
 } // namespace
@@ -150,7 +182,8 @@ void tidy(StepContext& ctx)
     sort_bodies(ctx.state);
     ContactOrder order(ctx);
     order.find();
-    order.apply();
+    if (!order.is_kept_already())
+        order.apply();
 }
 
 } // namespace carom::internal

@@ -10,7 +10,6 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
-#include <compare>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -98,12 +97,9 @@ struct Link
 /// Where a contact should stand among the awake ones.
 struct ContactPlace
 {
-    std::uint32_t color;  ///< counted over all units
-    std::uint32_t body;   ///< place in awake_bodies
-    std::int32_t present; ///< place in awake_contacts
+    std::uint32_t color; ///< counted over all units
+    std::uint32_t body;  ///< place in awake_bodies
     std::int32_t contact;
-
-    auto operator<=>(const ContactPlace&) const = default;
 };
 
 /// What a unit is made of.
@@ -300,6 +296,7 @@ struct Scratch
     std::vector<float> least_sleep; ///< s, of each island, at the place of its label
     std::vector<std::int32_t> order;
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
+    std::vector<ContactPlace> sorted_contacts;
     std::vector<Contact> moved_contacts;
     std::vector<KeptManifold> moved_kept;
     std::vector<std::int32_t> moved_to; ///< by contact slot
