@@ -5,6 +5,7 @@
 #include "collision/manifold.h"
 #include "core/float4.h"
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -45,6 +46,15 @@ void split(const Vec2* v, int first, int count, F4& x, F4& y)
     }
 }
 
+// In all lanes.
+F4 greatest_of_all(F4 x)
+{
+    const F4 y = __builtin_shufflevector(x, x, 1, 0, 3, 2);
+    const F4 two = x > y ? x : y;
+    const F4 z = __builtin_shufflevector(two, two, 2, 3, 0, 1);
+    return two > z ? two : z;
+}
+
 // The edge beyond which the other's corners are farthest. Four edges side by side, corner by corner.
 Axis best_axis(const LeafView& reference, const Corners& other, float radii)
 {
@@ -65,13 +75,32 @@ Axis best_axis(const LeafView& reference, const Corners& other, float radii)
             low = d < low ? d : low;
         }
         const F4 separation = low - (nx * px + ny * py) - radii;
-        for (int i = 0; i < 4; ++i)
-        {
-            if (separation[i] > best.separation)
-                best = {first + i, separation[i]};
-        }
+        const F4 most = greatest_of_all(separation);
+        if (most[0] > best.separation)
+            best = {first + std::countr_zero(bits(separation == most)), most[0]};
     }
     return best;
+}
+
+// Of the edges the one that faces n most; of equals the first.
+int most_opposed_edge(const LeafView& v, Vec2 n)
+{
+    int edge = 0;
+    float most = -3e38f;
+    for (int first = 0; first < v.leaf->count; first += 4)
+    {
+        F4 x;
+        F4 y;
+        split(v.normals, first, v.leaf->count, x, y);
+        const F4 facing = -(x * n.x + y * n.y);
+        const F4 four = greatest_of_all(facing);
+        if (four[0] > most)
+        {
+            most = four[0];
+            edge = first + std::countr_zero(bits(facing == four));
+        }
+    }
+    return edge;
 }
 
 struct ClipPoint
@@ -107,16 +136,26 @@ public:
             return true;
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_a.points[i];
-        const bool flipped =
-            prefers_b(axis_a.separation, edge_length(m_a, axis_a.edge), axis_b.separation, edge_length(m_b, axis_b.edge));
+        const bool flipped = edge_is_of_b(axis_a, axis_b);
         return clip_to_edge(flipped, flipped ? axis_b : axis_a, margin, out);
     }
 
 private:
-    static float edge_length(const LeafView& v, int edge)
+    // Lengths matter between near equals alone.
+    [[nodiscard]] bool edge_is_of_b(const Axis& a, const Axis& b) const
     {
-        const Vec2 d = v.points[edge + 1 < v.leaf->count ? edge + 1 : 0] - v.points[edge];
-        return std::sqrt(dot(d, d));
+        const Vec2 da = edge_of(m_a, a.edge);
+        const Vec2 db = edge_of(m_b, b.edge);
+        const float longest = std::fabs(da.x) + std::fabs(da.y) + std::fabs(db.x) + std::fabs(db.y);
+        const float lead = b.separation - a.separation;
+        if (std::fabs(lead) > prefers_bias * longest)
+            return lead > 0;
+        return prefers_b(a.separation, std::sqrt(dot(da, da)), b.separation, std::sqrt(dot(db, db)));
+    }
+
+    static Vec2 edge_of(const LeafView& v, int edge)
+    {
+        return v.points[edge + 1 < v.leaf->count ? edge + 1 : 0] - v.points[edge];
     }
 
     // All in a's frame.
@@ -130,8 +169,7 @@ private:
         const Vec2 start = corners.at[axis.edge];
         const Vec2 end = corners.at[axis.edge + 1 < corners.count ? axis.edge + 1 : 0];
         const Vec2 tangent = perp(n);
-        const int i0 = most_opposed_edge(
-            others.count, [&](int i) { return incident.normals[i]; }, flipped ? n : inverse_rotate(m_pose.rotation, n));
+        const int i0 = most_opposed_edge(incident, flipped ? n : inverse_rotate(m_pose.rotation, n));
         const int i1 = i0 + 1 < others.count ? i0 + 1 : 0;
         ClipPoint points[2] = {{others.at[i0], i0}, {others.at[i1], i1}};
         const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));

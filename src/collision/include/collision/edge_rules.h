@@ -9,11 +9,13 @@
 
 namespace carom::internal {
 
+constexpr float prefers_bias = 2e-4f; ///< of the longer edge
+
 /// While they overlap a little in favour of the longer edge, or of a, so that the choice (and with it the features that carry impulses) does not
 /// flicker between equals: rounding alone tips a stack of boxes.
 [[nodiscard]] inline bool prefers_b(float separation_a, float edge_a, float separation_b, float edge_b)
 {
-    const float bias = separation_b < 0 ? 2e-4f * std::max(edge_a, edge_b) : 0;
+    const float bias = separation_b < 0 ? prefers_bias * std::max(edge_a, edge_b) : 0;
     return separation_b > separation_a + (edge_b > 1.001f * edge_a ? -bias : bias);
 }
 
