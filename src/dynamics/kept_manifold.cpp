@@ -77,8 +77,7 @@ void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifo
 
 bool in_crowd(const SceneState& state, const Contact& contact)
 {
-    const auto is = [&](int body) { return state.bodies[body].type != BodyType::Dynamic || state.bodies[body].crowded; };
-    return is(contact.body_a) && is(contact.body_b);
+    return sim_of(state, contact.body_a).crowded && sim_of(state, contact.body_b).crowded;
 }
 
 void follow_manifold(const StepContext& ctx, int index, float reach)

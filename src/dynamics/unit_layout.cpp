@@ -164,7 +164,7 @@ private:
             const std::int32_t place = m_scratch.solved_bodies[as_index(i)];
             const int body = m_state.awake_bodies[as_index(place)];
             m_scratch.state_of[as_index(place)] = add_state(body);
-            m_state.bodies[body].crowded = !unit.precise;
+            m_state.sims[as_index(body)].crowded = !unit.precise;
             seed_flier(unit, place);
         }
         unit.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - unit.first_flier;

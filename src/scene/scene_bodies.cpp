@@ -34,6 +34,7 @@ BodySim make_sim(const BodyDef& def)
         sim.angular_velocity = def.angular_velocity;
     }
     sim.gravity_scale = def.gravity_scale;
+    sim.crowded = def.type != BodyType::Dynamic;
     sim.linear_damping = def.linear_damping;
     sim.angular_damping = def.angular_damping;
     return sim;
@@ -295,6 +296,7 @@ void Body::set_type(BodyType type)
     leave_awake(*m_data, t.slot);
     t.record().type = type;
     t.record().has_target = false;
+    t.sim().crowded = type != BodyType::Dynamic;
     if (type == BodyType::Static)
     {
         t.sim().velocity = {};

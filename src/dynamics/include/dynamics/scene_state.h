@@ -26,7 +26,6 @@ struct BodyRecord
     bool enabled = true;
     bool can_sleep = true;
     bool mass_overridden = false;
-    bool crowded = false;            ///< was solved in a large unit in the last step
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
@@ -45,12 +44,13 @@ struct alignas(64) BodySim
     Vec2 velocity{};
     float angular_velocity = 0;
     float extent = 0;     ///< farthest point of any shape from the center of mass
-    float size = 1e30f;   ///< least inner radius of its shapes
-    float sleep_time = 0; ///< s below the sleep speed
+    float size = 1e30f; ///< least inner radius of its shapes
     float mass = 0;
     float inertia = 0;
+    bool crowded = false; ///< was solved in a large unit in the last step; or never is, for it is not dynamic
     Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
+    float sleep_time = 0; ///< s below the sleep speed
     Vec2 inverse_mass{}; ///< per axis: 0 where locked
     float inverse_inertia = 0;
     float gravity_scale = 1;
