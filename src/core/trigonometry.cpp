@@ -38,6 +38,8 @@ double cos_polynomial(double x)
                                                                                               z * (1.0 / 20922789888000.0))))))));
 }
 
+constexpr double tan_of_sixteenth = 0.19891236737965801;
+
 // atan on |x| <= tan(pi/16): alternating series, the terms left out are below 1e-17.
 double atan_small(double x)
 {
@@ -51,12 +53,13 @@ double atan_small(double x)
     return x * sum;
 }
 
-// Two halvings of the angle, atan(x) = 2 atan(x / (1 + sqrt(1 + x²))), bring |x| <= 1 under tan(pi/16).
+// Two halvings of the angle at the most, atan(x) = 2 atan(x / (1 + sqrt(1 + x²))), bring |x| <= 1 under tan(pi/16).
 double atan_unit(double x)
 {
-    const double half = x / (1.0 + std::sqrt(1.0 + x * x));
-    const double quarter = half / (1.0 + std::sqrt(1.0 + half * half));
-    return 4.0 * atan_small(quarter);
+    double whole = 1;
+    for (; x > tan_of_sixteenth; whole *= 2)
+        x = x / (1.0 + std::sqrt(1.0 + x * x));
+    return whole * atan_small(x);
 }
 
 } // namespace

@@ -50,7 +50,9 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<c
     m_state = &state;
     m_joints = joints;
     m_turns_too_far = false;
-    m_ready = find_forest() && !m_links.empty();
+    if (std::exchange(m_looks_again, false))
+        m_is_forest = find_forest() && !m_links.empty();
+    m_ready = m_is_forest;
     if (!m_ready)
         return;
     if (place())

@@ -80,6 +80,8 @@ public:
     void run()
     {
         place_joints(m_view, m_ctx.state, m_joints);
+        if (!m_joints.empty())
+            direct_solve().look_again();
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
         if (m_ctx.slices > 1)
@@ -269,13 +271,20 @@ private:
         warm_start(m_view, late_rows());
     }
 
+    [[nodiscard]] DirectSolve& direct_solve()
+    {
+        if (!m_output.direct)
+            m_output.direct = std::make_unique<DirectSolve>();
+        return *m_output.direct;
+    }
+
     // At the present pose.
     void prepare_direct()
     {
         if (m_joints.empty())
             return;
-        if (!m_output.direct)
-            m_output.direct = std::make_unique<DirectSolve>();
+        if (m_unit.flier_count > 0)
+            m_output.direct->look_again();
         m_output.direct->prepare(m_view, m_ctx.state, m_joints);
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }

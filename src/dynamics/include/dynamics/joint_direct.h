@@ -17,6 +17,8 @@ class DirectSolve
 public:
     static constexpr int most_rows = 128;
 
+    /// Once a step, and after a body has taken off or landed: who hangs on whom is found anew.
+    void look_again() { m_looks_again = true; }
     /// At the present pose. Not ready where there is nothing to hold, too much of it, or loops: then the soft rows have to do.
     void prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints);
     [[nodiscard]] bool is_ready() const { return m_ready; }
@@ -90,6 +92,8 @@ private:
     SolverView m_view{};
     SceneState* m_state = nullptr;
     std::span<const JointWork> m_joints;
+    bool m_looks_again = true;
+    bool m_is_forest = false; ///< and not too large
     bool m_ready = false;
     bool m_turns_too_far = false;
     float m_longest_arm = 0;
