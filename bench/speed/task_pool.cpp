@@ -4,7 +4,7 @@ namespace speed {
 
 namespace {
 
-constexpr int looks = 4000; // before a thread goes to sleep: some tens of microseconds, what lies between the rounds of a step
+constexpr int looks = 60000; // before a thread goes to sleep: about a millisecond, what one thread has to do alone within a step
 
 void pause()
 {

@@ -43,15 +43,15 @@ struct alignas(64) BodySim
     Vec2 local_center{}; ///< of mass, in the body's frame
     Vec2 velocity{};
     float angular_velocity = 0;
-    float extent = 0;     ///< farthest point of any shape from the center of mass
+    float extent = 0;   ///< farthest point of any shape from the center of mass
     float size = 1e30f; ///< least inner radius of its shapes
     float mass = 0;
     float inertia = 0;
-    bool crowded = false; ///< was solved in a large unit in the last step; or never is, for it is not dynamic
+    bool crowded = false;       ///< was solved in a large unit in the last step; or never is, for it is not dynamic
     Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
     float sleep_time = 0; ///< s below the sleep speed
-    Vec2 inverse_mass{}; ///< per axis: 0 where locked
+    Vec2 inverse_mass{};  ///< per axis: 0 where locked
     float inverse_inertia = 0;
     float gravity_scale = 1;
     Vec2 force{};
