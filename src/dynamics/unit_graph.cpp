@@ -145,27 +145,32 @@ public:
     // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
     void gather_links()
     {
-        using Some = std::vector<Link>;
-        const std::span<Some> parts =
-            find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_per_task, scratch.links_of_task,
-                          [&](std::size_t first, std::size_t last, Some& some) { gather_some(first, last, some); });
-        scratch.links.clear();
-        for (const Some& some : parts)
-            scratch.links.insert(scratch.links.end(), some.begin(), some.end());
-        for (const Link& l : scratch.links)
+        const TaskHooks& tasks = ctx.scene.def.tasks;
+        const std::span<SomeLinks> parts =
+            find_in_parts(tasks, state.awake_contacts.size(), contacts_per_task, scratch.links_of_task,
+                          [&](std::size_t first, std::size_t last, SomeLinks& some) { gather_some(first, last, some); });
+        std::size_t count = 0;
+        for (SomeLinks& some : parts)
         {
-            ctx.report.touching += l.touching ? 1 : 0;
-            if (!l.grounds)
-                continue;
-            ground(l.a);
-            ground(l.b);
+            some.first = count;
+            count += some.links.size();
+            ctx.report.touching += some.touching;
         }
+        scratch.links.resize(count);
+        for_each_in_parts(tasks, parts.size(), 4,
+                          [&](std::size_t i)
+                          {
+                              std::copy(parts[i].links.begin(), parts[i].links.end(),
+                                        scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first));
+                          });
     }
 
-    // Writes to its own contacts alone.
-    void gather_some(std::size_t first, std::size_t last, std::vector<Link>& links) const
+    // Writes to its own contacts, and grounds bodies, which others may do as well.
+    void gather_some(std::size_t first, std::size_t last, SomeLinks& some) const
     {
+        std::vector<Link>& links = some.links;
         links.clear();
+        some.touching = 0;
         for (std::size_t i = first; i < last; ++i)
         {
             const std::int32_t index = state.awake_contacts[i];
@@ -186,9 +191,14 @@ public:
             l.a = a;
             l.b = b;
             l.touching = touching;
+            some.touching += touching ? 1 : 0;
             l.solved = solved;
             l.bears = (contact.flags & contact_flag::loaded) != 0;
-            l.grounds = solved && is_loaded(ctx, contact);
+            if (solved && is_loaded(ctx, contact))
+            {
+                ground(a);
+                ground(b);
+            }
             l.plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
             l.round = (contact.flags & contact_flag::round) != 0;
             l.points = static_cast<std::uint8_t>(contact.manifold.count);
@@ -203,12 +213,17 @@ public:
         return record.type == BodyType::Dynamic ? record.awake_index : -2 - record.awake_index;
     }
 
-    void ground(std::int32_t place)
+    // Whoever comes first writes what the others would.
+    void ground(std::int32_t place) const
     {
-        if (place < 0 || scratch.flight[static_cast<std::size_t>(place)] == earthbound)
+        if (place < 0)
             return;
-        scratch.grounded[static_cast<std::size_t>(place)] = scratch.flight[static_cast<std::size_t>(place)];
-        scratch.flight[static_cast<std::size_t>(place)] = earthbound;
+        const std::atomic_ref flight(scratch.flight[static_cast<std::size_t>(place)]);
+        const std::int32_t kind = flight.load(std::memory_order_relaxed);
+        if (kind == earthbound)
+            return;
+        std::atomic_ref(scratch.grounded[static_cast<std::size_t>(place)]).store(kind, std::memory_order_relaxed);
+        flight.store(earthbound, std::memory_order_relaxed);
     }
 
     // Islands, at the root of each of its bodies; relabelled only when the graph has changed.

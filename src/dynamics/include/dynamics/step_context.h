@@ -86,12 +86,19 @@ struct Link
     bool touching = false; ///< else it may touch within the step
     bool solved = false;   ///< gets a row, unless a body flies
     bool bears = false;    ///< bore a load in the last step
-    bool grounds = false;  ///< what it bears, or pushes out, does not fly
     bool plain = false;    ///< neither rolling resistance nor surface speed
     bool round = false;    ///< a circle takes part
     bool in_lane = false;
     std::uint8_t points = 0;
     std::uint8_t color = 0;
+};
+
+/// What a task has found.
+struct SomeLinks
+{
+    std::vector<Link> links;
+    std::size_t first = 0; ///< where they go among all
+    int touching = 0;
 };
 
 /// Where a contact should stand among the awake ones.
@@ -254,7 +261,7 @@ struct Scratch
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
     bool has_kinematic = false;              ///< a kinematic body is awake
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
-    std::vector<std::vector<Link>> links_of_task;
+    std::vector<SomeLinks> links_of_task;
     std::vector<Link> links;
     std::vector<TreeLeaf> reaches; ///< of what may be deflected
     BoxTree reach_tree;
