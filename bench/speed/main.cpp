@@ -2,6 +2,7 @@
 // the same run.
 
 #include "speed/report.h"
+#include "speed/scaling.h"
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +30,7 @@ struct Options
     bool json = false;
     bool list = false;
     bool verify = false;
+    int scaling = 0; ///< most bodies; 0: not asked for
 };
 
 /// One line on a terminal, rewritten in place a few times a second; looks for Ctrl-C on the way.
@@ -168,6 +170,46 @@ int verify(const Options& options)
     return good ? 0 : 1;
 }
 
+// Each line as soon as it is known.
+int show_scaling(const Options& options)
+{
+    const auto say = [](const char* format, auto... values)
+    {
+        clear_progress();
+        std::printf(format, values...);
+        std::fflush(stdout);
+    };
+    try
+    {
+        say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", options.run.threads, "bodies", "pairs", "steps",
+            "ms/step", "ns/body", "B/body");
+        for (int n = 1000; n <= options.scaling; n *= 10)
+        {
+            const speed::PileCost c = speed::pile_cost(n, options.run);
+            say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body,
+                c.bytes_per_body);
+        }
+        say("\nBoxes that never move\n%10s %10s %12s %12s\n", "boxes", "built, s", "us/step", "us/move");
+        for (int n = 1000; n <= options.scaling; n *= 10)
+        {
+            const speed::StaticCost c = speed::static_cost(n, options.run);
+            say("%10d %10.2f %12.2f %12.2f\n", c.shapes, c.build_s, c.us_per_step, c.us_per_move);
+        }
+        say("\nSmall scenes of their own\n%10s %10s %14s  %s\n", "scenes", "threads", "us/scene step", "hash of all");
+        for (const int threads : {1, 2, 4})
+        {
+            const speed::SmallScenesCost c = speed::small_scenes_cost(std::min(10000, options.scaling), threads, options.run);
+            say("%10d %10d %14.2f  %016llx\n", c.scenes, c.threads, c.us_per_step, static_cast<unsigned long long>(c.hash));
+        }
+    }
+    catch (const speed::Interrupted&)
+    {
+        std::cerr << "\nstopped; what was finished stands above\n";
+        return 130;
+    }
+    return 0;
+}
+
 int list_all()
 {
     std::cout << "Engines\n";
@@ -199,6 +241,9 @@ void add_options(CLI::App& app, Options& o)
     app.add_flag("--json", o.json, "print a list of {scene, engine, isa, threads, ..., quality} instead of tables");
     app.add_option("--csv", o.csv, "also write the results into this file");
     app.add_flag("--verify", o.verify, "no times: whole runs with 1, 2, 3 and 8 threads must give the same bits");
+    app.add_option("--scaling", o.scaling,
+                   "no scenes: how cost grows from 1,000 to so many bodies, and to as many that never move")
+        ->check(CLI::Range(1000, 10000000));
     app.add_flag("--list", o.list, "engines and scenes");
 }
 
@@ -214,7 +259,10 @@ int main(int argc, char** argv)
     options.run.progress = show_progress;
     try
     {
-        return options.list ? list_all() : options.verify ? verify(options) : benchmark(options);
+        return options.list          ? list_all()
+               : options.scaling > 0 ? show_scaling(options)
+               : options.verify      ? verify(options)
+                                     : benchmark(options);
     }
     catch (const std::exception& error)
     {
