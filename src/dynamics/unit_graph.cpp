@@ -8,7 +8,9 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
+#include "dynamics/joint_bodies.h"
 #include "dynamics/unit_energy.h"
+#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
 #include <atomic>
@@ -26,6 +28,7 @@ constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
 constexpr int hinge_slice_limit = 64; // between bodies that move by themselves: what they err by is their own energy
 constexpr std::size_t contacts_per_task = 1024;
+constexpr std::size_t joints_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr int heap_bodies = 256;             // in a batch
@@ -205,6 +208,52 @@ public:
         }
     }
 
+    // The same for joints.
+    void gather_joints()
+    {
+        using Some = std::vector<JointLink>;
+        const std::span<Some> parts = find_in_parts(ctx.scene.def.tasks, static_cast<std::size_t>(state.joints.capacity()),
+                                                    joints_per_task, scratch.joints_of_task,
+                                                    [&](std::size_t first, std::size_t last, Some& some)
+                                                    {
+                                                        some.clear();
+                                                        for (auto j = static_cast<int>(first); j < static_cast<int>(last); ++j)
+                                                        {
+                                                            if (state.joints.is_live(j))
+                                                                gather_joint(j, some);
+                                                        }
+                                                    });
+        scratch.joint_links.clear();
+        for (const Some& some : parts)
+            scratch.joint_links.insert(scratch.joint_links.end(), some.begin(), some.end());
+    }
+
+    void gather_joint(int index, std::vector<JointLink>& links) const
+    {
+        const JointRecord& joint = state.joints[index];
+        const auto place = [&](int body) { return body == none ? none : place_of(body); };
+        const auto is_enabled = [&](int body) { return body == none || state.bodies[body].enabled; };
+        const std::int32_t a = place(joint.body_a);
+        const std::int32_t b = place(joint.body_b);
+        if ((a < 0 && b < 0) || !is_enabled(joint.body_a) || !is_enabled(joint.body_b))
+            return;
+        JointLink& link = links.emplace_back();
+        link.joint = index;
+        link.a = a;
+        link.b = b;
+        link.hinge = fits_joint_lane(joint);
+        link.holds = only_holds(joint);
+        link.binds = !link.holds && joint.kind != JointType::Spring;
+        link.flies = may_fly(a) || may_fly(b);
+    }
+
+    // About a hinge to the world.
+    [[nodiscard]] bool may_fly(std::int32_t place) const
+    {
+        return place >= 0 && (scratch.flight[static_cast<std::size_t>(place)] != earthbound ||
+                              scratch.grounded[static_cast<std::size_t>(place)] != earthbound);
+    }
+
     [[nodiscard]] std::int32_t place_of(int body) const
     {
         const BodyRecord& record = state.bodies[body];
@@ -249,10 +298,10 @@ public:
             if (l.touching && l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
-        for (int j = 0; j < state.joints.capacity(); ++j)
+        for (const JointLink& j : scratch.joint_links)
         {
-            if (state.joints.is_live(j))
-                link_bodies(ctx, state.joints[j].body_a, state.joints[j].body_b);
+            if (j.a >= 0 && j.b >= 0)
+                link(scratch.parent, j.a, j.b);
         }
         for (const std::int32_t body : state.awake_bodies)
         {
@@ -320,7 +369,8 @@ public:
     }
 
     [[nodiscard]] UnitTally& tally(std::int32_t unit) { return scratch.tallies[static_cast<std::size_t>(unit)]; }
-    [[nodiscard]] std::int32_t unit_of_link(const Link& l) const
+    template <class AnyLink>
+    [[nodiscard]] std::int32_t unit_of_link(const AnyLink& l) const
     {
         return scratch.unit_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
     }
@@ -340,18 +390,13 @@ public:
                 slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn,
                       l.a >= 0 && l.b >= 0 ? hinge_slice_limit : slice_limit);
         }
-        for (int j = 0; j < state.joints.capacity(); ++j)
+        for (const JointLink& j : scratch.joint_links)
         {
-            if (!state.joints.is_live(j))
-                continue;
-            const JointRecord& joint = state.joints[j];
-            const std::int32_t unit = unit_of_pair(joint.body_a, joint.body_b);
-            if (unit == none)
-                continue;
+            const std::int32_t unit = unit_of_link(j);
             ++tally(unit).joints;
-            tally(unit).hangs |= !is_moving_dynamic(state, joint.body_a) || !is_moving_dynamic(state, joint.body_b);
+            tally(unit).hangs |= j.a < 0 || j.b < 0;
             if (tally(unit).bodies <= UnitEnergy::most_bodies)
-                slice(unit, swing_rate(joint), slice_swing, slice_limit);
+                slice(unit, swing_rate(state.joints[j.joint]), slice_swing, slice_limit);
         }
     }
 
@@ -543,12 +588,6 @@ public:
         }
     }
 
-    [[nodiscard]] std::int32_t unit_of_pair(int a, int b) const
-    {
-        const int body = is_moving_dynamic(state, a) ? a : b;
-        return is_moving_dynamic(state, body) ? scratch.unit_of[static_cast<std::size_t>(state.bodies[body].awake_index)] : none;
-    }
-
     // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count).
     template <class Item, class UnitOf, class SetRange>
     void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, UnitOf&& unit_of, SetRange&& set_range)
@@ -611,20 +650,8 @@ public:
 
     void sort_joints()
     {
-        std::vector<std::int32_t>& chosen = scratch.order;
-        chosen.clear();
-        for (int j = 0; j < state.joints.capacity(); ++j)
-        {
-            if (!state.joints.is_live(j))
-                continue;
-            const JointRecord& joint = state.joints[j];
-            const bool enabled = (joint.body_a == none || state.bodies[joint.body_a].enabled) &&
-                                 (joint.body_b == none || state.bodies[joint.body_b].enabled);
-            if (enabled && (is_moving_dynamic(state, joint.body_a) || is_moving_dynamic(state, joint.body_b)))
-                chosen.push_back(j);
-        }
         sort_by_unit(
-            chosen, scratch.solved_joints, [&](int j) { return unit_of_pair(state.joints[j].body_a, state.joints[j].body_b); },
+            scratch.joint_links, scratch.solved_joints, [&](const JointLink& j) { return unit_of_link(j); },
             [](Unit& unit, int first, int count)
             {
                 unit.first_joint = first;
@@ -661,6 +688,7 @@ void build_unit_graph(StepContext& ctx)
     UnitGraph graph(ctx);
     graph.find_fliers();
     graph.gather_links();
+    graph.gather_joints();
     graph.link_islands();
     graph.link_units();
     graph.number_units();

@@ -243,14 +243,14 @@ private:
             l.a = state_at(unit, l.a);
             l.b = state_at(unit, l.b);
         }
-        if (!m_scratch.has_kinematic)
-            return;
         for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
         {
-            const JointRecord& joint = m_state.joints[m_scratch.solved_joints[as_index(i)]];
-            static_cast<void>(state_for(unit, joint.body_a));
-            static_cast<void>(state_for(unit, joint.body_b));
+            JointLink& j = m_scratch.solved_joints[as_index(i)];
+            j.a = state_at(unit, j.a);
+            j.b = state_at(unit, j.b);
         }
+        if (!m_scratch.has_kinematic)
+            return;
         for (std::int32_t i = unit.first_flier; i < unit.first_flier + unit.flier_count; ++i)
         {
             const int body = m_scratch.flier_seeds[as_index(i)].body;
@@ -362,9 +362,12 @@ private:
     // All of its bodies may move along every axis, or along none.
     [[nodiscard]] bool is_uniform(const Unit& unit) const
     {
-        const auto begin = m_scratch.constants.begin() + unit.first_state;
-        return std::all_of(begin, begin + unit.state_count,
-                           [](const StateConstants& c) { return c.inverse_mass.x == c.inverse_mass.y; });
+        for (std::int32_t s = unit.first_state; s < unit.first_state + unit.state_count; ++s)
+        {
+            if (!gives_evenly(s))
+                return false;
+        }
+        return true;
     }
 
     // Lanes by color and number of points, then rows by color.
@@ -453,6 +456,7 @@ private:
         const std::int32_t first = unit.first_joint;
         const std::int32_t count = unit.joint_count;
         const bool wide = is_wide(unit) && (unit.heap || count > DirectSolve::most_rows / 2);
+        const bool uniform = wide && is_uniform(unit);
         unit.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
         unit.first_wide_joint = m_groups;
         if (wide)
@@ -460,15 +464,13 @@ private:
         const std::size_t first_lane = m_scratch.joint_lanes.size();
         for (std::int32_t i = first; i < first + count; ++i)
         {
-            const std::int32_t joint = m_scratch.solved_joints[as_index(i)];
-            const JointRecord& record = m_state.joints[joint];
-            const JointPlace place{joint, state_for(unit, record.body_a), state_for(unit, record.body_b)};
-            if (!wide || !place_joint_in_lane(unit, record, place))
-                m_scratch.joint_places.push_back(place);
-            if (!only_holds(record) && record.kind != JointType::Spring)
+            const JointLink& j = m_scratch.solved_joints[as_index(i)];
+            if (!wide || !place_joint_in_lane(unit, j, uniform))
+                m_scratch.joint_places.push_back({j.joint, j.a, j.b});
+            if (j.binds)
             {
-                unbind(place.a);
-                unbind(place.b);
+                unbind(j.a);
+                unbind(j.b);
             }
         }
         group_joints(unit, first_lane);
@@ -479,24 +481,21 @@ private:
     }
 
     // Finds its colour; false where it must stand alone.
-    bool place_joint_in_lane(const Unit& unit, const JointRecord& joint, const JointPlace& place)
+    bool place_joint_in_lane(const Unit& unit, const JointLink& j, bool uniform)
     {
-        if (!fits_joint_lane(m_ctx, joint, place.a, place.b) || may_fly(joint.body_a) || may_fly(joint.body_b))
+        if (!j.hinge || j.flies || !(uniform || (gives_evenly(j.a) && gives_evenly(j.b))))
             return false;
-        const std::int32_t color = free_color(unit, place.a, place.b);
+        const std::int32_t color = free_color(unit, j.a, j.b);
         if (color == color_limit)
             return false;
-        m_scratch.joint_lanes.push_back({2 * color + (only_holds(joint) ? 0 : 1), none, unit.first_state, place});
+        m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, unit.first_state, {j.joint, j.a, j.b}});
         return true;
     }
 
-    // About a hinge to the world.
-    [[nodiscard]] bool may_fly(int body) const
+    [[nodiscard]] bool gives_evenly(std::int32_t state) const
     {
-        if (!is_moving_dynamic(m_state, body))
-            return false;
-        const auto place = as_index(m_state.bodies[body].awake_index);
-        return m_scratch.flight[place] != earthbound || m_scratch.grounded[place] != earthbound;
+        const Vec2 inverse_mass = m_scratch.constants[as_index(state)].inverse_mass;
+        return inverse_mass.x == inverse_mass.y;
     }
 
     // By counting; those of a bin stay in order.

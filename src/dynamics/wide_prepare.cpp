@@ -174,11 +174,7 @@ void commit_wide_row(SceneState& state, const WideRow& row)
     }
 }
 
-bool fits_joint_lane(const StepContext& ctx, const JointRecord& joint, std::int32_t a, std::int32_t b)
-{
-    return joint.kind == JointType::Revolute && joint.limit_restitution == 0 && is_uniform(constants_of(ctx, a)) &&
-           is_uniform(constants_of(ctx, b));
-}
+bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }
 
 WideJoint empty_wide_joint(std::int32_t fixed)
 {

@@ -121,6 +121,18 @@ struct UnitTally
 
 inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
 
+/// Joint of a dynamic body, or of two, that takes part in a step.
+struct JointLink
+{
+    std::int32_t joint = none;
+    std::int32_t a = none; ///< as in Link: the place of the body, from copy_kinematic_bodies on its state
+    std::int32_t b = none;
+    bool hinge = false; ///< of a kind that goes in lanes
+    bool holds = false; ///< and does nothing else
+    bool binds = false; ///< it does something about an angle or a length beside
+    bool flies = false; ///< one of its bodies may fly about it
+};
+
 /// A joint and the states of its bodies.
 struct JointPlace
 {
@@ -269,7 +281,9 @@ struct Scratch
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
     std::vector<Link> solved_links; ///< those that get rows, by unit
-    std::vector<std::int32_t> solved_joints;
+    std::vector<std::vector<JointLink>> joints_of_task;
+    std::vector<JointLink> joint_links;
+    std::vector<JointLink> solved_joints;    ///< by unit
     std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by unit
     std::vector<std::int32_t> lane_links;    ///< link in each lane; none: empty
     std::vector<std::int32_t> row_links;     ///< link of each row

@@ -30,8 +30,8 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
 /// Impulses of all lanes, to their contacts.
 void commit_wide_row(SceneState& state, const WideRow& row);
 
-/// A hinge between bodies that may move along every axis, and that bounces off no limit.
-[[nodiscard]] bool fits_joint_lane(const StepContext& ctx, const JointRecord& joint, std::int32_t a, std::int32_t b);
+/// A hinge that bounces off no limit; its bodies must be able to move along every axis.
+[[nodiscard]] bool fits_joint_lane(const JointRecord& joint);
 
 [[nodiscard]] WideJoint empty_wide_joint(std::int32_t fixed);
 void fill_joint_lane(const StepContext& ctx, std::int32_t joint, std::int32_t a, std::int32_t b, WideJoint& wide, int lane);
