@@ -97,9 +97,10 @@ public:
         bound_motion(sight, t, r, v);
         if (!surface)
         {
-            sight.distance = plain_distance(*m_leaf.leaf, local.x + static_cast<double>(m_frame.local_center.x),
-                                            local.y + static_cast<double>(m_frame.local_center.y)) -
-                             m_probe.radius;
+            const double x = local.x + static_cast<double>(m_frame.local_center.x);
+            const double y = local.y + static_cast<double>(m_frame.local_center.y);
+            sight.distance =
+                std::max(plain_distance(*m_leaf.leaf, x, y) - m_probe.radius, way_to_where_it_answers(*m_leaf.leaf, x, y));
             return sight;
         }
         sight.faces = true;
@@ -220,6 +221,25 @@ private:
         sight.bend = own;
         if (turning > 0)
             sight.bend += 2 * m_w_frame * sight.speed + turning * (size(r) + rest * sight.speed);
+    }
+
+    // Beyond its ends a piece of a chain leaves everything to its neighbours, but for the corner that it shares with the one before. How far away
+    // a point is at least that it answers for; 0 is a safe answer.
+    static double way_to_where_it_answers(const Leaf& leaf, double px, double py)
+    {
+        if (leaf.type != LeafType::Segment)
+            return 0;
+        const Vec2 tangent = start_tangent(leaf);
+        const double x = px - static_cast<double>(leaf.p0.x);
+        const double y = py - static_cast<double>(leaf.p0.y);
+        const double along = static_cast<double>(tangent.x) * x + static_cast<double>(tangent.y) * y;
+        if (along < 0 && leaf.has_previous)
+        {
+            const double behind_corner =
+                -(static_cast<double>(leaf.previous_tangent.x) * x + static_cast<double>(leaf.previous_tangent.y) * y);
+            return start_may_answer(leaf, tangent) ? std::max(0.0, std::min(-along, behind_corner)) : -along;
+        }
+        return leaf.has_next ? std::max(0.0, along - static_cast<double>(length(leaf.p1 - leaf.p0))) : 0;
     }
 
     // To a segment's or arc's line, whichever side answers.

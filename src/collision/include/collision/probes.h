@@ -80,7 +80,8 @@ void for_each_probe(const LeafView& v, bool against_line, Visit&& visit)
         visit(Probe{leaf.p0, static_cast<double>(leaf.arc_radius) + r0, &leaf, Probe::Part::Bulge});
         [[fallthrough]];
     case LeafType::Segment:
-        visit(Probe{start_point(leaf), r0, &leaf, Probe::Part::Start});
+        if (start_may_answer(leaf, start_tangent(leaf)))
+            visit(Probe{start_point(leaf), r0, &leaf, Probe::Part::Start});
         if (!leaf.has_next)
             visit(Probe{end_point(leaf), r0, &leaf, Probe::Part::End});
         return;

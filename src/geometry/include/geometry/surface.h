@@ -38,6 +38,15 @@ template <class R>
     return Surface<R>{d - radius, dx / d, dy / d, 1 / d, feature};
 }
 
+/// A shared corner answers for something only where the line bends away from its solid side.
+[[nodiscard]] inline bool start_may_answer(const Leaf& leaf, Vec2 tangent)
+{
+    if (!leaf.has_previous || leaf.sides == Sides::Both)
+        return true;
+    const float bend = cross(leaf.previous_tangent, tangent);
+    return leaf.sides == Sides::Left ? bend < 0 : bend > 0;
+}
+
 /// Is the point in the region of the shared corner that the following piece answers for, on a side that is solid?
 template <class R>
 [[nodiscard]] bool start_answers(const Leaf& leaf, Vec2 tangent, R dx, R dy)
@@ -51,8 +60,7 @@ template <class R>
     }
     if (static_cast<R>(leaf.previous_tangent.x) * dx + static_cast<R>(leaf.previous_tangent.y) * dy < 0)
         return false;
-    const float bend = cross(leaf.previous_tangent, tangent);
-    return leaf.sides == Sides::Both || (leaf.sides == Sides::Left ? bend < 0 : bend > 0);
+    return start_may_answer(leaf, tangent);
 }
 
 template <class R>
