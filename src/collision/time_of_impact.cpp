@@ -45,6 +45,8 @@ struct Sight
     double acceleration;
     double bend;          ///< M: bound on minus its second derivative
     double speed;         ///< bound on the relative speed over the rest of the time
+    double push;          ///< the second derivative itself, along the fixed normal
+    double jerk;          ///< bound on the third over the rest of the time; none on the hollow side, or under torques
     double hollow_radius; ///< from the arc's center to the probe's, on the hollow side; 0 elsewhere
     double curvature;
     int feature;
@@ -52,6 +54,7 @@ struct Sight
     bool faces; ///< the surface answers for this direction; otherwise only the distance and the speed hold
 };
 
+constexpr double no_bound = 1e300;
 constexpr double corner = 1e-5; // of the size: nearer, and blunter, than this two corners are in one place
 
 class Approach
@@ -123,7 +126,9 @@ public:
         const Vector a = {m_a.x - m_carrier.alpha * q.y - wp * wp * q.x + 2 * wf * v.y + wf * wf * r.x + m_frame.alpha * r.y,
                           m_a.y + m_carrier.alpha * q.x - wp * wp * q.y - 2 * wf * v.x + wf * wf * r.y - m_frame.alpha * r.x};
         const double slide = v.y * sight.n.x - v.x * sight.n.y;
-        sight.acceleration = dot(a, sight.n) + surface->curvature * slide * slide;
+        sight.push = dot(a, sight.n);
+        sight.acceleration = sight.push + surface->curvature * slide * slide;
+        sight.jerk = surface->curvature < 0 ? no_bound : bound_jerk(t, r, v);
         sight.bend += std::max(0.0, -dot(m_a, sight.n));
         if (surface->curvature < 0)
         {
@@ -223,6 +228,18 @@ private:
             sight.bend += 2 * m_w_frame * sight.speed + turning * (size(r) + rest * sight.speed);
     }
 
+    // Of p = R(-w_f t) r: each turn of the frame adds a factor w_f. Torques are left out: then there is none.
+    [[nodiscard]] double bound_jerk(double t, Vector r, Vector v) const
+    {
+        if (m_carrier.alpha != 0 || m_frame.alpha != 0)
+            return no_bound;
+        const double rest = m_duration - t;
+        const double push = size(m_a) + m_w_probe * m_w_probe * m_reach;
+        const double speed = size(v) + m_w_frame * size(r) + rest * push;
+        const double way = size(r) + rest * speed;
+        return m_w_frame * (m_w_frame * (m_w_frame * way + 3 * speed) + 3 * push) + m_w_probe * m_w_probe * m_w_probe * m_reach;
+    }
+
     // Beyond its ends a piece of a chain leaves everything to its neighbours, but for the corner that it shares with the one before. How far away
     // a point is at least that it answers for; 0 is a safe answer.
     static double way_to_where_it_answers(const Leaf& leaf, double px, double py)
@@ -315,8 +332,11 @@ Touch touch_of(const Sight& sight, double t, bool probe_on_a)
 double patience_at(const Sight& sight, double least_approach, double duration)
 {
     const double slack = least_approach + sight.rate;
+    // slack + a t - J t²/2 keeps above 0 until then.
+    const double kept =
+        sight.jerk > 0 ? (sight.push + std::sqrt(sight.push * sight.push + 2 * sight.jerk * slack)) / sight.jerk : 0;
     const double soon = sight.acceleration < 0 ? 0.5 * slack / -sight.acceleration : duration;
-    return std::max({slack / sight.bend, std::min(soon, 5e-3 * duration), 1e-6 * duration});
+    return std::max({slack / sight.bend, kept, std::min(soon, 5e-3 * duration), 1e-6 * duration});
 }
 
 // What presses for so long, and no deeper than that.
