@@ -1,6 +1,6 @@
-// What is walked together is kept together: now and then awake bodies are put in the order of the plane, and contacts in the order in which their
-// lanes were last filled. Walks over contacts then go straight through memory, and the bodies they meet on the way are neighbours. Colours are
-// chosen in that order as well, so they stay what they are.
+// What is walked together is kept together: every eighth step contacts move, among the slots that they have, to the order in which their lanes were
+// last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
+// in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
