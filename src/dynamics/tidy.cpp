@@ -7,6 +7,7 @@
 #include "dynamics/unit_graph.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -68,27 +69,16 @@ public:
         std::vector<std::int32_t>& slots = m_scratch.order;
         slots = m_state.awake_contacts;
         std::sort(slots.begin(), slots.end());
+        m_state.awake_contacts = slots;
         std::vector<std::int32_t>& moved_to = m_scratch.moved_to;
         moved_to.resize(static_cast<std::size_t>(m_state.contacts.capacity()));
-        for (std::size_t i = 0; i < moved_to.size(); ++i)
-            moved_to[i] = static_cast<std::int32_t>(i);
-        std::vector<Contact>& contacts = m_scratch.moved_contacts;
-        std::vector<KeptManifold>& kept = m_scratch.moved_kept;
-        contacts.clear();
-        kept.clear();
+        std::iota(moved_to.begin(), moved_to.end(), 0);
         for (std::size_t i = 0; i < m_order.size(); ++i)
-        {
             moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
-            contacts.push_back(m_state.contacts[m_order[i].contact]);
-            kept.push_back(m_state.kept_manifolds[static_cast<std::size_t>(m_order[i].contact)]);
-        }
-        for (std::size_t i = 0; i < m_order.size(); ++i)
-        {
-            m_state.contacts[slots[i]] = contacts[i];
+        for (const std::int32_t slot : slots)
+            move_around(slot);
+        for (std::size_t i = 0; i < slots.size(); ++i)
             m_state.contacts[slots[i]].awake_index = static_cast<std::int32_t>(i);
-            m_state.kept_manifolds[static_cast<std::size_t>(slots[i])] = kept[i];
-        }
-        m_state.awake_contacts = slots;
         rename();
     }
 
@@ -136,6 +126,24 @@ private:
         for (const ContactPlace& p : m_order)
             m_sorted[static_cast<std::size_t>(starts[key(p)]++)] = p;
         m_order.swap(m_sorted);
+    }
+
+    // What stands in a slot goes where it belongs, what stood there goes on, until one comes to this slot. What has been moved has no awake_index until
+    // all have.
+    void move_around(std::int32_t start)
+    {
+        if (m_state.contacts[start].awake_index == none)
+            return;
+        Contact contact = m_state.contacts[start];
+        KeptManifold kept = m_state.kept_manifolds[static_cast<std::size_t>(start)];
+        std::int32_t slot = start;
+        do
+        {
+            slot = m_scratch.moved_to[static_cast<std::size_t>(slot)];
+            contact.awake_index = none;
+            std::swap(contact, m_state.contacts[slot]);
+            std::swap(kept, m_state.kept_manifolds[static_cast<std::size_t>(slot)]);
+        } while (slot != start);
     }
 
     void rename()

@@ -318,8 +318,6 @@ struct Scratch
     std::vector<std::int32_t> order;
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
-    std::vector<Contact> moved_contacts;
-    std::vector<KeptManifold> moved_kept;
     std::vector<std::int32_t> moved_to; ///< by contact slot
 };
 
