@@ -93,24 +93,20 @@ public:
         // Velocity of the probe as the turning frame sees it.
         const Vector v = {p.vx - f.vx + t * m_a.x - wp * q.y + wf * r.y, p.vy - f.vy + t * m_a.y + wp * q.x - wf * r.x};
         const Vector local = turned_back(turn_frame, r);
-        const std::optional<Surface<double>> surface =
-            surface_for(local.x + static_cast<double>(m_frame.local_center.x),
-                        local.y + static_cast<double>(m_frame.local_center.y), turn_probe, turn_frame);
+        const Vector in_leaf = {local.x + static_cast<double>(m_frame.local_center.x),
+                                local.y + static_cast<double>(m_frame.local_center.y)};
+        const std::optional<Surface<double>> surface = surface_for(in_leaf.x, in_leaf.y, turn_probe, turn_frame);
         Sight sight{};
         bound_motion(sight, t, r, v);
         if (!surface)
         {
-            const double x = local.x + static_cast<double>(m_frame.local_center.x);
-            const double y = local.y + static_cast<double>(m_frame.local_center.y);
-            sight.distance =
-                std::max(plain_distance(*m_leaf.leaf, x, y) - m_probe.radius, way_to_where_it_answers(*m_leaf.leaf, x, y));
+            sight.distance = std::max(plain_distance(*m_leaf.leaf, in_leaf.x, in_leaf.y) - m_probe.radius,
+                                      way_to_where_it_answers(*m_leaf.leaf, in_leaf.x, in_leaf.y));
             return sight;
         }
         sight.faces = true;
         sight.distance = surface->distance - m_probe.radius;
         sight.n = turned(turn_frame, {surface->nx, surface->ny});
-        const Vector in_leaf = {local.x + static_cast<double>(m_frame.local_center.x),
-                                local.y + static_cast<double>(m_frame.local_center.y)};
         if (const int vertex = corner_met(surface->distance, in_leaf); vertex >= 0)
         {
             const std::optional<Vector> n = shared_normal(vertex, turn_frame, turn_probe);
@@ -512,7 +508,7 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
 {
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Interval> interval;
-    if (axis.x != 0 || axis.y != 0)
+    if (!axis.is_none())
         interval.emplace(a, path_a, b, path_b, Vector{axis.x, axis.y}, duration);
     std::optional<Touch> first;
     for_each_probe_pair(

@@ -242,7 +242,7 @@ std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
     const BroadPhase& boxes = state.broad_phase;
     if (!boxes.has(pair.a) || !boxes.has(pair.b))
         return fate::goes;
-    const bool meet = is_plain(boxes, pair) ? overlaps(boxes.box(pair.a), boxes.box(pair.b)) : boxes_meet(state, pair.a, pair.b);
+    const bool meet = boxes_meet(state, pair.a, pair.b);
     if (!boxes.moves(pair.a) && !boxes.moves(pair.b)) // triggers see what rests as well, once
         return is_trigger(boxes, pair) && meet ? fate::gets_contact | fate::goes : fate::goes;
     const bool near = may_meet_in_step(ctx, pair);

@@ -279,15 +279,16 @@ public:
     void link_islands()
     {
         reset_parents(ctx);
-        if (state.graph_dirty)
+        const bool finds_anew = state.graph_dirty;
+        if (finds_anew)
             label_islands();
         scratch.has_kinematic = false;
         for (const std::int32_t body : state.awake_bodies)
         {
-            if (state.bodies[body].type == BodyType::Dynamic)
+            const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
+            scratch.has_kinematic |= !dynamic;
+            if (dynamic && !finds_anew)
                 link_bodies(ctx, body, state.bodies[body].island);
-            else
-                scratch.has_kinematic = true;
         }
     }
 

@@ -345,7 +345,7 @@ private:
         {
             const int color = free_color(unit, l.a, l.b);
             l.color = static_cast<std::uint8_t>(color);
-            l.in_lane = wide && color != color_limit && (uniform ? l.plain : fits_lane(m_ctx, l));
+            l.in_lane = wide && color != color_limit && l.plain && (uniform || give_evenly(l));
             ++m_bins[bin_of(l)];
             if (color == color_limit)
                 m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
@@ -483,13 +483,20 @@ private:
     // Finds its colour; false where it must stand alone.
     bool place_joint_in_lane(const Unit& unit, const JointLink& j, bool uniform)
     {
-        if (!j.hinge || j.flies || !(uniform || (gives_evenly(j.a) && gives_evenly(j.b))))
+        if (!j.hinge || j.flies || !(uniform || give_evenly(j)))
             return false;
         const std::int32_t color = free_color(unit, j.a, j.b);
         if (color == color_limit)
             return false;
         m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, unit.first_state, {j.joint, j.a, j.b}});
         return true;
+    }
+
+    // Contacts that roll or convey, and what holds a body that may not move along every axis, have rows of their own.
+    template <class AnyLink>
+    [[nodiscard]] bool give_evenly(const AnyLink& l) const
+    {
+        return gives_evenly(l.a) && gives_evenly(l.b);
     }
 
     [[nodiscard]] bool gives_evenly(std::int32_t state) const

@@ -22,19 +22,12 @@ struct Lane
     {}
 };
 
-bool is_uniform(const StateConstants& c) { return c.inverse_mass.x == c.inverse_mass.y; }
-
 const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
 {
     return ctx.scratch.constants[static_cast<std::size_t>(state)];
 }
 
 } // namespace
-
-bool fits_lane(const StepContext& ctx, const Link& link)
-{
-    return link.plain && is_uniform(constants_of(ctx, link.a)) && is_uniform(constants_of(ctx, link.b));
-}
 
 void start_wide_row(WideRow& row)
 {

@@ -185,7 +185,7 @@ private:
             return;
         const std::optional<Touch> hit = first_touch(a, target, b, own_path, left, m_span.least_approach,
                                                      state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0,
-                                                     held_corners(m_flier, own, shape), is_none(normal) ? line : normal);
+                                                     held_corners(m_flier, own, shape), normal.is_none() ? line : normal);
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.
@@ -215,10 +215,8 @@ private:
     [[nodiscard]] static bool stays_apart_along(Axis axis, const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                 const FramePath& path_b, double left)
     {
-        return !is_none(axis) && stay_apart(a, path_a, b, path_b, axis, left);
+        return !axis.is_none() && stay_apart(a, path_a, b, path_b, axis, left);
     }
-
-    [[nodiscard]] static bool is_none(Axis axis) { return axis.x == 0 && axis.y == 0; }
 
     [[nodiscard]] static Axis line_of_centers(const FramePath& target, const FramePath& own_path)
     {

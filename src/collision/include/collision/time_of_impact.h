@@ -59,6 +59,8 @@ struct Axis
 {
     double x = 0;
     double y = 0;
+
+    [[nodiscard]] bool is_none() const { return x == 0 && y == 0; }
 };
 
 struct Touch

@@ -20,11 +20,12 @@ namespace carom::internal {
 /// Do the fat boxes of two shapes overlap?
 [[nodiscard]] inline bool boxes_meet(const SceneState& state, int a, int b)
 {
-    if (state.shapes[a].leaf.type == LeafType::HalfSpace)
-        return reaches_half_space(state, a, state.broad_phase.box(b), 0);
-    if (state.shapes[b].leaf.type == LeafType::HalfSpace)
-        return reaches_half_space(state, b, state.broad_phase.box(a), 0);
-    return overlaps(state.broad_phase.box(a), state.broad_phase.box(b));
+    const BroadPhase& boxes = state.broad_phase;
+    if (boxes.traits(a).unbounded)
+        return reaches_half_space(state, a, boxes.box(b), 0);
+    if (boxes.traits(b).unbounded)
+        return reaches_half_space(state, b, boxes.box(a), 0);
+    return overlaps(boxes.box(a), boxes.box(b));
 }
 
 } // namespace carom::internal

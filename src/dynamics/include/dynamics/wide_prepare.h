@@ -6,9 +6,6 @@
 
 namespace carom::internal {
 
-/// Contacts that roll, convey, or hold a body that may not move along every axis have rows of their own.
-[[nodiscard]] bool fits_lane(const StepContext& ctx, const Link& link);
-
 /// All lanes will be filled.
 void start_wide_row(WideRow& row);
 
