@@ -26,6 +26,7 @@ void UnitOutput::clear()
     begins.clear();
     late_rows.clear();
     deferred.clear();
+    stopped_joints.clear();
     kicked_shapes.clear();
     deflected.clear();
     reaches.clear();

@@ -10,6 +10,11 @@ namespace carom::internal {
 namespace {
 
 constexpr double rounding = 5e-6; // of the energy
+// What contacts may push out against the forces in a sub-step, as parts of the slop: for a body that moves it is noise, one at rest may not creep.
+// What overlaps by more than some slops was put there, and is to come out.
+constexpr double moving_push_out = 0.05;
+constexpr double resting_push_out = 0.004;
+constexpr float deep = 40;
 
 double as_double(float x) { return static_cast<double>(x); }
 
@@ -44,10 +49,10 @@ double stored(const JointRecord& joint, const JointPose& pose)
 
 } // namespace
 
-double UnitEnergy::Body::twice_kinetic(const BodyState& s, double vx, double vy) const
+double UnitEnergy::Body::twice_kinetic(const BodyState& s, const Motion& frame) const
 {
-    return mass_x * square(as_double(s.velocity.x) - vx) + mass_y * square(as_double(s.velocity.y) - vy) +
-           inertia * square(as_double(s.angular_velocity));
+    return mass_x * square(as_double(s.velocity.x) - frame.x) + mass_y * square(as_double(s.velocity.y) - frame.y) +
+           inertia * square(as_double(s.angular_velocity) - frame.w);
 }
 
 void UnitEnergy::Drift::add(const Body& body, const BodyState& s)
@@ -58,36 +63,120 @@ void UnitEnergy::Drift::add(const Body& body, const BodyState& s)
     py += body.mass_y * as_double(s.velocity.y);
 }
 
-void UnitEnergy::begin(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
-                       std::int32_t count, float slop)
+void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<const JointWork> joints, const Unit& unit)
 {
     m_view = view;
-    m_state = &state;
+    m_state = &ctx.state;
     m_joints = joints;
-    m_slop = slop;
-    m_first = first;
-    m_count = std::min(count, most_bodies);
+    m_slop = ctx.scene.tolerances.slop;
+    m_first = unit.first_state + 1;
+    m_count = std::min(unit.dynamic_count, most_bodies);
     m_all_driven = all_driven();
     if (m_all_driven)
         return;
+    find_carrier(ctx, unit);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
-    {
-        const BodyState& s = m_view.states[i];
-        const StateConstants& c = m_view.constants[i];
-        body(i) = {.mass_x = inverse(c.inverse_mass.x),
-                   .mass_y = inverse(c.inverse_mass.y),
-                   .inertia = inverse(c.inverse_inertia),
-                   .position = s.delta_position,
-                   .rotation = s.delta_rotation,
-                   .group = i - m_first,
-                   .flew = flies(i)};
-        group_of(i) = {};
-    }
+        place_body(ctx, i);
     add_kinetic(1);
     add_springs(1);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
         body(i).first = body(i).missing;
 }
+
+void UnitEnergy::place_body(const StepContext& ctx, std::int32_t state)
+{
+    const BodyState& s = m_view.states[state];
+    const StateConstants& c = m_view.constants[state];
+    Body& b = body(state);
+    b = {.mass_x = inverse(c.inverse_mass.x),
+         .mass_y = inverse(c.inverse_mass.y),
+         .inertia = inverse(c.inverse_inertia),
+         .position = s.delta_position,
+         .rotation = s.delta_rotation,
+         .group = state - m_first,
+         .flew = flies(state)};
+    group_of(state) = {};
+    if (!has_carrier())
+        return;
+    const auto center = [&](std::int32_t i)
+    { return m_state->sims[static_cast<std::size_t>(ctx.scratch.state_bodies[static_cast<std::size_t>(i)])].center; };
+    const Position own = center(state);
+    const Position carrier = center(m_carrier);
+    b.center = {own.x - carrier.x, own.y - carrier.y};
+    b.arm = arm_of(state);
+}
+
+// --- seen from what is driven -------------------------------------------------------------------------------------------------------
+
+// Kinematic bodies stand behind the dynamic ones. With two that move there is no frame in which neither does work.
+void UnitEnergy::find_carrier(const StepContext& ctx, const Unit& unit)
+{
+    m_carrier = none;
+    for (std::int32_t i = m_first + unit.dynamic_count; i < unit.first_state + unit.state_count; ++i)
+    {
+        const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(i)];
+        if (s.velocity == Vec2{} && s.angular_velocity == 0)
+            continue;
+        const bool is_second = has_carrier();
+        m_carrier = is_second ? none : i;
+        m_carrier_before = s;
+        if (is_second)
+            return;
+    }
+}
+
+UnitEnergy::Arm UnitEnergy::arm_of(std::int32_t state)
+{
+    const Vec2 own = m_view.states[state].delta_position;
+    const Vec2 carrier = m_view.states[m_carrier].delta_position;
+    const Arm& center = body(state).center;
+    return {center.x + as_double(own.x) - as_double(carrier.x), center.y + as_double(own.y) - as_double(carrier.y)};
+}
+
+UnitEnergy::Motion UnitEnergy::carried_motion(const Arm& arm) const
+{
+    const BodyState& c = m_view.states[m_carrier];
+    const double w = as_double(c.angular_velocity);
+    return {as_double(c.velocity.x) - w * arm.y, as_double(c.velocity.y) + w * arm.x, w};
+}
+
+UnitEnergy::Energy UnitEnergy::energy_of(std::int32_t state)
+{
+    const BodyState& s = m_view.states[state];
+    const Body& b = body(state);
+    Energy energy{0.5 * b.twice_kinetic(s, {}), 0};
+    if (!has_carrier())
+        return energy;
+    const Arm arm = arm_of(state);
+    const Motion frame = carried_motion(arm);
+    energy.carried = 0.5 * (b.twice_kinetic(s, frame) - square(frame.w) * (b.mass_x * square(arm.x) + b.mass_y * square(arm.y)));
+    return energy;
+}
+
+// Forces are even over the sub-step: they work along the way that was gone, however it bent.
+UnitEnergy::Energy UnitEnergy::work_on(std::int32_t state)
+{
+    const BodyState& s = m_view.states[state];
+    const StateConstants& c = m_view.constants[state];
+    const Body& b = body(state);
+    const Vec2 way = s.delta_position - b.position;
+    const Rotation turn = s.delta_rotation * carom::inverse(b.rotation);
+    const auto work = [&](double x, double y, double w)
+    {
+        return b.mass_x * as_double(c.acceleration.x) * x + b.mass_y * as_double(c.acceleration.y) * y +
+               b.inertia * as_double(c.angular_acceleration) * w;
+    };
+    Energy energy{work(as_double(way.x), as_double(way.y), as_double(turn.s)), 0};
+    if (!has_carrier())
+        return energy;
+    const Arm arm = arm_of(state);
+    const Motion frame = carried_motion({0.5 * (arm.x + b.arm.x), 0.5 * (arm.y + b.arm.y)});
+    const double h = as_double(m_view.h);
+    energy.carried = work(as_double(way.x) - h * frame.x, as_double(way.y) - h * frame.y, as_double(turn.s) - h * frame.w);
+    return energy;
+}
+
+// --- what comes and goes ------------------------------------------------------------------------------------------------------------
 
 // Every body hangs on a joint that may do work.
 bool UnitEnergy::all_driven()
@@ -104,17 +193,24 @@ bool UnitEnergy::all_driven()
 }
 
 // What has landed counts from here.
-void UnitEnergy::after_impacts()
+void UnitEnergy::after_impacts(std::span<const StoppedJoint> stopped)
 {
     if (m_all_driven)
         return;
     add_kinetic(1);
+    for (const StoppedJoint& s : stopped)
+    {
+        if (is_ours(s.state))
+            body(s.state).missing += {s.energy, s.energy};
+    }
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (!body(i).flew || flies(i))
             continue;
         body(i).position = m_view.states[i].delta_position;
         body(i).rotation = m_view.states[i].delta_rotation;
+        if (has_carrier())
+            body(i).arm = arm_of(i);
     }
 }
 
@@ -127,7 +223,10 @@ void UnitEnergy::before_impacts()
 void UnitEnergy::add_kinetic(double sign)
 {
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
-        body(i).missing += 0.5 * sign * body(i).twice_kinetic(m_view.states[i], 0, 0);
+    {
+        const Energy energy = energy_of(i);
+        body(i).missing += {sign * energy.standing, sign * energy.carried};
+    }
 }
 
 void UnitEnergy::add_springs(double sign)
@@ -135,23 +234,19 @@ void UnitEnergy::add_springs(double sign)
     for (const JointWork& work : m_joints)
     {
         const JointRecord& joint = m_state->joints[work.joint];
-        if (joint.kind == JointType::Spring)
-            body(is_ours(work.a) ? work.a : work.b).missing += sign * stored(joint, present_pose(m_view, work));
+        if (joint.kind != JointType::Spring)
+            continue;
+        const double energy = sign * stored(joint, present_pose(m_view, work));
+        body(is_ours(work.a) ? work.a : work.b).missing += {energy, energy};
     }
 }
 
-// Forces are even over the sub-step: they work along the way that was gone, however it bent.
 void UnitEnergy::add_work()
 {
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
-        const BodyState& s = m_view.states[i];
-        const StateConstants& c = m_view.constants[i];
-        const Vec2 way = s.delta_position - body(i).position;
-        const Rotation turn = s.delta_rotation * carom::inverse(body(i).rotation);
-        body(i).missing += body(i).mass_x * as_double(c.acceleration.x) * as_double(way.x) +
-                           body(i).mass_y * as_double(c.acceleration.y) * as_double(way.y) +
-                           body(i).inertia * as_double(c.angular_acceleration) * as_double(turn.s);
+        body(i).work = work_on(i);
+        body(i).missing += body(i).work;
     }
 }
 
@@ -186,8 +281,12 @@ void UnitEnergy::join(std::int32_t own, std::int32_t other)
     if (is_ours(other))
         return;
     const BodyState& anchor = m_view.states[other];
-    group.is_anchored = true;
-    group.is_passive &= anchor.velocity == Vec2{} && anchor.angular_velocity == 0;
+    if (other == m_carrier)
+        group.is_carried = true;
+    else if (anchor.velocity == Vec2{} && anchor.angular_velocity == 0)
+        group.is_anchored = true;
+    else
+        group.is_passive = false;
 }
 
 void UnitEnergy::note_joint(const JointWork& work)
@@ -212,6 +311,16 @@ void UnitEnergy::note_rows(std::span<const ContactRow> rows)
     }
 }
 
+bool UnitEnergy::is_deep(const ContactRow& row) const
+{
+    for (int i = 0; i < row.count; ++i)
+    {
+        if (row_separation(m_view, row, row.points[i]) < -deep * m_slop)
+            return true;
+    }
+    return false;
+}
+
 void UnitEnergy::note_row(const ContactRow& row)
 {
     for (const auto& [own, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}})
@@ -222,6 +331,7 @@ void UnitEnergy::note_row(const ContactRow& row)
         group_of(own).is_passive &= row.surface_speed == 0;
         group_of(own).may_lose = true;
         group_of(own).touches = true;
+        group_of(own).is_deep |= is_deep(row);
     }
 }
 
@@ -253,9 +363,11 @@ void UnitEnergy::restore(bool exact)
         Group& group = group_of(i);
         group.missing += body(i).missing;
         group.first += body(i).first;
+        group.work += body(i).work;
         if (group.touches)
             group.push_out += as_double(m_slop) * force_on(i);
-        group.is_passive &= !decays(m_view.constants[i]) && !flies(i);
+        group.is_passive &= !decays(m_view.constants[i]) && !flies(i) && !(group.is_carried && group.is_anchored);
+        group.is_passive &= !group.is_carried || body(i).mass_x == body(i).mass_y;
     }
     for (int g = 0; g < m_count; ++g)
     {
@@ -271,37 +383,87 @@ double UnitEnergy::force_on(std::int32_t state)
     return std::sqrt(square(body(state).mass_x * as_double(a.x)) + square(body(state).mass_y * as_double(a.y)));
 }
 
-// What is free moves on with its center of mass; what hangs on the world has no motion of its own.
-void UnitEnergy::scale(int index, bool exact)
+UnitEnergy::Drift UnitEnergy::drift_of(int index)
 {
-    const Group& group = m_groups[static_cast<std::size_t>(index)];
-    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
-    if (!exact && group.missing >= -rounding * group.first - group.push_out)
-        return;
     Drift drift;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
-        if (body(i).group == index && !group.is_anchored)
+        if (body(i).group == index)
             drift.add(body(i), m_view.states[i]);
     }
+    return drift;
+}
+
+// What is free moves on with its center of mass; what hangs on the world has no motion of its own, what is carried moves against the carrier.
+UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
+{
+    if (group.is_carried)
+        return carried_motion(arm_of(state));
+    return group.is_anchored ? Motion{} : Motion{drift.vx(), drift.vy(), 0};
+}
+
+void UnitEnergy::scale(int index, bool exact)
+{
+    const Group& group = m_groups[static_cast<std::size_t>(index)];
+    const double missing = group.is_carried ? group.missing.carried : group.missing.standing;
+    const double first = group.is_carried ? std::fabs(group.first.carried) : group.first.standing;
+    const Drift drift = drift_of(index);
     double inner = 0;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (body(i).group == index)
-            inner += 0.5 * body(i).twice_kinetic(m_view.states[i], drift.vx(), drift.vy());
+            inner += 0.5 * body(i).twice_kinetic(m_view.states[i], frame_of(group, drift, i));
     }
+    const double work = group.is_carried ? group.work.carried : group.work.standing;
+    const double share = group.is_deep ? moving_push_out : resting_push_out;
+    if (const double rise = -(inner + missing) - share * group.push_out; group.may_lose && rise > 0 && work < 0)
+        hold_back(index, std::min(rise / -work, 1.0));
+    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
+    if (!(exact && !group.is_carried) && missing >= -rounding * first - moving_push_out * group.push_out)
+        return;
     if (!(inner > 0))
         return;
-    const double by = std::sqrt(std::max(inner + group.missing, 0.0) / inner);
+    const double by = std::sqrt(std::max(inner + missing, 0.0) / inner);
     const auto change = static_cast<float>(std::min(by, 2.0) - 1);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         BodyState& s = m_view.states[i];
         if (body(i).group != index)
             continue;
-        s.velocity += change * (s.velocity - Vec2{static_cast<float>(drift.vx()), static_cast<float>(drift.vy())});
-        s.angular_velocity += change * s.angular_velocity;
+        const Motion frame = frame_of(group, drift, i);
+        s.velocity += change * (s.velocity - Vec2{static_cast<float>(frame.x), static_cast<float>(frame.y)});
+        s.angular_velocity += change * (s.angular_velocity - static_cast<float>(frame.w));
     }
+}
+
+// What contacts push out against the forces with more energy than there is goes so much less far.
+void UnitEnergy::hold_back(int index, double share)
+{
+    const bool is_carried = m_groups[static_cast<std::size_t>(index)].is_carried;
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == index)
+            hold_back_body(i, static_cast<float>(1 - share), is_carried);
+    }
+}
+
+// Its own way is that against the carrier, which takes it along.
+void UnitEnergy::hold_back_body(std::int32_t state, float rest, bool is_carried)
+{
+    BodyState& s = m_view.states[state];
+    const Body& b = body(state);
+    Vec2 position = b.position;
+    Rotation rotation = b.rotation;
+    if (is_carried)
+    {
+        const BodyState& c = m_view.states[m_carrier];
+        const Rotation turn = c.delta_rotation * carom::inverse(m_carrier_before.delta_rotation);
+        const Vec2 arm{static_cast<float>(b.arm.x), static_cast<float>(b.arm.y)};
+        position += c.delta_position - m_carrier_before.delta_position + rotate(turn, arm) - arm;
+        rotation = turn * rotation;
+    }
+    s.delta_position = position + rest * (s.delta_position - position);
+    s.delta_rotation = Rotation::from_angle(rest * (s.delta_rotation * carom::inverse(rotation)).angle()) * rotation;
 }
 
 } // namespace carom::internal

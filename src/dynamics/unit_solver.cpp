@@ -95,8 +95,7 @@ private:
         raise_fast(m_ctx, m_unit, k, m_output);
         note_approaches();
         if (m_watches_energy)
-            m_energy.begin(m_view, m_ctx.state, m_joints, m_unit.first_state + 1, m_unit.dynamic_count,
-                           0.1f * m_ctx.scene.tolerances.slop);
+            m_energy.begin(m_view, m_ctx, m_joints, m_unit);
         integrate_velocities(k);
         warm_start_all(k);
         predict_bends();
@@ -106,11 +105,10 @@ private:
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
         kick_springs_after(m_view, m_ctx.state, m_joints);
         guard_cores();
+        if (has_fliers())
+            relax(); // they must not meet what overlap is pushed out with
         fly(k);
-        refresh_rows();
-        place_joints(m_view, m_ctx.state, m_joints);
-        prepare_direct();
-        solve(false);
+        relax();
         if (m_watches_energy)
             m_energy.note_load(m_rows, late_rows());
         if (m_starts_by_body)
@@ -119,6 +117,23 @@ private:
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
         finish_substep(k);
+    }
+
+    // At the poses that have been reached: takes out the speed that pushed overlaps out.
+    void relax()
+    {
+        refresh_rows();
+        place_joints(m_view, m_ctx.state, m_joints);
+        prepare_direct();
+        solve(false);
+    }
+
+    [[nodiscard]] bool has_fliers() const
+    {
+        const auto fliers =
+            std::span(m_scratch.fliers)
+                .subspan(static_cast<std::size_t>(m_unit.first_flier), static_cast<std::size_t>(m_unit.flier_count));
+        return std::any_of(fliers.begin(), fliers.end(), [](const Flier& f) { return !f.landed; });
     }
 
     void fly(int k)
@@ -130,9 +145,10 @@ private:
         }
         if (m_watches_energy)
             m_energy.before_impacts();
+        m_output.stopped_joints.clear();
         advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
         if (m_watches_energy)
-            m_energy.after_impacts();
+            m_energy.after_impacts(m_output.stopped_joints);
     }
 
     // What is kept for the next step's warm start is of a whole sub-step.

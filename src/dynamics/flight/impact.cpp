@@ -34,6 +34,7 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
     gather();
     note_before();
     reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); });
+    note_stopped_joints();
     for (std::size_t i = 0; i < m_members.size(); ++i)
         write_back(i, changed);
     for (std::size_t i = 0; i < m_rows.size(); ++i)
@@ -100,6 +101,17 @@ double ImpactSet::kick(Source& s, float speed)
     if (result.b_fired)
         m_span.output.kicked_shapes.push_back(s.other);
     return static_cast<double>(result.speed);
+}
+
+void ImpactSet::note_stopped_joints()
+{
+    for (const ImpactRow& r : m_rows)
+    {
+        const std::int32_t a = m_members[static_cast<std::size_t>(r.a)].state;
+        const std::int32_t b = m_members[static_cast<std::size_t>(r.b)].state;
+        if (r.kind == ImpactRow::Kind::Hold && r.energy_lost != 0)
+            m_span.output.stopped_joints.push_back({a != none ? a : b, r.energy_lost});
+    }
 }
 
 void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)

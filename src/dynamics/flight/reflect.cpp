@@ -283,6 +283,22 @@ void rub_pressed(Bodies& accelerations, const std::vector<ImpactRow>& rows, Pres
 
 constexpr int round_limit = 64;
 
+// Joints that the solver pulls together close at some rate; kept through an impact, it would do work.
+void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
+{
+    std::vector<Demand> demands;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+        if (rows[i].kind == ImpactRow::Kind::Hold)
+            demands.push_back({static_cast<int>(i), -gap_rate(bodies, rows[i])});
+    }
+    if (demands.empty())
+        return;
+    Bodies change = at_rest(bodies);
+    satisfy(change, rows, demands);
+    give(bodies, rows, demands);
+}
+
 } // namespace
 
 double gap_rate(const Bodies& bodies, const ImpactRow& row) { return rate_along(bodies, row, normal_of(row)); }
@@ -294,6 +310,7 @@ double slip_rate(const Bodies& bodies, const ImpactRow& row)
 void reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law)
 {
     const BounceLaw still = [](int, double) { return Bounce{}; };
+    stop_holds(bodies, rows);
     int round = 0;
     while (round < round_limit && reflect_once(bodies, rows, least, law))
         ++round;

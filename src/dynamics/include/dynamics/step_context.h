@@ -219,6 +219,13 @@ struct Reach
 };
 
 /// Per unit, so that units may run side by side; merged in the order of the units.
+/// Energy of the rate at which a joint was being closed, lost when an impact stopped it.
+struct StoppedJoint
+{
+    std::int32_t state;
+    double energy;
+};
+
 struct UnitOutput
 {
     std::vector<RawImpact> impacts;
@@ -227,6 +234,7 @@ struct UnitOutput
     std::vector<RawTouch> begins;           ///< contacts that first bore a load in this step
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
+    std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
     std::vector<std::int32_t> kicked_shapes;
     std::vector<std::int32_t> deflected;  ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;           ///< of each of these

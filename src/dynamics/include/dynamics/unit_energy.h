@@ -11,37 +11,68 @@ namespace carom::internal {
 
 /// Joints that hold and surfaces that stand still do no work. The energy of bodies that hang or lean together may therefore not rise by more than
 /// forces, springs and impacts give, and does not fall either where joints alone hold them: the speeds at which they move against each other
-/// are scaled to it. What is left of the error of finite steps is one of phase.
+/// are scaled to it. What is left of the error of finite steps is one of phase. Bodies on one that is driven evenly, such as a turning drum, are seen
+/// from it: there it does no work, and the Jacobi integral takes the place of the energy, with a potential of -m w^2 r^2 / 2.
 class UnitEnergy
 {
 public:
     static constexpr int most_bodies = 64;
 
-    /// Before the forces of a sub-step. Dynamic states are [first, first + count).
-    void begin(const SolverView& view, const SceneState& state, std::span<const JointWork> joints, std::int32_t first,
-               std::int32_t count, float slop);
-    /// Around what happens in flight: energy that impacts took or gave stays so.
+    /// Before the forces of a sub-step.
+    void begin(const SolverView& view, const StepContext& ctx, std::span<const JointWork> joints, const Unit& unit);
+    /// Around what happens in flight: energy that impacts took or gave stays so; what the solver had put into joints and impacts stopped does not.
     void before_impacts();
-    void after_impacts();
+    void after_impacts(std::span<const StoppedJoint> stopped);
     /// After the relaxation: joints and contacts that bear something make groups.
     void note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows);
     /// At the end. `exact`: the joints were solved to the end; else they may only have put in too much.
     void restore(bool exact);
 
 private:
+    /// Energies against what stands and against the carrier.
+    struct Energy
+    {
+        double standing = 0;
+        double carried = 0;
+
+        Energy& operator+=(const Energy& other)
+        {
+            standing += other.standing;
+            carried += other.carried;
+            return *this;
+        }
+    };
+
+    /// Velocity of a frame where the body is.
+    struct Motion
+    {
+        double x = 0;
+        double y = 0;
+        double w = 0;
+    };
+
+    struct Arm
+    {
+        double x = 0;
+        double y = 0;
+    };
+
     struct Body
     {
         double mass_x = 0; ///< what is locked has none to speak of: it does not move
         double mass_y = 0;
         double inertia = 0;
-        double missing = 0; ///< energy: what there was and has been added since, less what there is
-        double first = 0;   ///< what there was
-        Vec2 position{};    ///< at the start of the sub-step
+        Energy missing{}; ///< what there was and has been added since, less what there is
+        Energy first{};   ///< what there was
+        Energy work{};    ///< that forces have done since
+        Arm center{};     ///< when the step began, seen from the carrier's center then
+        Arm arm{};        ///< seen from it at the start of the sub-step
+        Vec2 position{};  ///< at the start of the sub-step
         Rotation rotation{};
         int group = 0;     ///< the least body it is connected with
         bool flew = false; ///< at the start of the sub-step
 
-        [[nodiscard]] double twice_kinetic(const BodyState& s, double vx, double vy) const; ///< of motion against (vx, vy)
+        [[nodiscard]] double twice_kinetic(const BodyState& s, const Motion& frame) const; ///< as seen there
     };
 
     /// Velocity of the common center of mass, axis by axis: a locked axis has none.
@@ -59,12 +90,15 @@ private:
 
     struct Group
     {
-        double missing = 0;
-        double first = 0;
+        Energy missing{};
+        Energy first{};
+        Energy work{};
         double push_out = 0;
         bool touches = false;
+        bool is_deep = false;     ///< some contact overlaps far
         bool is_joined = false;   ///< by joints or contacts
         bool is_anchored = false; ///< to what does not move
+        bool is_carried = false;  ///< by the carrier
         bool is_passive = true;   ///< nothing may do work on it but forces and springs
         bool may_lose = false;    ///< contacts, limits, dampers
     };
@@ -74,17 +108,29 @@ private:
     [[nodiscard]] Group& group_of(std::int32_t state) { return m_groups[static_cast<std::size_t>(body(state).group)]; }
     [[nodiscard]] bool flies(std::int32_t state) const { return (m_view.states[state].flags & body_flag::flier) != 0; }
     [[nodiscard]] bool all_driven();
+    void find_carrier(const StepContext& ctx, const Unit& unit);
+    [[nodiscard]] bool has_carrier() const { return m_carrier != none; }
+    void place_body(const StepContext& ctx, std::int32_t state);
+    [[nodiscard]] Arm arm_of(std::int32_t state);
+    [[nodiscard]] Motion carried_motion(const Arm& arm) const;
+    [[nodiscard]] Energy energy_of(std::int32_t state);
+    [[nodiscard]] Energy work_on(std::int32_t state);
     void connect(std::int32_t a, std::int32_t b);
     void join(std::int32_t own, std::int32_t other);
     void note_joint(const JointWork& work);
     void connect_rows(std::span<const ContactRow> rows);
     void note_rows(std::span<const ContactRow> rows);
     void note_row(const ContactRow& row);
+    [[nodiscard]] bool is_deep(const ContactRow& row) const;
     void add_kinetic(double sign);
     void add_work();
     [[nodiscard]] double force_on(std::int32_t state);
     void add_springs(double sign);
     void scale(int group, bool exact);
+    [[nodiscard]] Drift drift_of(int group);
+    [[nodiscard]] Motion frame_of(const Group& group, const Drift& drift, std::int32_t state);
+    void hold_back(int group, double share);
+    void hold_back_body(std::int32_t state, float rest, bool is_carried);
 
     SolverView m_view{};
     const SceneState* m_state = nullptr;
@@ -93,6 +139,8 @@ private:
     bool m_all_driven = false; ///< nothing to watch
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
+    std::int32_t m_carrier = none; ///< state of the one kinematic body that moves
+    BodyState m_carrier_before{};  ///< at the start of the sub-step
     std::array<Body, most_bodies> m_bodies;
     std::array<Group, most_bodies> m_groups;
 };

@@ -66,6 +66,7 @@ private:
     Bounce law(int index, double u);
     [[nodiscard]] bool is_crowded(const ImpactRow& row) const;
     double kick(Source& s, float speed);
+    void note_stopped_joints();
     void write_back(std::size_t i, std::vector<std::int32_t>& changed);
     [[nodiscard]] Flier* grounded(const Member& m) const;
     void deflect(Flier& f, const ImpactBody& now, bool struck) const;
