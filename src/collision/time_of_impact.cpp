@@ -218,7 +218,13 @@ private:
         const double own = (m_w_probe * m_w_probe + std::fabs(m_carrier.alpha)) * m_reach;
         const double turning = m_w_frame * m_w_frame + std::fabs(m_frame.alpha);
         const double speed = size(v);
-        sight.speed = speed + rest * (size(m_a) + own + turning * (size(r) + rest * speed));
+        // By what accelerates it, or, where it spins fast, by its center's speed and the spin.
+        const Vector center_v = {m_carrier.center.vx - m_frame.center.vx + t * m_a.x,
+                                 m_carrier.center.vy - m_frame.center.vy + t * m_a.y};
+        const double center_speed = size(center_v) + rest * size(m_a);
+        const double way = size(r) + 2 * m_reach + rest * center_speed;
+        sight.speed = std::min(speed + rest * (size(m_a) + own + turning * (size(r) + rest * speed)),
+                               center_speed + m_w_probe * m_reach + m_w_frame * way);
         sight.bend = own;
         if (turning > 0)
             sight.bend += 2 * m_w_frame * sight.speed + turning * (size(r) + rest * sight.speed);
@@ -303,15 +309,16 @@ double safe_step(double d, double u, double bend)
 double next_step(const Sight& sight)
 {
     const double step = safe_step(sight.distance, sight.rate, sight.bend);
-    if (sight.end_of_arc) // the arc itself may bend towards the path
-        return std::min(step, sight.speed > 0 ? std::max(sight.distance, 0.0) / sight.speed : 1e300);
-    if (!(sight.hollow_radius > 0) || !(sight.speed > 0))
+    if (!(sight.speed > 0))
         return step;
+    const double plain = std::max(sight.distance, 0.0) / sight.speed;
+    if (sight.end_of_arc) // the arc itself may bend towards the path
+        return std::min(step, plain);
     // The bend bound holds while the probe keeps half its distance from the arc's center; the plain speed bound always holds.
-    return std::max(std::max(sight.distance, 0.0) / sight.speed, std::min(step, 0.5 * sight.hollow_radius / sight.speed));
+    return std::max(plain, sight.hollow_radius > 0 ? std::min(step, 0.5 * sight.hollow_radius / sight.speed) : step);
 }
 
-constexpr int max_looks = 1024; // 1000 m/s past an unfacing piece in small steps; others need 3 to 10
+constexpr int max_looks = 8192; // a pebble that turns with 50,000 rad/s takes hundreds; others need 3 to 10
 constexpr double touch = 1e-7;  // of the size: a nanometre on a pinball
 constexpr double nearly_touch = 1e-3;
 constexpr double blind_step = 1e-3; // of the size, along a surface that does not answer

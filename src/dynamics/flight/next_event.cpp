@@ -287,13 +287,13 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
     f.event_time = time_in_list = 1e300;
     if (f.landed || f.impacts >= impact_limit || f.time >= span.h)
         return true;
-    Search(span, f).run();
-    if (f.held_count > 0 && f.hold_until < std::min(f.event_time, span.h))
-    {
+    if (f.held_count > 0 && f.hold_until < span.h)
+    { // its path is that of the hold for so long
         f.event_time = f.hold_until;
         f.event_own = f.event_shape = f.event_state = none;
         f.event_version = 0;
     }
+    Search(span, f).run();
     time_in_list = f.event_time;
     return f.passes == none;
 }
