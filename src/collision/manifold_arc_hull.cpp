@@ -21,6 +21,26 @@ struct Corner
     float separation = 3e38f;
 };
 
+constexpr float narrow =
+    0.94f; // cosine of the angle between two corners as the center sees them: up to there one normal serves both
+constexpr float uneven = 0.02f; // of their chord
+
+// One normal for both corners, across their chord while they are equally deep; as one gets deeper it becomes that corner's. In a hollow that is hardly
+// wider than the hull the other is then left out.
+Vec2 hollow_normal(const Leaf& arc, const Hull& hull, Corner (&corners)[2])
+{
+    const Vec2 first = hull.point(corners[0].index) - arc.p0;
+    if (corners[1].index < 0)
+        return -normalize(first);
+    const Vec2 second = hull.point(corners[1].index) - arc.p0;
+    const float deeper = (corners[1].separation - corners[0].separation) / (uneven * length(second - first));
+    if (deeper < 1)
+        return -normalize(first + (1 - deeper) * second);
+    if (dot(first, second) < narrow * length(first) * length(second))
+        corners[1].index = -1;
+    return -normalize(first);
+}
+
 // Corners inside the circle of the arc, by how near they are to it.
 void collide_hollow_side(const Leaf& arc, const Hull& hull, float margin, LocalManifold& out)
 {
@@ -43,10 +63,7 @@ void collide_hollow_side(const Leaf& arc, const Hull& hull, float margin, LocalM
     }
     if (corners[0].index < 0)
         return;
-    Vec2 middle = hull.point(corners[0].index) - arc.p0;
-    if (corners[1].index >= 0)
-        middle += hull.point(corners[1].index) - arc.p0;
-    const Vec2 n = -normalize(middle); // one normal for both corners, across their chord
+    const Vec2 n = hollow_normal(arc, hull, corners);
     out.normal = n;
     for (const Corner& c : corners)
     {
