@@ -192,9 +192,10 @@ void ImpactSet::add_hold(Flier& f, const Hold& h) const
         firm && m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Kinematic && holder.angular_velocity == 0;
     f.lead_x = drifts ? static_cast<double>(holder.velocity.x) : 0;
     f.lead_y = drifts ? static_cast<double>(holder.velocity.y) : 0;
-    const bool still = m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Static &&
-                       m_state.shapes[h.other].surface_speed == 0 && m_state.shapes[h.own].surface_speed == 0;
-    f.on_still = still && (f.on_still || f.held_count == 0);
+    const bool conveys = m_state.shapes[h.other].surface_speed != 0 || m_state.shapes[h.own].surface_speed != 0;
+    const bool moves = holder.velocity != Vec2{} || holder.angular_velocity != 0;
+    const std::int32_t carrier = !firm || conveys ? none : moves ? m_state.shapes[h.other].body : held_by_world;
+    f.carrier = f.held_count == 0 || f.carrier == carrier ? carrier : none;
     if (f.held_count < Flier::most_held)
         f.held[f.held_count++] = h;
 }
@@ -208,12 +209,15 @@ void ImpactSet::set_hold_time(std::size_t i)
         return;
     const ImpactBody& a = m_bodies[static_cast<std::size_t>(row.a)];
     const ImpactBody& b = m_bodies[static_cast<std::size_t>(row.b)];
-    const double turn = std::fabs(s.touch.curvature * s.slide) + std::fabs(a.w) +
-                        (m_state.shapes[s.own].leaf.type == LeafType::Circle ? 0 : std::fabs(b.w));
+    const double bend = std::fabs(s.touch.curvature * s.slide);
+    const double turn = bend + std::fabs(a.w) + (m_state.shapes[s.own].leaf.type == LeafType::Circle ? 0 : std::fabs(b.w));
     for (const int member : {row.a, row.b})
     {
-        if (Flier* f = m_members[static_cast<std::size_t>(member)].flier; f != nullptr && turn > 0)
-            f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
+        Flier* f = m_members[static_cast<std::size_t>(member)].flier;
+        if (f == nullptr || turn == 0)
+            continue;
+        f->bend_rate = std::max(f->bend_rate, bend);
+        f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
     }
 }
 

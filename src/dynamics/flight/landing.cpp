@@ -12,6 +12,8 @@ namespace carom::internal {
 
 namespace {
 
+constexpr double most_bend = 0.25; // rad: what runs through a tighter bend in a sub-step would leave it before the solver knows
+
 class Landing
 {
 public:
@@ -146,7 +148,8 @@ void finish_flight(const FlightSpan& span, Flier& f)
         sum_reaction(span, f, center);
     if (f.held_count == 0 && !f.rests)
         return;
-    if (is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
+    const bool bends = f.bend_rate * span.h > most_bend;
+    if (bends || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
         release_holds(span, f, span.h);
     else
         land(span, f);

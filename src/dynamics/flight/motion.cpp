@@ -66,6 +66,7 @@ void fall_freely(const FlightSpan& span, Flier& f)
     f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
     f.alpha = turning_acceleration(span, f, f.angle);
     f.held_count = 0;
+    f.bend_rate = 0;
     f.constrained = false;
 }
 
@@ -157,33 +158,86 @@ bool is_led(const Flier& f, double t)
     return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < vx * vx + vy * vy;
 }
 
-// Twice the energy of motion, less what the free acceleration gives along the way: what a still surface may only take from.
-double energy_of(const FlightSpan& span, const Flier& f)
+// How it moves as what holds it sees it.
+struct Seen
 {
-    const StateConstants& c = span.constants_of(f.state);
-    double energy = 0;
-    const auto add = [&](double inverse_mass, double speed, float acceleration, double way)
+    double x = 0; ///< from the carrier's center
+    double y = 0;
+    double carrier_vx = 0; ///< of the carrier where the body is
+    double carrier_vy = 0;
+    double carrier_w = 0;
+    double vx = 0;
+    double vy = 0;
+    double w = 0;
+};
+
+Seen as_seen_from_carrier(const FlightSpan& span, const Flier& f)
+{
+    Seen seen;
+    if (f.carrier != held_by_world)
     {
-        if (inverse_mass > 0)
-            energy += (speed * speed - 2 * static_cast<double>(acceleration) * way) / inverse_mass;
-    };
-    add(f.inverse_mass_x, f.vx, c.acceleration.x, f.x);
-    add(f.inverse_mass_y, f.vy, c.acceleration.y, f.y);
-    add(f.inverse_inertia, f.w, c.angular_acceleration, f.angle);
-    return energy;
+        const BodySim& own = span.sim_of(f.body);
+        const BodySim& carrier = span.sim_of(f.carrier);
+        const double since = span.time_of_step(f.time);
+        const auto vx = static_cast<double>(carrier.velocity.x);
+        const auto vy = static_cast<double>(carrier.velocity.y);
+        seen.x = own.center.x - carrier.center.x + f.x - since * vx;
+        seen.y = own.center.y - carrier.center.y + f.y - since * vy;
+        seen.carrier_w = carrier.angular_velocity;
+        seen.carrier_vx = vx - seen.carrier_w * seen.y;
+        seen.carrier_vy = vy + seen.carrier_w * seen.x;
+    }
+    seen.vx = f.vx - seen.carrier_vx;
+    seen.vy = f.vy - seen.carrier_vy;
+    seen.w = f.w - seen.carrier_w;
+    return seen;
 }
 
-void take_gain(const FlightSpan& span, Flier& f, double before)
+double over(double value, double inverse_mass) { return inverse_mass > 0 ? value / inverse_mass : 0; }
+
+double twice_kinetic(const Flier& f, const Seen& s)
 {
-    const double gain = energy_of(span, f) - before;
-    const auto twice = [](double inverse_mass, double speed) { return inverse_mass > 0 ? speed * speed / inverse_mass : 0; };
-    const double moving = twice(f.inverse_mass_x, f.vx) + twice(f.inverse_mass_y, f.vy) + twice(f.inverse_inertia, f.w);
+    return over(s.vx * s.vx, f.inverse_mass_x) + over(s.vy * s.vy, f.inverse_mass_y) + over(s.w * s.w, f.inverse_inertia);
+}
+
+// What a surface that moves evenly may only take from: with the potential of what drives outwards.
+double twice_energy(const Flier& f, const Seen& s)
+{
+    return twice_kinetic(f, s) -
+           s.carrier_w * s.carrier_w * (over(s.x * s.x, f.inverse_mass_x) + over(s.y * s.y, f.inverse_mass_y));
+}
+
+// What the free acceleration has given along the way.
+double twice_work(const FlightSpan& span, const Flier& f, const Flier& before, const Seen& s, const Seen& s_before)
+{
+    const StateConstants& c = span.constants_of(f.state);
+    const double t = f.time - before.time;
+    const auto work = [&](double inverse_mass, float acceleration, double way, double carrier_speed)
+    { return over(2 * static_cast<double>(acceleration) * (way - t * carrier_speed), inverse_mass); };
+    return work(f.inverse_mass_x, c.acceleration.x, f.x - before.x, 0.5 * (s.carrier_vx + s_before.carrier_vx)) +
+           work(f.inverse_mass_y, c.acceleration.y, f.y - before.y, 0.5 * (s.carrier_vy + s_before.carrier_vy)) +
+           work(f.inverse_inertia, c.angular_acceleration, f.angle - before.angle, s.carrier_w);
+}
+
+void take_gain(const FlightSpan& span, Flier& f, const Flier& before)
+{
+    const Seen was = as_seen_from_carrier(span, before);
+    const Seen is = as_seen_from_carrier(span, f);
+    const double gain = twice_energy(f, is) - twice_energy(f, was) - twice_work(span, f, before, is, was);
+    const double moving = twice_kinetic(f, is);
     if (gain <= 0 || moving <= 0)
         return;
-    const double by = std::sqrt(std::max(moving - gain, 0.0) / moving);
-    f.vx *= by;
-    f.vy *= by;
-    f.w *= by;
+    const double less = std::sqrt(std::max(moving - gain, 0.0) / moving) - 1;
+    f.vx += less * is.vx;
+    f.vy += less * is.vy;
+    f.w += less * is.w;
+}
+
+// A body that may not move along every axis has no potential on what turns.
+bool may_gain(const FlightSpan& span, const Flier& f)
+{
+    return f.held_count > 0 && f.joint == none && f.carrier != none &&
+           (f.carrier == held_by_world || f.inverse_mass_x == f.inverse_mass_y || span.sim_of(f.carrier).angular_velocity == 0);
 }
 
 } // namespace
@@ -223,13 +277,13 @@ void advance(const FlightSpan& span, Flier& f, double time)
     const double t = time - f.time;
     const double angle = f.angle;
     const double w = f.w;
-    const bool is_kept = f.held_count > 0 && f.on_still && f.joint == none;
-    const double before = is_kept ? energy_of(span, f) : 0;
+    const bool is_watched = may_gain(span, f);
+    const Flier before = is_watched ? f : Flier{};
     is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
     f.angle += t * (f.w + 0.5 * t * f.alpha);
     f.w += t * f.alpha;
     f.time = time;
-    if (is_kept)
+    if (is_watched)
         take_gain(span, f, before);
     if (f.joint == none || f.constrained || t == 0)
         return;

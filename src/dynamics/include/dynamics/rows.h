@@ -117,6 +117,8 @@ struct Hold
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
 /// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
 /// the step, in double.
+inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
+
 struct Flier
 {
     std::int32_t state = none;
@@ -159,8 +161,9 @@ struct Flier
     bool led = false;   ///< what holds it does not give way
     double lead_x = 0;  ///< velocity of that where it does not turn
     double lead_y = 0;
-    bool on_still = false; ///< what holds it does not move at all, nor does its surface
-    double hold_until = 0; ///< time of the sub-step by which what holds it has turned so far that it is looked at again
+    std::int32_t carrier = none; ///< the one body that holds it, or held_by_world; none: several, or what gives way or conveys
+    double bend_rate = 0;        ///< rad/s at which the way along what holds it bends
+    double hold_until = 0;       ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 
     // The next event, as last computed.
     double event_time = 0; ///< beyond the sub-step: none
