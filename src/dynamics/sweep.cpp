@@ -37,7 +37,8 @@ Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const Bod
 // How far a point may come by turning, by the bend of its parabola, and any way that a force law may push.
 float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shift)
 {
-    const float angle = (std::fabs(sim.angular_velocity) + greatest_spin_of_law(ctx, body)) * ctx.dt;
+    const float gained = ctx.dt * sim.inverse_inertia * std::fabs(sim.torque) + greatest_spin_of_law(ctx, body);
+    const float angle = (std::fabs(sim.angular_velocity) + gained) * ctx.dt;
     const float bend = 0.5f * length(shift - ctx.dt * sim.velocity);
     return sim.extent * (angle < 2 ? angle : 2.0f) + bend + greatest_shift_of_law(ctx, body);
 }

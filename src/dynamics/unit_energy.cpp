@@ -9,7 +9,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double rounding = 5e-6; // of the energy
+constexpr double rounding = 2e-6; // of the energy, in the slices of a sub-step together
 // What contacts may push out against the forces in a sub-step, as parts of the slop: for a body that moves it is noise, one at rest may not creep.
 // What overlaps by more than some slops was put there, and is to come out.
 constexpr double moving_push_out = 0.05;
@@ -69,6 +69,7 @@ void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span
     m_state = &ctx.state;
     m_joints = joints;
     m_slop = ctx.scene.tolerances.slop;
+    m_slices = unit.slices;
     m_first = unit.first_state + 1;
     m_count = std::min(unit.dynamic_count, most_bodies);
     m_all_driven = all_driven();
@@ -365,7 +366,7 @@ void UnitEnergy::restore(bool exact)
         group.first += body(i).first;
         group.work += body(i).work;
         if (group.touches)
-            group.push_out += as_double(m_slop) * force_on(i);
+            group.push_out += as_double(m_slop) / m_slices * force_on(i);
         group.is_passive &= !decays(m_view.constants[i]) && !flies(i) && !(group.is_carried && group.is_anchored);
         group.is_passive &= !group.is_carried || body(i).mass_x == body(i).mass_y;
     }
@@ -419,7 +420,7 @@ void UnitEnergy::scale(int index, bool exact)
     if (const double rise = -(inner + missing) - share * group.push_out; group.may_lose && rise > 0 && work < 0)
         hold_back(index, std::min(rise / -work, 1.0));
     // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
-    if (!(exact && !group.is_carried) && missing >= -rounding * first - moving_push_out * group.push_out)
+    if (!(exact && !group.is_carried) && missing >= -rounding / m_slices * first - moving_push_out * group.push_out)
         return;
     if (!(inner > 0))
         return;

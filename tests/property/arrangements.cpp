@@ -14,7 +14,7 @@ std::span<const Arrangement> arrangements()
         {"BallInWedge", 3000, ball_in_wedge},
         {"PieceAtWall", 5000, piece_at_wall},
         {"PieceInRoom", 5000, piece_in_room},
-        {"PieceInRoundRoom", 4000, piece_in_round_room, false},
+        {"PieceInRoundRoom", 4000, piece_in_round_room},
         {"PieceInWedge", 3000, piece_in_wedge},
         {"BallPair", 5000, ball_pair},
         {"StraightPair", 4000, straight_pair},

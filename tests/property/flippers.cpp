@@ -68,8 +68,8 @@ double bat_angle(Trial& trial, BodyId bat, const Chamber& c)
     return std::atan2(axis.y, axis.x);
 }
 
-// The torque acts evenly through each step; its work follows from the angle, which is read from a rotation in floats: now and at the least
-// energy to half of their last place each, 2^-25 rad.
+// The torque acts evenly through each step; its work follows from the angle, which stands in a rotation in floats: at the start and after every step both
+// components are rounded to half of their last place, 2^-25.
 void drive(Trial& trial, BodyId bat, const Chamber& c, double torque)
 {
     const float applied = f(torque);
@@ -78,7 +78,7 @@ void drive(Trial& trial, BodyId bat, const Chamber& c, double torque)
     trial.drive(bat, applied);
     trial.account_work([&trial, bat, c, applied, start]
                        { return static_cast<double>(applied) * (bat_angle(trial, bat, c) - start); },
-                       std::fabs(torque) * std::ldexp(1.0, -24));
+                       std::fabs(torque) * std::sqrt(2.0) * std::ldexp(1.0, -25));
 }
 
 BodyId build_bat(Trial& trial, const Chamber& c, double ball_mass)

@@ -144,7 +144,7 @@ std::optional<Failure> Trial::check_energy(int step)
 {
     const Sums now = sums();
     const double net = now.energy - m_work();
-    const double allowed = 1e-4 * std::max(now.scale, m_least.scale) + now.weight * slop() + m_work_resolution;
+    const double allowed = 1e-4 * std::max(now.scale, m_least.scale) + now.weight * slop() + (step + 1) * m_work_resolution;
     const double rise = net - m_least_net;
     if (m_check_energy && rise > allowed)
         return Failure{"energy", step, say("energy rose by ", rise, " J from ", m_least_net, " J, allowed ", allowed, " J")};

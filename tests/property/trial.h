@@ -59,7 +59,7 @@ public:
     void expect(const char* law, std::function<std::string()> holds) { m_expectations.push_back({law, std::move(holds)}); }
     /// The torque acts on the body through every step, N m.
     void drive(BodyId body, float torque) { m_torques.push_back({body, torque}); }
-    /// Work that motors and applied torques have done since the start, J, and how far off it may be read.
+    /// Work that motors and applied torques have done since the start, J, and how much every reading and every step may add to its error.
     void account_work(std::function<double()> work, double resolution)
     {
         m_work = std::move(work);

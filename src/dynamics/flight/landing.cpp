@@ -12,7 +12,27 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double most_bend = 0.25; // rad: what runs through a tighter bend in a sub-step would leave it before the solver knows
+// rad: what runs through a tighter bend in a sub-step would leave it before the solver knows, and in the rest of the step come to what has no row.
+constexpr double most_bend = 0.25;
+constexpr double most_bend_in_step = 1;
+
+constexpr float one_normal = 0.94f; // cosine: a manifold has one normal for both of its points
+
+// Between two points of one shape, as a plank in a narrow bowl.
+bool is_wedged(const Flier& f)
+{
+    for (int i = 0; i < f.held_count; ++i)
+    {
+        for (int j = 0; j < i; ++j)
+        {
+            const Hold& a = f.held[i];
+            const Hold& b = f.held[j];
+            if (a.own == b.own && a.other == b.other && dot(a.normal, b.normal) < one_normal)
+                return true;
+        }
+    }
+    return false;
+}
 
 class Landing
 {
@@ -148,8 +168,9 @@ void finish_flight(const FlightSpan& span, Flier& f)
         sum_reaction(span, f, center);
     if (f.held_count == 0 && !f.rests)
         return;
-    const bool bends = f.bend_rate * span.h > most_bend;
-    if (bends || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
+    const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
+    const bool is_beyond_rows = f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || is_wedged(f);
+    if (is_beyond_rows || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
         release_holds(span, f, span.h);
     else
         land(span, f);

@@ -136,6 +136,7 @@ private:
     const SceneState* m_state = nullptr;
     std::span<const JointWork> m_joints;
     float m_slop = 0;
+    int m_slices = 1;
     bool m_all_driven = false; ///< nothing to watch
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
