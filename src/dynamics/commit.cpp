@@ -22,6 +22,8 @@ namespace carom::internal {
 
 namespace {
 
+constexpr float creeping = 0.2f;      // of the sleep speed
+constexpr float creep_time = 0.5f;    // s
 constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
 
 Rotation renormalized(Rotation q)
@@ -212,6 +214,19 @@ bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
     return false;
 }
 
+bool bears_in_crowd(const StepContext& ctx, const BodySim& sim)
+{
+    return sim.crowded && sim.gravity_scale * ctx.state.gravity != Vec2{};
+}
+
+void slow_down(BodySim& sim, float by)
+{
+    sim.velocity *= by;
+    sim.angular_velocity *= by;
+}
+
+// In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
+// may not sleep, because others move or sleeping is off.
 void update_sleep_time(const StepContext& ctx, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
@@ -221,6 +236,9 @@ void update_sleep_time(const StepContext& ctx, int body)
     if (hangs_on_spring(ctx.state, record))
         limit *= 0.02f; // a damped spring creeps the last of its way
     sim.sleep_time = speed <= limit && record.can_sleep && !record.has_target ? sim.sleep_time + ctx.dt : 0;
+    if (sim.sleep_time >= time_to_sleep && speed < creeping * limit && record.type == BodyType::Dynamic &&
+        bears_in_crowd(ctx, sim))
+        slow_down(sim, std::max(1 - ctx.dt / creep_time, 0.0f));
 }
 
 // What leans on a moving kinematic body is carried by it, however slowly.
