@@ -105,7 +105,7 @@ private:
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
         kick_springs_after(m_view, m_ctx.state, m_joints);
         guard_cores();
-        if (has_fliers())
+        if (m_unit.precise && has_fliers())
             relax(); // they must not meet what overlap is pushed out with
         fly(k);
         relax();
