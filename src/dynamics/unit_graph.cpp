@@ -131,10 +131,22 @@ public:
     {
         scratch.flight.assign(state.awake_bodies.size(), earthbound);
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
-        if (!ctx.scene.def.continuous)
-            return;
+        scratch.has_uneven = false;
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
-                          [&](std::size_t i) { scratch.flight[i] = kind_of_flight(state.awake_bodies[i]); });
+                          [&](std::size_t i)
+                          {
+                              const int body = state.awake_bodies[i];
+                              note_uneven(body);
+                              if (ctx.scene.def.continuous)
+                                  scratch.flight[i] = kind_of_flight(body);
+                          });
+    }
+
+    void note_uneven(int body) const
+    {
+        const Vec2 inverse_mass = state.sims[static_cast<std::size_t>(body)].inverse_mass;
+        if (inverse_mass.x != inverse_mass.y)
+            std::atomic_ref(scratch.has_uneven).store(true, std::memory_order_relaxed);
     }
 
     [[nodiscard]] std::int32_t kind_of_flight(int body) const
@@ -148,6 +160,7 @@ public:
     // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
     void gather_links()
     {
+        scratch.links.swap(scratch.kept_units.links);
         const TaskHooks& tasks = ctx.scene.def.tasks;
         const std::span<SomeLinks> parts =
             find_in_parts(tasks, state.awake_contacts.size(), contacts_per_task, scratch.links_of_task,
@@ -211,6 +224,7 @@ public:
     // The same for joints.
     void gather_joints()
     {
+        scratch.joint_links.swap(scratch.kept_units.joints);
         using Some = std::vector<JointLink>;
         const std::span<Some> parts = find_in_parts(ctx.scene.def.tasks, static_cast<std::size_t>(state.joints.capacity()),
                                                     joints_per_task, scratch.joints_of_task,
@@ -684,12 +698,17 @@ private:
 
 } // namespace
 
-void build_unit_graph(StepContext& ctx)
+void gather_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
     graph.find_fliers();
     graph.gather_links();
     graph.gather_joints();
+}
+
+void build_unit_graph(StepContext& ctx)
+{
+    UnitGraph graph(ctx);
     graph.link_islands();
     graph.link_units();
     graph.number_units();

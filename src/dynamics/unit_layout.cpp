@@ -117,6 +117,18 @@ public:
         m_scratch.wide_joints.resize(as_index(m_groups));
     }
 
+    // What held each state when the rows were placed holds it still.
+    void bind_as_before()
+    {
+        const std::vector<std::uint8_t>& bound = m_scratch.kept_units.bound;
+        for_each_in_parts(m_ctx.scene.def.tasks, bound.size(), items_per_task,
+                          [&](std::size_t s)
+                          {
+                              if (bound[s] != 0)
+                                  unbind(static_cast<std::int32_t>(s));
+                          });
+    }
+
     void count()
     {
         for (const Unit& unit : m_scratch.units)
@@ -555,6 +567,17 @@ private:
 };
 
 } // namespace
+
+void refill_units(StepContext& ctx)
+{
+    UnitLayout layout(ctx);
+    layout.fill_states();
+    layout.bind_as_before();
+    layout.add_fliers();
+    layout.add_laws();
+    layout.count();
+    ctx.report.units = static_cast<int>(ctx.scratch.units.size());
+}
 
 void lay_out_units(StepContext& ctx)
 {

@@ -1,5 +1,7 @@
-// Stage 4, units: first who is solved together (unit_graph.cpp), then all that each unit needs side by side (unit_layout.cpp).
+// Stage 4, units: first who is solved together (unit_graph.cpp), then all that each unit needs side by side (unit_layout.cpp). Where nothing has changed
+// since the last step, and nothing flies, everyone stays in place (kept_units.cpp).
 
+#include "dynamics/kept_units.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_graph.h"
 #include "dynamics/unit_layout.h"
@@ -8,8 +10,15 @@ namespace carom::internal {
 
 void build_units(StepContext& ctx)
 {
+    gather_unit_graph(ctx);
+    if (units_stay(ctx))
+    {
+        refill_units(ctx);
+        return;
+    }
     build_unit_graph(ctx);
     lay_out_units(ctx);
+    keep_units(ctx);
 }
 
 } // namespace carom::internal

@@ -131,6 +131,18 @@ struct JointLink
     bool holds = false; ///< and does nothing else
     bool binds = false; ///< it does something about an angle or a length beside
     bool flies = false; ///< one of its bodies may fly about it
+
+    [[nodiscard]] bool operator==(const JointLink&) const = default;
+};
+
+/// What the units of the last step were made of, see kept_units.cpp.
+struct KeptUnits
+{
+    std::vector<std::int32_t> bodies;
+    std::vector<Link> links;
+    std::vector<JointLink> joints;
+    std::vector<std::uint8_t> bound; ///< of each state: rows, limits or motors hold it
+    bool are_plain = false;          ///< nothing in them depends on anything else
 };
 
 /// A joint and the states of its bodies.
@@ -291,6 +303,8 @@ struct Scratch
     std::vector<Link> solved_links; ///< those that get rows, by unit
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
+    KeptUnits kept_units;
+    bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake
     std::vector<JointLink> solved_joints;    ///< by unit
     std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by unit
     std::vector<std::int32_t> lane_links;    ///< link in each lane; none: empty

@@ -8,7 +8,10 @@ namespace carom::internal {
 
 inline constexpr int precise_limit = 32; ///< bodies: beyond it a contact more or less does not decide where a ball goes
 
-/// Fills Scratch::units with how many states, links and joints each has, solved_links and solved_joints in their order, and who flies.
+/// Fills Scratch::links and joint_links, and flight as far as it is known from single bodies and their contacts.
+void gather_unit_graph(StepContext& ctx);
+
+/// After gather_unit_graph: fills Scratch::units with how many states, links and joints each has, solved_links and solved_joints in their order, and who flies.
 void build_unit_graph(StepContext& ctx);
 
 [[nodiscard]] inline bool is_moving_dynamic(const SceneState& state, int body)

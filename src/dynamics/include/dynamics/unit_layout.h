@@ -9,4 +9,7 @@ namespace carom::internal {
 /// Fills the arrays of Scratch that the solver runs over.
 void lay_out_units(StepContext& ctx);
 
+/// The same for units whose places are those of the last step.
+void refill_units(StepContext& ctx);
+
 } // namespace carom::internal

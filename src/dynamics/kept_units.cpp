@@ -1,0 +1,66 @@
+// Who is solved with whom, in which colour and in which lane, depends on bodies, links and joints alone where units are large and nothing flies: slices,
+// heaps and flight, which depend on speeds as well, are for small units. Where all of these are what they were, so is the plan of the last step. It is
+// compared, not assumed: whatever a user has changed shows there.
+
+#include "dynamics/kept_units.h"
+
+#include "dynamics/scene_data.h"
+#include "dynamics/unit_energy.h"
+#include "dynamics/unit_graph.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+namespace {
+
+bool all_grounded(const Scratch& scratch)
+{
+    return std::all_of(scratch.flight.begin(), scratch.flight.end(), [](std::int32_t kind) { return kind == earthbound; });
+}
+
+// Large enough for everything in them to go by links alone.
+bool is_plain(const Unit& unit)
+{
+    const bool has_joints = unit.joint_count > 0 || unit.joint_lane_count > 0;
+    return unit.dynamic_count > (has_joints ? UnitEnergy::most_bodies : precise_limit) && unit.row_count == 0 &&
+           unit.core_count == 0 && !unit.heap;
+}
+
+// Who bears a load matters to rows and heaps only.
+bool is_same(const Link& a, const Link& b)
+{
+    return a.contact == b.contact && a.a == b.a && a.b == b.b && a.touching == b.touching && a.solved == b.solved &&
+           a.plain == b.plain && a.round == b.round && a.points == b.points;
+}
+
+bool are_same(const std::vector<Link>& a, const std::vector<Link>& b)
+{
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), is_same);
+}
+
+} // namespace
+
+bool units_stay(const StepContext& ctx)
+{
+    const Scratch& scratch = ctx.scratch;
+    const KeptUnits& kept = scratch.kept_units;
+    return kept.are_plain && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven && all_grounded(scratch) &&
+           kept.bodies == ctx.state.awake_bodies && are_same(kept.links, scratch.links) && kept.joints == scratch.joint_links;
+}
+
+void keep_units(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    KeptUnits& kept = scratch.kept_units;
+    kept.are_plain = ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flier_seeds.empty() &&
+                     std::all_of(scratch.units.begin(), scratch.units.end(), is_plain);
+    if (!kept.are_plain)
+        return;
+    kept.bodies = ctx.state.awake_bodies;
+    kept.bound.resize(scratch.states.size());
+    for (std::size_t s = 0; s < scratch.states.size(); ++s)
+        kept.bound[s] = (scratch.states[s].flags & body_flag::unbound) == 0 ? 1 : 0;
+}
+
+} // namespace carom::internal
