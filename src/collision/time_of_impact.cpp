@@ -153,7 +153,14 @@ private:
         Leaf both = leaf;
         both.sides = Sides::Both;
         const std::optional<Surface<double>> seen = surface_at<double>(LeafView{&both}, px, py);
-        if (!seen || seen->feature != 0 || seen->distance > m_probe.band)
+        if (!seen || seen->distance > m_probe.band)
+            return plain;
+        // Out through a corner that both pieces close in on: behind either, and beyond the ends of both.
+        const auto thickness = static_cast<double>(leaf.r0);
+        const bool through_corner = seen->feature == 1 && !plain && !start_may_answer(leaf, start_tangent(leaf));
+        if (through_corner)
+            return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, 0, 0};
+        if (seen->feature != 0)
             return plain;
         const Vector out = turned_back(
             turn_frame, turned(turn_probe, {static_cast<double>(m_probe.outward.x), static_cast<double>(m_probe.outward.y)}));
@@ -161,7 +168,6 @@ private:
         if (leaf.sides == Sides::Both ? towards <= 0.1 * size(out) : plain.has_value())
             return plain;
         // Through to the other side.
-        const auto thickness = static_cast<double>(leaf.r0);
         return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, -seen->curvature, 0};
     }
 
