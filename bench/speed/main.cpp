@@ -1,6 +1,7 @@
 // carom-bench: the ten scenes of Box2D's benchmark program, timed on Carom and on the engines installed beside it, with the quality of
 // the same run.
 
+#include "speed/flight_cost.h"
 #include "speed/report.h"
 #include "speed/scaling.h"
 
@@ -30,6 +31,7 @@ struct Options
     bool json = false;
     bool list = false;
     bool verify = false;
+    bool flight = false;
     int scaling = 0; ///< most bodies; 0: not asked for
 };
 
@@ -210,6 +212,29 @@ int show_scaling(const Options& options)
     return 0;
 }
 
+int show_flight_costs(const Options& options)
+{
+    std::printf("Impacts at their own time, medians\n%-34s %12s %12s %8s %8s %8s %8s\n", "", "ms without", "ms with", "extra %",
+                "fliers", "impacts", "others");
+    try
+    {
+        speed::flight_costs(options.run,
+                            [](const speed::FlightCost& c)
+                            {
+                                clear_progress();
+                                std::printf("%-34s %12.3f %12.3f %8.1f %8d %8d %8d\n", c.what.c_str(), c.without_ms, c.with_ms,
+                                            c.extra_percent(), c.fliers, c.impacts, c.others);
+                                std::fflush(stdout);
+                            });
+    }
+    catch (const speed::Interrupted&)
+    {
+        std::cerr << "\nstopped; what was finished stands above\n";
+        return 130;
+    }
+    return 0;
+}
+
 int list_all()
 {
     std::cout << "Engines\n";
@@ -244,6 +269,8 @@ void add_options(CLI::App& app, Options& o)
     app.add_option("--scaling", o.scaling,
                    "no scenes: how cost grows from 1,000 to so many bodies, and to as many that never move")
         ->check(CLI::Range(1000, 10000000));
+    app.add_flag("--flight", o.flight,
+                 "no scenes: what impacts at their own time cost a pile at rest, with a fast ball, and one that tumbles");
     app.add_flag("--list", o.list, "engines and scenes");
 }
 
@@ -261,6 +288,7 @@ int main(int argc, char** argv)
     {
         return options.list          ? list_all()
                : options.scaling > 0 ? show_scaling(options)
+               : options.flight      ? show_flight_costs(options)
                : options.verify      ? verify(options)
                                      : benchmark(options);
     }
