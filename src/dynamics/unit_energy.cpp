@@ -11,7 +11,7 @@ namespace {
 
 constexpr double rounding = 2e-6; // of the energy, in the slices of a sub-step together
 // What contacts may push out against the forces in a sub-step, as parts of the slop: for a body that moves it is noise, one at rest may not creep.
-// What overlaps by more than some slops was put there, and is to come out.
+// What overlaps by more than `deep` slops, a fifth of the length scale, was put there and is to come out.
 constexpr double moving_push_out = 0.05;
 constexpr double resting_push_out = 0.004;
 constexpr float deep = 40;
