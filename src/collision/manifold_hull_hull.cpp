@@ -162,6 +162,19 @@ float least_separation(const LocalManifold& m)
     return least;
 }
 
+// Does the lowest point of the other face the edge between its ends? Then nothing is nearer: no axis tells of more room than there is, and here all
+// of it is.
+bool faces_edge(const Hull& reference, const Hull& incident, const Axis& axis)
+{
+    const int next = reference.next(axis.edge);
+    const Vec2 n = reference.normal(axis.edge);
+    const Vec2 start = reference.point(axis.edge) + reference.radius(axis.edge) * n;
+    const Vec2 edge = reference.point(next) + reference.radius(next) * n - start;
+    const float along = dot(edge, incident.point(axis.support) - start);
+    const bool even = reference.radius(axis.edge) == reference.radius(next);
+    return (even || axis.separation > 0) && along > 0 && along < dot(edge, edge);
+}
+
 // The general case; no chain neighbours.
 void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out)
 {
@@ -180,6 +193,11 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     const bool slender = a.count() == 2 || b.count() == 2;
     const float core_gap = axis.separation + std::max(reference.radius(axis.edge), reference.radius(reference.next(axis.edge))) +
                            incident.radius(axis.support);
+    if (core_gap > 1e-6f && faces_edge(reference, incident, axis))
+    {
+        clip_to_edge({reference, incident, flipped}, axis.edge, margin, out);
+        return;
+    }
     Nearest nearest;
     const bool apart = (slender || core_gap > 1e-6f) && !cores_cross(a, b) && offer_corners(a, b, false, nearest) &&
                        offer_corners(b, a, true, nearest);
