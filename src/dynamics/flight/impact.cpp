@@ -33,13 +33,26 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
 {
     gather();
     note_before();
-    reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); });
+    const bool is_jammed = !reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); });
     note_stopped_joints();
     for (std::size_t i = 0; i < m_members.size(); ++i)
         write_back(i, changed);
     for (std::size_t i = 0; i < m_rows.size(); ++i)
         tell(i);
     hold_what_presses(changed);
+    if (is_jammed)
+        stop_until_next();
+}
+
+// What is jammed would strike and strike again at the same moment.
+void ImpactSet::stop_until_next()
+{
+    for (Member& m : m_members)
+    {
+        if (m.flier != nullptr)
+            m.flier->impacts = impact_limit;
+    }
+    m_span.output.capped = true;
 }
 
 void ImpactSet::note_before()

@@ -299,6 +299,20 @@ void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
     give(bodies, rows, demands);
 }
 
+// A long row of balls only takes its time; what is jammed approaches as it did.
+bool are_jammed(const Bodies& bodies, const std::vector<ImpactRow>& rows)
+{
+    double first = 0;
+    double left = 0;
+    for (const ImpactRow& row : rows)
+    {
+        first = std::max(first, row.approach);
+        if (row.kind != ImpactRow::Kind::Hold)
+            left = std::max(left, -gap_rate(bodies, row));
+    }
+    return left > 0.5 * first;
+}
+
 } // namespace
 
 double gap_rate(const Bodies& bodies, const ImpactRow& row) { return rate_along(bodies, row, normal_of(row)); }
@@ -307,7 +321,7 @@ double slip_rate(const Bodies& bodies, const ImpactRow& row)
     return rate_along(bodies, row, tangent_of(row)) - row.surface_speed;
 }
 
-void reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law)
+bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law)
 {
     const BounceLaw still = [](int, double) { return Bounce{}; };
     stop_holds(bodies, rows);
@@ -317,11 +331,14 @@ void reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
     // A ball between two that close in bounces for ever: what is left is taken without bounce.
     while (round < 2 * round_limit && reflect_once(bodies, rows, least, still))
         ++round;
+    if (round == 2 * round_limit && are_jammed(bodies, rows))
+        return false;
     rub(bodies, rows);
     // Friction on an arm may press another point in.
     for (round = 0; round < round_limit && reflect_once(bodies, rows, least, still); ++round)
     {
     }
+    return true;
 }
 
 void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vector<Pressing>& pressing)

@@ -62,6 +62,7 @@ private:
     void add_limit(int index, double turn);
 
     // What they do, and back into the bodies: impact.cpp
+    void stop_until_next();
     void note_before();
     Bounce law(int index, double u);
     [[nodiscard]] bool is_crowded(const ImpactRow& row) const;

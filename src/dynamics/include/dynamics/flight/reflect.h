@@ -68,8 +68,9 @@ struct Bounce
 /// Asked for each row when it approaches, with its speed.
 using BounceLaw = std::function<Bounce(int row, double approach)>;
 
-/// Changes the velocities of the bodies and fills in the rows. Approaches slower than `least` count as none.
-void reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law);
+/// Changes the velocities of the bodies and fills in the rows. Approaches slower than `least` count as none. False where they are jammed: between
+/// what closes in on them there is no way to go.
+[[nodiscard]] bool reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law);
 
 /// How a row that no longer parts would accelerate without the forces asked for.
 struct Pressing
