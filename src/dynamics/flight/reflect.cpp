@@ -206,8 +206,15 @@ void give(Bodies& bodies, std::vector<ImpactRow>& rows, const std::vector<Demand
     half_the_work();
 }
 
+enum class Asked : std::uint8_t
+{
+    Approaching, ///< reflections: those, and nothing else
+    All          ///< none may be made to approach either
+};
+
 // A round of reflections; false where nothing approaches.
-bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law)
+bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law,
+                  Asked asked = Asked::Approaching)
 {
     std::vector<Demand> demands;
     bool approaching = false;
@@ -224,6 +231,8 @@ bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, co
         { // what leans on a limit does not get past it: it is as hard as the world
             if (row.kind == ImpactRow::Kind::Limit && u > -least)
                 demands.push_back({static_cast<int>(i)});
+            else if (asked == Asked::All)
+                demands.push_back({static_cast<int>(i), u});
             continue;
         }
         approaching = true;
@@ -282,6 +291,7 @@ void rub_pressed(Bodies& accelerations, const std::vector<ImpactRow>& rows, Pres
 }
 
 constexpr int round_limit = 64;
+constexpr int one_by_one = 8; // rounds in which only what approaches is asked: more, and they pass it to and fro
 
 // Joints that the solver pulls together close at some rate; kept through an impact, it would do work.
 void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
@@ -299,18 +309,15 @@ void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
     give(bodies, rows, demands);
 }
 
-// A long row of balls only takes its time; what is jammed approaches as it did.
-bool are_jammed(const Bodies& bodies, const std::vector<ImpactRow>& rows)
+double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& rows)
 {
-    double first = 0;
-    double left = 0;
+    double greatest = 0;
     for (const ImpactRow& row : rows)
     {
-        first = std::max(first, row.approach);
         if (row.kind != ImpactRow::Kind::Hold)
-            left = std::max(left, -gap_rate(bodies, row));
+            greatest = std::max(greatest, -gap_rate(bodies, row));
     }
-    return left > 0.5 * first;
+    return greatest;
 }
 
 } // namespace
@@ -329,14 +336,21 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
     while (round < round_limit && reflect_once(bodies, rows, least, law))
         ++round;
     // A ball between two that close in bounces for ever: what is left is taken without bounce.
-    while (round < 2 * round_limit && reflect_once(bodies, rows, least, still))
-        ++round;
-    if (round == 2 * round_limit && are_jammed(bodies, rows))
+    // A long row only takes its time; what is jammed gets nowhere.
+    double half_way = 0;
+    while (round < 2 * round_limit && reflect_once(bodies, rows, least, still, Asked::All))
+    {
+        if (++round == round_limit + round_limit / 2)
+            half_way = greatest_approach(bodies, rows);
+    }
+    if (round == 2 * round_limit && greatest_approach(bodies, rows) > 0.99 * half_way)
         return false;
     rub(bodies, rows);
     // Friction on an arm may press another point in.
-    for (round = 0; round < round_limit && reflect_once(bodies, rows, least, still); ++round)
+    for (round = 0; round < round_limit; ++round)
     {
+        if (!reflect_once(bodies, rows, least, still, round < one_by_one ? Asked::Approaching : Asked::All))
+            break;
     }
     return true;
 }
