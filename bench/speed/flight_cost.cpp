@@ -1,6 +1,6 @@
 #include "speed/flight_cost.h"
 
-#include "scenes/build.h"
+#include "speed/pile.h"
 #include "speed/task_pool.h"
 
 #include <algorithm>
@@ -18,27 +18,12 @@ using Build = std::function<void(Scene&)>;
 
 constexpr float dt = 1.0f / 60;
 constexpr int pile_bodies = 5000;
-constexpr int pile_rows = 20;
-constexpr double pitch = 0.51;
 constexpr int drum_bodies = 2000;
 constexpr float drum_radius = 14;
 constexpr int drum_sides = 48;
+constexpr double drum_pitch = 0.51;
 
-void add_piece(Scene& scene, Position at, int i, const ShapeDef& shape)
-{
-    if (i % 3 == 0)
-        scenes::add_dynamic(scene, at, Circle{.radius = 0.25f}, shape);
-    else
-        scenes::add_dynamic(scene, at, box(0.25f, 0.25f), shape);
-}
-
-void build_pile(Scene& scene)
-{
-    const double half_width = 0.5 * pitch * pile_bodies / pile_rows;
-    scenes::add_trough(scene, static_cast<float>(half_width), 40);
-    for (int i = 0; i < pile_bodies; ++i)
-        add_piece(scene, {(i / pile_rows + 0.5) * pitch - half_width, 0.25 + pitch * (i % pile_rows)}, i, {});
-}
+void add_pile(Scene& scene) { build_pile(scene, pile_bodies, 40); }
 
 void add_fast_ball(Scene& scene)
 {
@@ -58,7 +43,7 @@ void build_drum(Scene& scene)
     scene.create_shape(drum, wall, {.restitution = 0.5f});
     constexpr int columns = 40;
     for (int i = 0; i < drum_bodies; ++i)
-        add_piece(scene, {(i % columns - 0.5 * columns) * pitch, (i / columns - 0.25 * columns) * 0.8 * pitch}, i,
+        add_piece(scene, {(i % columns - 0.5 * columns) * drum_pitch, (i / columns - 0.25 * columns) * 0.8 * drum_pitch}, i,
                   {.restitution = 0.5f});
 }
 
@@ -110,8 +95,8 @@ void flight_costs(const RunOptions& options, const std::function<void(const Flig
             build(s.scene);
         return s;
     };
-    tell(compare("a pile at rest, off and on", side(false, {build_pile}), side(true, {build_pile}), 400, 300, options));
-    tell(compare("the pile, and a ball at 100 m/s", side(true, {build_pile}), side(true, {build_pile, add_fast_ball}), 400, 300,
+    tell(compare("a pile at rest, off and on", side(false, {add_pile}), side(true, {add_pile}), 400, 300, options));
+    tell(compare("the pile, and a ball at 100 m/s", side(true, {add_pile}), side(true, {add_pile, add_fast_ball}), 400, 300,
                  options));
     tell(compare("tumbling at e 0.5, off and on", side(false, {build_drum}), side(true, {build_drum}), 300, 300, options));
 }

@@ -150,24 +150,16 @@ int verify(const Options& options)
 {
     const speed::Contender carom = chosen_engine("carom", 1);
     bool good = true;
-    try
+    for (const SceneEntry* scene : chosen_scenes(options.scene))
     {
-        for (const SceneEntry* scene : chosen_scenes(options.scene))
-        {
-            std::uint64_t last = 0;
-            const std::string difference = compare_threads(*scene, carom, options.run, last);
-            good = good && difference.empty();
-            clear_progress();
-            const std::string verdict = difference.empty() ? "the same with 1, 2, 3 and 8 threads" : "NO: " + difference;
-            std::printf("%-14s %016llx  %s\n", std::string(scene->name).c_str(), static_cast<unsigned long long>(last),
-                        verdict.c_str());
-            std::fflush(stdout);
-        }
-    }
-    catch (const speed::Interrupted&)
-    {
-        std::cerr << "\nstopped; what was finished stands above\n";
-        return 130;
+        std::uint64_t last = 0;
+        const std::string difference = compare_threads(*scene, carom, options.run, last);
+        good = good && difference.empty();
+        clear_progress();
+        const std::string verdict = difference.empty() ? "the same with 1, 2, 3 and 8 threads" : "NO: " + difference;
+        std::printf("%-14s %016llx  %s\n", std::string(scene->name).c_str(), static_cast<unsigned long long>(last),
+                    verdict.c_str());
+        std::fflush(stdout);
     }
     return good ? 0 : 1;
 }
@@ -181,33 +173,24 @@ int show_scaling(const Options& options)
         std::printf(format, values...);
         std::fflush(stdout);
     };
-    try
+    say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", options.run.threads, "bodies", "pairs", "steps", "ms/step",
+        "ns/body", "B/body");
+    for (int n = 1000; n <= options.scaling; n *= 10)
     {
-        say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", options.run.threads, "bodies", "pairs", "steps",
-            "ms/step", "ns/body", "B/body");
-        for (int n = 1000; n <= options.scaling; n *= 10)
-        {
-            const speed::PileCost c = speed::pile_cost(n, options.run);
-            say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body,
-                c.bytes_per_body);
-        }
-        say("\nBoxes that never move\n%10s %10s %12s %12s\n", "boxes", "built, s", "us/step", "us/move");
-        for (int n = 1000; n <= options.scaling; n *= 10)
-        {
-            const speed::StaticCost c = speed::static_cost(n, options.run);
-            say("%10d %10.2f %12.2f %12.2f\n", c.shapes, c.build_s, c.us_per_step, c.us_per_move);
-        }
-        say("\nSmall scenes of their own\n%10s %10s %14s  %s\n", "scenes", "threads", "us/scene step", "hash of all");
-        for (const int threads : {1, 2, 4})
-        {
-            const speed::SmallScenesCost c = speed::small_scenes_cost(std::min(10000, options.scaling), threads, options.run);
-            say("%10d %10d %14.2f  %016llx\n", c.scenes, c.threads, c.us_per_step, static_cast<unsigned long long>(c.hash));
-        }
+        const speed::PileCost c = speed::pile_cost(n, options.run);
+        say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body, c.bytes_per_body);
     }
-    catch (const speed::Interrupted&)
+    say("\nBoxes that never move\n%10s %10s %12s %12s\n", "boxes", "built, s", "us/step", "us/move");
+    for (int n = 1000; n <= options.scaling; n *= 10)
     {
-        std::cerr << "\nstopped; what was finished stands above\n";
-        return 130;
+        const speed::StaticCost c = speed::static_cost(n, options.run);
+        say("%10d %10.2f %12.2f %12.2f\n", c.shapes, c.build_s, c.us_per_step, c.us_per_move);
+    }
+    say("\nSmall scenes of their own\n%10s %10s %14s  %s\n", "scenes", "threads", "us/scene step", "hash of all");
+    for (const int threads : {1, 2, 4})
+    {
+        const speed::SmallScenesCost c = speed::small_scenes_cost(std::min(10000, options.scaling), threads, options.run);
+        say("%10d %10d %14.2f  %016llx\n", c.scenes, c.threads, c.us_per_step, static_cast<unsigned long long>(c.hash));
     }
     return 0;
 }
@@ -216,22 +199,14 @@ int show_flight_costs(const Options& options)
 {
     std::printf("Impacts at their own time, medians\n%-34s %12s %12s %8s %8s %8s %8s\n", "", "ms without", "ms with", "extra %",
                 "fliers", "impacts", "others");
-    try
-    {
-        speed::flight_costs(options.run,
-                            [](const speed::FlightCost& c)
-                            {
-                                clear_progress();
-                                std::printf("%-34s %12.3f %12.3f %8.1f %8d %8d %8d\n", c.what.c_str(), c.without_ms, c.with_ms,
-                                            c.extra_percent(), c.fliers, c.impacts, c.others);
-                                std::fflush(stdout);
-                            });
-    }
-    catch (const speed::Interrupted&)
-    {
-        std::cerr << "\nstopped; what was finished stands above\n";
-        return 130;
-    }
+    speed::flight_costs(options.run,
+                        [](const speed::FlightCost& c)
+                        {
+                            clear_progress();
+                            std::printf("%-34s %12.3f %12.3f %8.1f %8d %8d %8d\n", c.what.c_str(), c.without_ms, c.with_ms,
+                                        c.extra_percent(), c.fliers, c.impacts, c.others);
+                            std::fflush(stdout);
+                        });
     return 0;
 }
 
@@ -291,6 +266,11 @@ int main(int argc, char** argv)
                : options.flight      ? show_flight_costs(options)
                : options.verify      ? verify(options)
                                      : benchmark(options);
+    }
+    catch (const speed::Interrupted&)
+    {
+        std::cerr << "\nstopped; what was finished stands above\n";
+        return 130;
     }
     catch (const std::exception& error)
     {

@@ -2,6 +2,7 @@
 
 #include "scenes/build.h"
 #include "speed/memory.h"
+#include "speed/pile.h"
 #include "speed/task_pool.h"
 
 #include <algorithm>
@@ -18,8 +19,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr float dt = 1.0f / 60;
-constexpr int rows = 20;
-constexpr float pitch = 0.51f; // of bodies of half a metre
 constexpr float bar_length = 4;
 constexpr int columns_per_bar = 25;
 constexpr int settling_steps = 90;
@@ -33,18 +32,11 @@ class Pile
 public:
     Pile(int bodies, const TaskHooks& tasks) : m_scene({.gravity = {0, -10}, .sleeping = false, .tasks = tasks})
     {
-        const int columns = (bodies + rows - 1) / rows;
-        const float half_width = 0.5f * pitch * static_cast<float>(columns);
-        scenes::add_trough(m_scene, half_width, 2 * pitch * rows);
-        for (int i = 0; i < bodies; ++i)
-        {
-            const auto column = static_cast<float>(i / rows) + 0.5f;
-            const Position at{column * pitch - half_width, 0.25f + pitch * static_cast<float>(i % rows)};
-            i % 3 == 0 ? scenes::add_dynamic(m_scene, at, Circle{.radius = 0.25f})
-                       : scenes::add_dynamic(m_scene, at, box(0.25f, 0.25f));
-        }
+        build_pile(m_scene, bodies, 2 * pile_pitch * pile_rows);
+        const int columns = (bodies + pile_rows - 1) / pile_rows;
+        const float half_width = pile_half_width(bodies);
         for (int c = columns_per_bar / 2; c < columns; c += columns_per_bar)
-            add_bar(static_cast<float>(c) * pitch - half_width, pitch * rows + 0.5f);
+            add_bar(static_cast<float>(c) * pile_pitch - half_width, pile_pitch * pile_rows + 0.5f);
     }
 
     [[nodiscard]] Scene& scene() { return m_scene; }

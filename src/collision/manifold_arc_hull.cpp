@@ -21,8 +21,6 @@ struct Corner
     float separation = 3e38f;
 };
 
-constexpr float narrow =
-    0.94f; // cosine of the angle between two corners as the center sees them: up to there one normal serves both
 constexpr float uneven = 0.02f; // of their chord
 
 // One normal for both corners, across their chord while they are equally deep; as one gets deeper it becomes that corner's. In a hollow that is hardly
@@ -36,7 +34,7 @@ Vec2 hollow_normal(const Leaf& arc, const Hull& hull, Corner (&corners)[2])
     const float deeper = (corners[1].separation - corners[0].separation) / (uneven * length(second - first));
     if (deeper < 1)
         return -normalize(first + (1 - deeper) * second);
-    if (dot(first, second) < narrow * length(first) * length(second))
+    if (dot(first, second) < one_normal * length(first) * length(second))
         corners[1].index = -1;
     return -normalize(first);
 }

@@ -157,9 +157,10 @@ private:
             return plain;
         // Out through a corner that both pieces close in on: behind either, and beyond the ends of both.
         const auto thickness = static_cast<double>(leaf.r0);
-        const bool through_corner = seen->feature == 1 && !plain && !start_may_answer(leaf, start_tangent(leaf));
-        if (through_corner)
-            return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, 0, 0};
+        const auto from_behind = [&](double curvature)
+        { return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, curvature, 0}; };
+        if (seen->feature == 1 && !plain && !start_may_answer(leaf, start_tangent(leaf)))
+            return from_behind(0);
         if (seen->feature != 0)
             return plain;
         const Vector out = turned_back(
@@ -168,7 +169,7 @@ private:
         if (leaf.sides == Sides::Both ? towards <= 0.1 * size(out) : plain.has_value())
             return plain;
         // Through to the other side.
-        return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, -seen->curvature, 0};
+        return from_behind(-seen->curvature);
     }
 
     // Two sharp corners in one place: the direction between them, or of the nearer edge, means nothing. Gives the leaf's vertex.

@@ -225,18 +225,27 @@ void slow_down(BodySim& sim, float by)
     sim.angular_velocity *= by;
 }
 
+float speed_of(const BodySim& sim) { return std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent); }
+
+// What is slower is quiet.
+float quiet_speed(const StepContext& ctx, const BodyRecord& record)
+{
+    if (record.type == BodyType::Kinematic)
+        return 0;
+    const float limit = ctx.scene.tolerances.sleep_speed;
+    return hangs_on_spring(ctx.state, record) ? 0.02f * limit : limit; // a damped spring creeps the last of its way
+}
+
 // In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
 // may not sleep, because others move or sleeping is off.
-void update_sleep_time(const StepContext& ctx, int body)
+void settle_or_stir(const StepContext& ctx, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    const float speed = std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent);
-    float limit = record.type == BodyType::Kinematic ? 0.0f : ctx.scene.tolerances.sleep_speed;
-    if (hangs_on_spring(ctx.state, record))
-        limit *= 0.02f; // a damped spring creeps the last of its way
-    sim.sleep_time = speed <= limit && record.can_sleep && !record.has_target ? sim.sleep_time + ctx.dt : 0;
-    if (sim.sleep_time >= time_to_sleep && speed < creeping * limit && record.type == BodyType::Dynamic &&
+    const float limit = quiet_speed(ctx, record);
+    const bool is_quiet = speed_of(sim) <= limit && record.can_sleep && !record.has_target;
+    sim.sleep_time = is_quiet ? sim.sleep_time + ctx.dt : 0;
+    if (sim.sleep_time >= time_to_sleep && speed_of(sim) < creeping * limit && record.type == BodyType::Dynamic &&
         bears_in_crowd(ctx, sim))
         slow_down(sim, std::max(1 - ctx.dt / creep_time, 0.0f));
 }
@@ -265,7 +274,7 @@ void put_to_sleep(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), 1024,
-                      [&](std::size_t i) { update_sleep_time(ctx, state.awake_bodies[i]); });
+                      [&](std::size_t i) { settle_or_stir(ctx, state.awake_bodies[i]); });
     if (!ctx.scene.def.sleeping)
         return;
     keep_carried_awake(ctx);

@@ -406,8 +406,14 @@ UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, 
 void UnitEnergy::scale(int index, bool exact)
 {
     const Group& group = m_groups[static_cast<std::size_t>(index)];
-    const double missing = group.is_carried ? group.missing.carried : group.missing.standing;
-    const double first = group.is_carried ? std::fabs(group.first.carried) : group.first.standing;
+    const double missing = group.of(group.missing);
+    const double work = group.of(group.work);
+    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
+    const bool may_stay = !(exact && !group.is_carried) &&
+                          missing >= -rounding / m_slices * std::fabs(group.of(group.first)) - moving_push_out * group.push_out;
+    const bool may_rise = group.may_lose && work < 0 && missing < 0;
+    if (may_stay && !may_rise)
+        return;
     const Drift drift = drift_of(index);
     double inner = 0;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
@@ -415,14 +421,10 @@ void UnitEnergy::scale(int index, bool exact)
         if (body(i).group == index)
             inner += 0.5 * body(i).twice_kinetic(m_view.states[i], frame_of(group, drift, i));
     }
-    const double work = group.is_carried ? group.work.carried : group.work.standing;
     const double share = group.is_deep ? moving_push_out : resting_push_out;
-    if (const double rise = -(inner + missing) - share * group.push_out; group.may_lose && rise > 0 && work < 0)
+    if (const double rise = -(inner + missing) - share * group.push_out; may_rise && rise > 0)
         hold_back(index, std::min(rise / -work, 1.0));
-    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
-    if (!(exact && !group.is_carried) && missing >= -rounding / m_slices * first - moving_push_out * group.push_out)
-        return;
-    if (!(inner > 0))
+    if (may_stay || !(inner > 0))
         return;
     const double by = std::sqrt(std::max(inner + missing, 0.0) / inner);
     const auto change = static_cast<float>(std::min(by, 2.0) - 1);

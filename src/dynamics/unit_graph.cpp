@@ -160,7 +160,7 @@ public:
     // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
     void gather_links()
     {
-        scratch.links.swap(scratch.kept_units.links);
+        scratch.links.swap(scratch.kept_units.links); // those of the last step: to be compared with these
         const TaskHooks& tasks = ctx.scene.def.tasks;
         const std::span<SomeLinks> parts =
             find_in_parts(tasks, state.awake_contacts.size(), contacts_per_task, scratch.links_of_task,

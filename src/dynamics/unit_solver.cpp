@@ -130,9 +130,7 @@ private:
 
     [[nodiscard]] bool has_fliers() const
     {
-        const auto fliers =
-            std::span(m_scratch.fliers)
-                .subspan(static_cast<std::size_t>(m_unit.first_flier), static_cast<std::size_t>(m_unit.flier_count));
+        const std::span<const Flier> fliers = fliers_of(m_scratch, m_unit);
         return std::any_of(fliers.begin(), fliers.end(), [](const Flier& f) { return !f.landed; });
     }
 

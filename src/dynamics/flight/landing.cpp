@@ -16,8 +16,6 @@ namespace {
 constexpr double most_bend = 0.25;
 constexpr double most_bend_in_step = 1;
 
-constexpr float one_normal = 0.94f; // cosine: a manifold has one normal for both of its points
-
 // Between two points of one shape, as a plank in a narrow bowl.
 bool is_wedged(const Flier& f)
 {

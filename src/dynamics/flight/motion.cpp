@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 namespace carom::internal {
 
@@ -19,11 +20,7 @@ FlightSpan::FlightSpan(StepContext& context, const Unit& u, int substep, UnitOut
       h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale))
 {}
 
-std::span<Flier> FlightSpan::fliers() const
-{
-    return std::span(scratch.fliers)
-        .subspan(static_cast<std::size_t>(unit.first_flier), static_cast<std::size_t>(unit.flier_count));
-}
+std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, unit); }
 
 Flier* FlightSpan::flier_at(std::int32_t state_index) const
 {
@@ -277,14 +274,13 @@ void advance(const FlightSpan& span, Flier& f, double time)
     const double t = time - f.time;
     const double angle = f.angle;
     const double w = f.w;
-    const bool is_watched = may_gain(span, f);
-    const Flier before = is_watched ? f : Flier{};
+    const std::optional<Flier> before = may_gain(span, f) ? std::optional(f) : std::nullopt;
     is_led(f, t) ? follow_surface(f, t) : follow_parabola(f, t);
     f.angle += t * (f.w + 0.5 * t * f.alpha);
     f.w += t * f.alpha;
     f.time = time;
-    if (is_watched)
-        take_gain(span, f, before);
+    if (before)
+        take_gain(span, f, *before);
     if (f.joint == none || f.constrained || t == 0)
         return;
     swing(span, f, t, angle, w);

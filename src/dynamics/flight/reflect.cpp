@@ -206,6 +206,14 @@ void give(Bodies& bodies, std::vector<ImpactRow>& rows, const std::vector<Demand
     half_the_work();
 }
 
+// What brings the rates that are demanded.
+void answer(Bodies& bodies, std::vector<ImpactRow>& rows, std::vector<Demand>& demands)
+{
+    Bodies change = at_rest(bodies);
+    satisfy(change, rows, demands);
+    give(bodies, rows, demands);
+}
+
 enum class Asked : std::uint8_t
 {
     Approaching, ///< reflections: those, and nothing else
@@ -247,9 +255,7 @@ bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, co
     }
     if (!approaching)
         return false;
-    Bodies change = at_rest(bodies);
-    satisfy(change, rows, demands);
-    give(bodies, rows, demands);
+    answer(bodies, rows, demands);
     return true;
 }
 
@@ -302,11 +308,8 @@ void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
         if (rows[i].kind == ImpactRow::Kind::Hold)
             demands.push_back({static_cast<int>(i), -gap_rate(bodies, rows[i])});
     }
-    if (demands.empty())
-        return;
-    Bodies change = at_rest(bodies);
-    satisfy(change, rows, demands);
-    give(bodies, rows, demands);
+    if (!demands.empty())
+        answer(bodies, rows, demands);
 }
 
 double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& rows)

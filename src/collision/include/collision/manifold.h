@@ -33,6 +33,9 @@ struct LocalPoint
     std::uint32_t feature = 0;
 };
 
+/// Cosine of the angle between the normals at two points up to which one normal serves both.
+inline constexpr float one_normal = 0.94f;
+
 struct LocalManifold
 {
     Vec2 normal{}; ///< from a to b, in a's frame

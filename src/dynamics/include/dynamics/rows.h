@@ -114,11 +114,11 @@ struct Hold
     std::uint32_t other_corners = 0;
 };
 
+inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
+
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
 /// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
 /// the step, in double.
-inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
-
 struct Flier
 {
     std::int32_t state = none;

@@ -230,7 +230,6 @@ struct Reach
     double radius = 1e300;
 };
 
-/// Per unit, so that units may run side by side; merged in the order of the units.
 /// Energy of the rate at which a joint was being closed, lost when an impact stopped it.
 struct StoppedJoint
 {
@@ -238,6 +237,7 @@ struct StoppedJoint
     double energy;
 };
 
+/// Per unit, so that units may run side by side; merged in the order of the units.
 struct UnitOutput
 {
     std::vector<RawImpact> impacts;
@@ -342,6 +342,13 @@ struct Scratch
     std::vector<ContactPlace> sorted_contacts;
     std::vector<std::int32_t> moved_to; ///< by contact slot
 };
+
+/// Those of a unit, in flight or landed.
+[[nodiscard]] inline std::span<Flier> fliers_of(Scratch& scratch, const Unit& unit)
+{
+    return std::span(scratch.fliers)
+        .subspan(static_cast<std::size_t>(unit.first_flier), static_cast<std::size_t>(unit.flier_count));
+}
 
 struct StepContext
 {

@@ -101,6 +101,8 @@ private:
         bool is_carried = false;  ///< by the carrier
         bool is_passive = true;   ///< nothing may do work on it but forces and springs
         bool may_lose = false;    ///< contacts, limits, dampers
+
+        [[nodiscard]] double of(const Energy& energy) const { return is_carried ? energy.carried : energy.standing; }
     };
 
     [[nodiscard]] bool is_ours(std::int32_t state) const { return state >= m_first && state < m_first + m_count; }
