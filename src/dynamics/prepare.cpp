@@ -163,6 +163,25 @@ void scale_row(ContactRow& row, float by)
     }
 }
 
+std::int32_t state_for_rows(const StepContext& ctx, const Unit& unit, int body)
+{
+    const BodyRecord& record = ctx.state.bodies[body];
+    if (record.awake_index == none)
+        return unit.first_state;
+    const std::int32_t end = unit.first_state + unit.state_count;
+    if (record.type == BodyType::Dynamic)
+    {
+        const std::int32_t s = ctx.scratch.state_of[static_cast<std::size_t>(record.awake_index)];
+        return s >= unit.first_state && s < end ? s : none;
+    }
+    for (std::int32_t s = unit.first_state + 1 + unit.dynamic_count; s < end; ++s)
+    {
+        if (ctx.scratch.state_bodies[static_cast<std::size_t>(s)] == body)
+            return s;
+    }
+    return none;
+}
+
 ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
 {
     const Contact& contact = ctx.state.contacts[index];

@@ -264,14 +264,18 @@ private:
         if (!m_scratch.has_kinematic)
             return;
         for (std::int32_t i = unit.first_flier; i < unit.first_flier + unit.flier_count; ++i)
+            copy_those_near(unit, m_scratch.flier_seeds[as_index(i)].body);
+        for (std::int32_t s = 1; unit.precise && s <= unit.dynamic_count; ++s)
+            copy_those_near(unit, m_scratch.state_bodies[as_index(unit.first_state + s)]);
+    }
+
+    void copy_those_near(const Unit& unit, int body)
+    {
+        for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
         {
-            const int body = m_scratch.flier_seeds[as_index(i)].body;
-            for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
-            {
-                const int other = other_body(m_state.contacts[edge >> 1], body);
-                if (m_state.bodies[other].type == BodyType::Kinematic)
-                    static_cast<void>(state_for(unit, other));
-            }
+            const int other = other_body(m_state.contacts[edge >> 1], body);
+            if (m_state.bodies[other].type == BodyType::Kinematic)
+                static_cast<void>(state_for(unit, other));
         }
     }
 

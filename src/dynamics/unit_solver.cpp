@@ -82,6 +82,7 @@ public:
         place_joints(m_view, m_ctx.state, m_joints);
         if (!m_joints.empty())
             direct_solve().look_again();
+        add_rows_beyond_seams();
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
         if (m_ctx.slices > 1)
@@ -89,6 +90,35 @@ public:
     }
 
 private:
+    void add_rows_beyond_seams()
+    {
+        if (!m_unit.precise)
+            return;
+        const SceneState& state = m_ctx.state;
+        for (std::int32_t s = m_unit.first_state + 1; s <= m_unit.first_state + m_unit.dynamic_count; ++s)
+        {
+            if ((m_view.states[s].flags & body_flag::flier) != 0)
+                continue;
+            const int body = m_scratch.state_bodies[static_cast<std::size_t>(s)];
+            for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+                add_row_beyond_seam(edge >> 1, body, s);
+        }
+    }
+
+    void add_row_beyond_seam(int index, int body, std::int32_t own)
+    {
+        const Contact& contact = m_ctx.state.contacts[index];
+        const bool left_out = (contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0;
+        if (contact.manifold.count > 0 || left_out || !may_come_to_face(contact, m_unit))
+            return;
+        const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
+        if (other == none)
+            return;
+        const bool is_a = contact.body_a == body;
+        m_output.late_rows.push_back(prepare_row(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
+        follow_closely(contact, m_unit, m_output.late_rows.back());
+    }
+
     void substep(int k)
     {
         apply_force_laws(m_ctx, m_unit, k, m_output);
@@ -549,12 +579,10 @@ private:
     // Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
     void follow(ContactRow& row)
     {
-        if (row.count == 0)
-            return; // of a body that has taken off
         const BodyState& a = m_view.states[row.a];
         const BodyState& b = m_view.states[row.b];
         const float least = (is_carried(row) ? 0.1f : 1.0f) * follow_turn;
-        if (!has_turned(row.turn_a, a.delta_rotation, least) && !has_turned(row.turn_b, b.delta_rotation, least))
+        if (row.count > 0 && !has_turned(row.turn_a, a.delta_rotation, least) && !has_turned(row.turn_b, b.delta_rotation, least))
             return;
         Manifold fresh = manifold_of(row.contact, row, 0);
         carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);

@@ -57,12 +57,12 @@ private:
     {
         const Contact& contact = m_span.state.contacts[index];
         const int body = other_body(contact, m_flier.body);
-        const std::int32_t other = state_of_other(body);
+        const std::int32_t other = state_for_rows(m_span.ctx, m_span.unit, body);
         if (other == none || m_span.flier_at(other) != nullptr || has_row(index))
             return; // another unit's, or still in flight: the next step links them
         const Manifold manifold = world_manifold(m_span.state, contact, pose_now(contact.body_a, other),
                                                  pose_now(contact.body_b, other), margin + motion_of(m_span.ctx, body));
-        if (manifold.count == 0)
+        if (manifold.count == 0 && !may_come_to_face(contact, m_span.unit))
             return;
         m_span.state.contacts[index].manifold = manifold; // the row's points are these
         m_span.state.contacts[index].flags &= ~contact_flag::kept;
@@ -99,19 +99,10 @@ private:
     {
         for (const ContactRow& row : m_span.output.late_rows)
         {
-            if (row.contact == contact && row.count > 0) // else the body has taken off since
+            if (row.contact == contact && (row.count > 0 || row.followed != 0)) // else the body has taken off since
                 return true;
         }
         return false;
-    }
-
-    [[nodiscard]] std::int32_t state_of_other(int body) const
-    {
-        const int place = m_span.state.bodies[body].awake_index;
-        if (place == none)
-            return m_span.unit.first_state; // stands for all that does not move
-        const std::int32_t s = m_span.scratch.state_of[static_cast<std::size_t>(place)];
-        return s >= m_span.unit.first_state && s < m_span.unit.first_state + m_span.unit.state_count ? s : none;
     }
 
     [[nodiscard]] BodyPose pose_now(int body, std::int32_t other) const

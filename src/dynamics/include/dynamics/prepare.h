@@ -10,6 +10,9 @@ namespace carom::internal {
 [[nodiscard]] StateConstants state_constants(const StepContext& ctx, int body);
 [[nodiscard]] ContactRow prepare_row(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
                                      std::int32_t b);
+/// The state of a body as the unit's rows see it: all that does not move shares the first, kinematic bodies have a copy in every unit. none: it
+/// belongs to another unit.
+[[nodiscard]] std::int32_t state_for_rows(const StepContext& ctx, const Unit& unit, int body);
 /// A body in flight; joint: the hinge to the world that it turns on, or none.
 [[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint);
 
@@ -22,6 +25,13 @@ inline void follow_closely(const Contact& contact, const Unit& unit, ContactRow&
     const bool round = (contact.flags & contact_flag::round) != 0;
     row.refreshed = unit.precise && round;
     row.followed = unit.precise && !round;
+}
+
+/// A piece of a chain or an arc that has no point with a body now may have one before the step is over, as the body slides over a seam: in small
+/// units such contacts have rows without points, that are looked at anew.
+[[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Unit& unit)
+{
+    return unit.precise && (contact.flags & (contact_flag::plain | contact_flag::round)) == 0;
 }
 
 /// All impulses of the last sub-step, for a sub-step of another length.
