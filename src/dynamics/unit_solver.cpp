@@ -597,8 +597,13 @@ private:
 
     void refresh_row(ContactRow& row)
     {
-        if (row.refreshed == 0 || row.count != 1)
+        if (row.refreshed == 0)
             return;
+        if (row.count == 0)
+        {
+            roll_back(row);
+            return;
+        }
         const Facing now = facing(row, 0);
         if (now.manifold.count != 1)
             return;
@@ -616,9 +621,19 @@ private:
         row.contact = now.contact;
     }
 
+    // Onto the piece that it left before.
+    void roll_back(ContactRow& row)
+    {
+        const Manifold now = manifold_of(row.contact, row, 0);
+        if (now.count != 1)
+            return;
+        row.points[0].normal_impulse = row.points[0].tangent_impulse = 0;
+        set_row_geometry(m_scratch, row, now);
+    }
+
     [[nodiscard]] bool has_row(int contact)
     {
-        const auto is_it = [&](const ContactRow& row) { return row.contact == contact; };
+        const auto is_it = [&](const ContactRow& row) { return row.contact == contact && !is_dropped(row); };
         return std::any_of(m_rows.begin(), m_rows.end(), is_it) ||
                std::any_of(m_output.late_rows.begin(), m_output.late_rows.end(), is_it);
     }

@@ -99,7 +99,7 @@ private:
     {
         for (const ContactRow& row : m_span.output.late_rows)
         {
-            if (row.contact == contact && (row.count > 0 || row.followed != 0)) // else the body has taken off since
+            if (row.contact == contact && !is_dropped(row))
                 return true;
         }
         return false;

@@ -359,7 +359,7 @@ void take_off(const FlightSpan& span, Flier& f, double time)
         for (ContactRow& row : rows)
         {
             if (row.a == f.state || row.b == f.state)
-                row.count = row.followed = 0;
+                drop(row);
         }
     };
     drop_rows(std::span(span.scratch.rows)

@@ -90,6 +90,10 @@ struct ContactRow
     RowPoint points[2];
 };
 
+/// Of a body that has taken off; without points alone it may still come to have some.
+inline void drop(ContactRow& row) { row.count = row.refreshed = row.followed = 0; }
+[[nodiscard]] inline bool is_dropped(const ContactRow& row) { return row.count == 0 && row.refreshed == 0 && row.followed == 0; }
+
 /// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
 struct SpringKick
 {
