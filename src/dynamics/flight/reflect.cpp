@@ -289,9 +289,8 @@ void rub_pressed(Bodies& accelerations, const std::vector<ImpactRow>& rows, Pres
     const ImpactRow& row = rows[static_cast<std::size_t>(p.row)];
     const Direction t = tangent_of(row);
     const double k = compliance(accelerations, row, t);
-    const double limit = row.friction * p.force;
     const double along = k > 0 ? p.friction - (p.slip + rate_along(accelerations, row, t)) / k : 0;
-    const double friction = limit > 0 ? std::clamp(along, -limit, limit) : 0;
+    const double friction = p.limit > 0 ? std::clamp(along, -p.limit, p.limit) : 0;
     push_along(accelerations, row, t, friction - p.friction);
     p.friction = friction;
 }
@@ -358,6 +357,9 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
     return true;
 }
 
+// In a wedge steep enough to hold by friction alone force and friction raise each other without end; with limits that stay, they agree.
+constexpr int jammed_from = 20;
+
 void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vector<Pressing>& pressing)
 {
     std::vector<Demand> demands;
@@ -371,8 +373,11 @@ void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vecto
             i += passes.take(demands, i);
         for (std::size_t i = 0; i < pressing.size(); ++i)
         {
-            pressing[i].force = demands[i].impulse;
-            rub_pressed(accelerations, rows, pressing[i]);
+            Pressing& p = pressing[i];
+            p.force = demands[i].impulse;
+            if (pass < jammed_from)
+                p.limit = rows[static_cast<std::size_t>(p.row)].friction * p.force;
+            rub_pressed(accelerations, rows, p);
         }
         if (passes.worst <= 1e-10)
             return;
