@@ -88,7 +88,9 @@ Bounce ImpactSet::law(int index, double u)
         if (!s.kicked)
             bounce.kick = kick(s, speed);
     }
-    const double rest = std::max(-0.5 * s.touch.acceleration * m_span.h, 0.0) + m_span.least_approach;
+    // What is held elsewhere may press here.
+    const double pressing = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_held, row), 0.0});
+    const double rest = 0.5 * pressing * m_span.h + m_span.least_approach;
     if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
     {
         bounce.restitution = 0;

@@ -47,6 +47,7 @@ int ImpactSet::member_of(int body)
     Member m;
     m.body = body;
     ImpactBody b;
+    ImpactBody held;
     std::vector<Hold> released;
     if (body != none)
     {
@@ -57,7 +58,9 @@ int ImpactSet::member_of(int body)
             if (!is_capped(*m.flier))
                 advance(m_span, *m.flier, m_time);
             released.assign(m.flier->held, m.flier->held + m.flier->held_count);
+            held = {.vx = m.flier->ax, .vy = m.flier->ay, .w = m.flier->alpha};
             release_holds(m_span, *m.flier, m_time);
+            held = {.vx = held.vx - m.flier->ax, .vy = held.vy - m.flier->ay, .w = held.w - m.flier->alpha};
             m.changed = !released.empty();
         }
         m.path = path_from(m_span, body, m_time, m_origin);
@@ -68,6 +71,7 @@ int ImpactSet::member_of(int body)
     }
     m_members.push_back(m);
     m_bodies.push_back(b);
+    m_held.push_back(held);
     const int index = static_cast<int>(m_members.size()) - 1;
     // What was held takes part: it is held anew, or let go on both sides.
     for (const Hold& h : released)

@@ -101,7 +101,8 @@ private:
     std::vector<Hold> m_released{};
     std::vector<Member> m_members{}; ///< beside m_bodies
     std::vector<ImpactBody> m_bodies{};
-    std::vector<Source> m_sources{}; ///< beside m_rows
+    std::vector<ImpactBody> m_held{}; ///< what held them up to now, as accelerations
+    std::vector<Source> m_sources{};  ///< beside m_rows
     std::vector<ImpactRow> m_rows{};
 };
 
