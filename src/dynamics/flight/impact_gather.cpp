@@ -22,8 +22,22 @@ void ImpactSet::gather()
     const int first = member_of(m_first.body);
     if (m_first.event_shape != none)
         add_touches(first, m_first.event_own, m_first.event_shape, contact_between(m_first.event_own, m_first.event_shape));
+    std::size_t released = 0;
     for (std::size_t i = 0; i < m_members.size(); ++i)
+    {
         expand(static_cast<int>(i));
+        for (; released < m_released.size(); ++released)
+            look_again(m_released[released]);
+    }
+}
+
+// Thrown off its way a body may be held by what it has no contact with.
+void ImpactSet::look_again(Hold h)
+{
+    const auto is_it = [&](const Source& s)
+    { return (s.own == h.own && s.other == h.other) || (s.own == h.other && s.other == h.own); };
+    if (!has_contact(m_state, h.own, h.other) && std::none_of(m_sources.begin(), m_sources.end(), is_it))
+        add_touches(member_of(m_state.shapes[h.own].body), h.own, h.other, none);
 }
 
 std::int32_t ImpactSet::contact_between(std::int32_t own, std::int32_t other) const

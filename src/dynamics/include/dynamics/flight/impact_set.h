@@ -49,6 +49,7 @@ private:
     void gather();
     [[nodiscard]] std::int32_t contact_between(std::int32_t own, std::int32_t other) const;
     int member_of(int body);
+    void look_again(Hold h);
     void set_masses(const Member& m, ImpactBody& b) const;
     void expand(int index);
     void add_joints(int body);
