@@ -118,6 +118,51 @@ void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier)
     output.deflected.insert(place, flier);
 }
 
+namespace {
+
+// Rows of the unit with a load, and of it the state on the other side.
+template <class Visit>
+void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
+{
+    const auto look = [&](std::span<const ContactRow> rows)
+    {
+        for (const ContactRow& row : rows)
+        {
+            const bool is_loaded =
+                row.count > 0 && (row.points[0].normal_impulse > 0 || (row.count == 2 && row.points[1].normal_impulse > 0));
+            if (is_loaded && (row.a == state || row.b == state))
+                visit(row.a == state ? row.b : row.a);
+        }
+    };
+    look(std::span(span.scratch.rows)
+             .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
+    look(span.output.late_rows);
+}
+
+// With a bat that presses it: without the ball in its way the solver would swing it through.
+void take_off_with_bats(const FlightSpan& span, Flier& f)
+{
+    std::vector<Flier*> bats;
+    for_each_pressed_by(span, f.state,
+                        [&](std::int32_t other)
+                        {
+                            const std::int32_t i = span.scratch.flier_of_state[static_cast<std::size_t>(other)];
+                            if (i == none)
+                                return;
+                            Flier& bat = span.scratch.fliers[static_cast<std::size_t>(i)];
+                            if (bat.landed && bat.joint != none)
+                                bats.push_back(&bat);
+                        });
+    take_off(span, f, span.h); // where the sub-step before has left it
+    for (Flier* bat : bats)
+    {
+        if (bat->landed)
+            take_off(span, *bat, span.h);
+    }
+}
+
+} // namespace
+
 void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
 {
     if (unit.flier_count == 0)
@@ -129,7 +174,7 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
         const bool was_struck = unit.precise || f.crowded || f.deflected;
         if (f.landed && was_struck &&
             (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
-            take_off(span, f, span.h); // where the sub-step before has left it
+            take_off_with_bats(span, f);
     }
 }
 
