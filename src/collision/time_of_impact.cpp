@@ -325,16 +325,24 @@ double next_step(const Sight& sight)
     return std::max(plain, sight.hollow_radius > 0 ? std::min(step, 0.5 * sight.hollow_radius / sight.speed) : step);
 }
 
-constexpr int max_looks = 8192; // a pebble that turns with 50,000 rad/s takes hundreds; others need 3 to 10
-constexpr double touch = 1e-7;  // of the size: a nanometre on a pinball
-constexpr double nearly_touch = 1e-3;
+constexpr int max_looks = 8192;     // a pebble that turns with 50,000 rad/s takes hundreds; others need 3 to 10
+constexpr double touch = 1e-7;      // of the size: a nanometre on a pinball
 constexpr double blind_step = 1e-3; // of the size, along a surface that does not answer
 
 Touch touch_of(const Sight& sight, double t, bool probe_on_a)
 {
     const double sign = probe_on_a ? -1 : 1; // n runs from the surface to the probe
-    return {t,          sight.point.x,      sight.point.y,   sign * sight.n.x, sign * sight.n.y,
-            sight.rate, sight.acceleration, sight.curvature, sight.feature,    {}};
+    return {t,
+            sight.point.x,
+            sight.point.y,
+            sign * sight.n.x,
+            sign * sight.n.y,
+            sight.distance,
+            sight.rate,
+            sight.acceleration,
+            sight.curvature,
+            sight.feature,
+            {}};
 }
 
 // Touching, it cannot approach faster than least_approach before the bend has had its time; and hardly before the gap's own acceleration,
@@ -347,12 +355,6 @@ double patience_at(const Sight& sight, double least_approach, double duration)
         sight.jerk > 0 ? (sight.push + std::sqrt(sight.push * sight.push + 2 * sight.jerk * slack)) / sight.jerk : 0;
     const double soon = sight.acceleration < 0 ? 0.5 * slack / -sight.acceleration : duration;
     return std::max({slack / sight.bend, kept, std::min(soon, 5e-3 * duration), 1e-6 * duration});
-}
-
-// What presses for so long, and no deeper than that.
-double pressed_speed(double acceleration, double wait, double depth)
-{
-    return acceleration > 0 ? std::min(acceleration * wait, std::sqrt(2 * acceleration * depth)) : 0;
 }
 
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
@@ -368,7 +370,7 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
             continue;
         }
         const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
-        const double least = std::max(least_approach, pressed_speed(-sight.acceleration, wait, nearly_touch * length));
+        const double least = std::max(least_approach, pressed_speed(sight.acceleration, wait, length));
         if (near && sight.rate < -least)
             return touch_of(sight, t, probe_on_a);
         if (near && sight.end_of_arc)
@@ -386,6 +388,11 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
 }
 
 } // namespace
+
+double pressed_speed(double acceleration, double wait, double length)
+{
+    return acceleration < 0 ? std::min(-acceleration * wait, std::sqrt(-2 * acceleration * nearly_touch * length)) : 0;
+}
 
 FramePath path_after(const FramePath& path, double time)
 {

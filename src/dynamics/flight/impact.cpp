@@ -19,7 +19,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int crowd_limit = 8; // impacts of a body in a sub-step
+constexpr int crowd_limit = 8;    // impacts of a body in a sub-step
+constexpr double deep_in = 0.002; // of the size
 
 } // namespace
 
@@ -93,10 +94,19 @@ Bounce ImpactSet::law(int index, double u)
     const double rest = 0.5 * pressing * m_span.h + m_span.least_approach;
     if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
     {
-        bounce.restitution = 0;
         s.rests = true;
+        bounce.restitution = is_small_blow(row, s, u) ? 1 : 0;
     }
     return bounce;
+}
+
+// They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.
+bool ImpactSet::is_small_blow(const ImpactRow& row, const Source& s, double u) const
+{
+    if (!both_give_way(row))
+        return false;
+    const double size = std::min(probe_size(leaf_view(m_state, s.own)), probe_size(leaf_view(m_state, s.other)));
+    return s.touch.distance < -deep_in * size && u < 2 * pressed_speed(s.touch.acceleration, press_time * m_span.h, size);
 }
 
 // Bodies that go on striking each other, as in a heap that collapses, come to rest against each other.

@@ -28,9 +28,6 @@ ProbeSet held_corners(const Flier& f, std::int32_t own, std::int32_t other)
     return held;
 }
 
-// Of two that both give way none holds the other; what presses them together is taken in small blows, so often in a sub-step at the most.
-constexpr double press_time = 1.0 / 4;
-
 class Search
 {
 public:

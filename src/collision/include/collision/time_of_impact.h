@@ -70,12 +70,19 @@ struct Touch
     double y = 0;
     double nx = 0; ///< unit normal from a to b
     double ny = 0;
+    double distance = 0;     ///< the gap; negative: they overlap
     double rate = 0;         ///< of the gap, m/s; negative: they approach
     double acceleration = 0; ///< of the gap while the paths go on, m/s²; negative: they press
     double curvature = 0;    ///< of the surface as seen from the probe, see Surface
     int feature = 0;
     ProbeSet probes{}; ///< the corners that touch: one, or two on each other
 };
+
+/// Of the size: so deep at the most comes what presses before it touches anew.
+inline constexpr double nearly_touch = 1e-3;
+
+/// How fast the gap closes once it has been pressed for `wait` seconds, or as deep as nearly_touch; acceleration of the gap as in Touch.
+[[nodiscard]] double pressed_speed(double acceleration, double wait, double length);
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
 /// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew only when it has pressed

@@ -66,6 +66,7 @@ private:
     void stop_until_next();
     void note_before();
     Bounce law(int index, double u);
+    [[nodiscard]] bool is_small_blow(const ImpactRow& row, const Source& s, double u) const;
     [[nodiscard]] bool is_crowded(const ImpactRow& row) const;
     double kick(Source& s, float speed);
     void note_stopped_joints();
