@@ -32,15 +32,7 @@ bool may_lose(const JointRecord& joint)
     return joint.damping > 0 || joint.impulses[slot_lower] != 0 || joint.impulses[slot_upper] != 0;
 }
 
-bool is_loaded(const ContactRow& row)
-{
-    for (int i = 0; i < row.count; ++i)
-    {
-        if (row.points[i].normal_impulse > 0)
-            return true;
-    }
-    return false;
-}
+bool is_loaded(const ContactRow& row) { return row.count > 0 && (row.pressed != 0 || bears_load(row)); }
 
 double stored(const JointRecord& joint, const JointPose& pose)
 {

@@ -130,6 +130,8 @@ private:
         warm_start_all(k);
         predict_bends();
         solve(true);
+        if (m_watches_energy)
+            note_pressed();
         integrate_positions();
         if (is_direct() && m_output.direct->turns_too_far())
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
@@ -147,6 +149,15 @@ private:
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
         finish_substep(k);
+    }
+
+    void note_pressed()
+    {
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (ContactRow& row : rows)
+                row.pressed = bears_load(row) ? 1 : 0;
+        }
     }
 
     // At the poses that have been reached: takes out the speed that pushed overlaps out.

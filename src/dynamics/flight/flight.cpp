@@ -128,9 +128,7 @@ void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit
     {
         for (const ContactRow& row : rows)
         {
-            const bool is_loaded =
-                row.count > 0 && (row.points[0].normal_impulse > 0 || (row.count == 2 && row.points[1].normal_impulse > 0));
-            if (is_loaded && (row.a == state || row.b == state))
+            if (bears_load(row) && (row.a == state || row.b == state))
                 visit(row.a == state ? row.b : row.a);
         }
     };

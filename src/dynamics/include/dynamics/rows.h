@@ -82,13 +82,18 @@ struct ContactRow
     float core = 0;    ///< half the radius of a ball against what does not give way; 0 elsewhere
     Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
     Rotation turn_b{};
-    std::uint8_t refreshed = 0;   ///< looked at anew in every sub-step
-    std::uint8_t followed = 0;    ///< looked at anew when a body has turned
-    std::uint8_t hit = 0;         ///< its impact was reported
-    std::uint8_t active_from = 0; ///< first sub-step in which it counts
+    std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
+    std::uint8_t followed = 0;  ///< looked at anew when a body has turned
+    std::uint8_t hit = 0;       ///< its impact was reported
+    std::uint8_t pressed = 0;   ///< in this sub-step, before it was relaxed
     Softness softness{};
     RowPoint points[2];
 };
+
+[[nodiscard]] inline bool bears_load(const ContactRow& row)
+{
+    return (row.count > 0 && row.points[0].normal_impulse > 0) || (row.count == 2 && row.points[1].normal_impulse > 0);
+}
 
 /// Of a body that has taken off; without points alone it may still come to have some.
 inline void drop(ContactRow& row) { row.count = row.refreshed = row.followed = 0; }
