@@ -142,8 +142,15 @@ UnitEnergy::Energy UnitEnergy::energy_of(std::int32_t state)
         return energy;
     const Arm arm = arm_of(state);
     const Motion frame = carried_motion(arm);
-    energy.carried = 0.5 * (b.twice_kinetic(s, frame) - square(frame.w) * (b.mass_x * square(arm.x) + b.mass_y * square(arm.y)));
+    energy.carried = 0.5 * b.twice_kinetic(s, frame) - driven_outwards(b, arm);
     return energy;
+}
+
+// What a way from the carrier's center gives.
+double UnitEnergy::driven_outwards(const Body& b, const Arm& arm) const
+{
+    return 0.5 * square(as_double(m_view.states[m_carrier].angular_velocity)) *
+           (b.mass_x * square(arm.x) + b.mass_y * square(arm.y));
 }
 
 // Forces are even over the sub-step: they work along the way that was gone, however it bent.
@@ -238,8 +245,11 @@ void UnitEnergy::add_work()
 {
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
-        body(i).work = work_on(i);
-        body(i).missing += body(i).work;
+        Body& b = body(i);
+        b.work = work_on(i);
+        b.missing += b.work;
+        if (has_carrier())
+            b.work.carried += driven_outwards(b, arm_of(i)) - driven_outwards(b, b.arm);
     }
 }
 

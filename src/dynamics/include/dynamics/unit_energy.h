@@ -64,7 +64,7 @@ private:
         double inertia = 0;
         Energy missing{}; ///< what there was and has been added since, less what there is
         Energy first{};   ///< what there was
-        Energy work{};    ///< that forces have done since
+        Energy work{};    ///< that forces have done since, among them, as the carrier sees it, the one that drives outwards
         Arm center{};     ///< when the step began, seen from the carrier's center then
         Arm arm{};        ///< seen from it at the start of the sub-step
         Vec2 position{};  ///< at the start of the sub-step
@@ -117,6 +117,7 @@ private:
     [[nodiscard]] Motion carried_motion(const Arm& arm) const;
     [[nodiscard]] Energy energy_of(std::int32_t state);
     [[nodiscard]] Energy work_on(std::int32_t state);
+    [[nodiscard]] double driven_outwards(const Body& body, const Arm& arm) const;
     void connect(std::int32_t a, std::int32_t b);
     void join(std::int32_t own, std::int32_t other);
     void note_joint(const JointWork& work);
