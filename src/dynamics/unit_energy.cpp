@@ -205,19 +205,36 @@ void UnitEnergy::after_impacts(std::span<const StoppedJoint> stopped)
     }
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
-        if (!body(i).flew || flies(i))
+        const BodyState& s = m_view.states[i];
+        Body& b = body(i);
+        if (flies(i))
             continue;
-        body(i).position = m_view.states[i].delta_position;
-        body(i).rotation = m_view.states[i].delta_rotation;
-        if (has_carrier())
-            body(i).arm = arm_of(i);
+        if (b.flew)
+        {
+            b.position = s.delta_position;
+            b.rotation = s.delta_rotation;
+            if (has_carrier())
+                b.arm = arm_of(i);
+        }
+        else if ((s.flags & body_flag::unbound) != 0)
+        { // what forces do on the way that an impact has added is in the speeds that it was added to
+            b.position += s.delta_position - b.position_before_impacts;
+            const float turn = (s.delta_rotation * carom::inverse(b.rotation_before_impacts)).angle();
+            b.rotation = Rotation::from_angle(turn) * b.rotation;
+        }
     }
 }
 
 void UnitEnergy::before_impacts()
 {
-    if (!m_all_driven)
-        add_kinetic(-1);
+    if (m_all_driven)
+        return;
+    add_kinetic(-1);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        body(i).position_before_impacts = m_view.states[i].delta_position;
+        body(i).rotation_before_impacts = m_view.states[i].delta_rotation;
+    }
 }
 
 void UnitEnergy::add_kinetic(double sign)

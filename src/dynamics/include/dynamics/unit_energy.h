@@ -69,6 +69,8 @@ private:
         Arm arm{};        ///< seen from it at the start of the sub-step
         Vec2 position{};  ///< at the start of the sub-step
         Rotation rotation{};
+        Vec2 position_before_impacts{};
+        Rotation rotation_before_impacts{};
         int group = 0;     ///< the least body it is connected with
         bool flew = false; ///< at the start of the sub-step
 
