@@ -81,6 +81,15 @@ bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
     return dot(s.delta_position, s.delta_position) > size * size;
 }
 
+// What is stopped at a wall has not gone the rest of its way: forces have done no work on it.
+float without_work(const StepContext& ctx, const BodyState& s, std::int32_t index, double dx, double dy)
+{
+    const Vec2 a = ctx.scratch.constants[static_cast<std::size_t>(index)].acceleration;
+    const double twice_work = 2 * (static_cast<double>(a.x) * dx + static_cast<double>(a.y) * dy);
+    const auto square = static_cast<double>(dot(s.velocity, s.velocity));
+    return twice_work > 0 && square > 0 ? static_cast<float>(std::sqrt(std::max(1 - twice_work / square, 0.0))) : 1;
+}
+
 // Writes to its own body alone.
 void commit_state(const StepContext& ctx, std::int32_t index)
 {
@@ -108,6 +117,7 @@ void commit_state(const StepContext& ctx, std::int32_t index)
     if (crowded || may_have_passed(ctx, s, body))
     {
         const double part = free_part_of_path(ctx, body, x, y);
+        s.velocity *= without_work(ctx, s, index, (1 - part) * x, (1 - part) * y);
         x *= part;
         y *= part;
     }
