@@ -58,6 +58,7 @@ struct Motion
 {
     float speed;
     float mass;
+    bool is_anchored; ///< one of the two does not give way
 
     [[nodiscard]] float soft(float error, float accumulated, const Softness& s) const
     {
@@ -66,10 +67,15 @@ struct Motion
     [[nodiscard]] float rigid(float accumulated, float bias) const { return accumulated - mass * (speed + bias); }
 };
 
+constexpr float way_back = 0.2f; // of what a body is beyond a limit, per sub-step
+
+// A stop that is fixed to the world gives nothing; between two bodies that both give way a row that gives nothing may not be solved one by one.
 float limit_impulse(const FreeRow& row, float accumulated, const Motion& motion, const Softness& s, const Pass& pass)
 {
     if (row.error > 0)
         return std::max(motion.rigid(accumulated, row.error * pass.inverse_h), 0.0f);
+    if (pass.use_bias && motion.is_anchored && !row.is_soft)
+        return std::max(motion.rigid(accumulated, way_back * row.error * pass.inverse_h), 0.0f);
     if (pass.use_bias)
         return std::max(motion.soft(row.error, accumulated, s), 0.0f);
     return row.is_soft ? accumulated : std::max(motion.rigid(accumulated, 0), 0.0f);
@@ -97,7 +103,8 @@ void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointW
     {
         float& accumulated = joint.impulses[row.slot];
         const Softness& softness = row.is_soft ? work.softness : pass.softness;
-        const float updated = free_impulse(row, accumulated, {row.sign * speed, rows.mass}, softness, pass);
+        const float updated =
+            free_impulse(row, accumulated, {row.sign * speed, rows.mass, bodies.are_anchored()}, softness, pass);
         const float change = row.sign * (updated - accumulated);
         accumulated = updated;
         speed += rows.inverse_mass * change;
@@ -118,7 +125,7 @@ float free_impulse(const JointRecord& joint, const JointRows& rows)
 void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
 {
     float& accumulated = joint.impulses[row.slot];
-    const Motion motion{bodies.speed(row), bodies.mass(row)};
+    const Motion motion{bodies.speed(row), bodies.mass(row), bodies.are_anchored()};
     const float updated = pass.use_bias ? motion.soft(row.error, accumulated, pass.softness) : motion.rigid(accumulated, 0);
     bodies.apply(row, updated - accumulated);
     accumulated = updated;
@@ -259,7 +266,9 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
             if (row.kind != FreeKind::Limit || joint.impulses[row.slot] <= 0)
                 continue;
             const float approach = work.approach[row.slot == slot_upper];
-            if (approach <= rest_speed)
+            // What presses ends a bounce so small within half the sub-step.
+            const float pressed = work.rows.inverse_mass * joint.impulses[row.slot] - approach;
+            if (approach <= rest_speed || joint.limit_restitution * approach <= 0.5f * pressed)
                 continue;
             const float wanted = row.sign * joint.limit_restitution * approach;
             bodies.apply(axis, work.rows.mass * (wanted - bodies.speed(axis)));

@@ -20,6 +20,12 @@ struct JointBodies
         : sa(view.states[work.a]), sb(view.states[work.b]), ca(view.constants[work.a]), cb(view.constants[work.b])
     {}
 
+    [[nodiscard]] bool are_anchored() const
+    {
+        const auto stands = [](const StateConstants& c) { return c.inverse_mass == Vec2{} && c.inverse_inertia == 0; };
+        return stands(ca) || stands(cb);
+    }
+
     [[nodiscard]] float speed(const JointRow& r) const
     {
         return dot(r.d, sb.velocity - sa.velocity) + r.arm_b * sb.angular_velocity - r.arm_a * sa.angular_velocity;
