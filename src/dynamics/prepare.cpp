@@ -1,8 +1,10 @@
 #include "dynamics/prepare.h"
 
 #include "core/trigonometry.h"
+#include "dynamics/body_store.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/scene_data.h"
+#include "geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,11 +146,13 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
 
 namespace {
 
-// The radius of the side that gives way, where that is a circle.
-float ball_radius(const SceneState& state, const Contact& contact, bool a_gives)
+// Half of what is inside the side that gives way; boxes that were put deeper into each other come out by themselves.
+float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives)
 {
-    const Leaf& leaf = state.shapes[a_gives ? contact.shape_a : contact.shape_b].leaf;
-    return leaf.type == LeafType::Circle ? leaf.r0 : 0;
+    auto depth = static_cast<float>(0.5 * inner_radius(leaf_view(state, a_gives ? contact.shape_a : contact.shape_b)));
+    for (int i = 0; i < manifold.count && (contact.flags & contact_flag::round) == 0; ++i)
+        depth = std::max(depth, -manifold.points[i].separation);
+    return depth;
 }
 
 } // namespace
@@ -195,8 +199,8 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
     row.surface_speed = contact.surface_speed;
     const bool immovable = ca.inverse_mass == Vec2{} || cb.inverse_mass == Vec2{};
     row.softness = immovable ? ctx.static_softness : ctx.contact_softness;
-    if (immovable && (contact.flags & contact_flag::round) != 0)
-        row.core = 0.5f * ball_radius(ctx.state, contact, ca.inverse_mass != Vec2{});
+    if (immovable)
+        row.core = core_depth(ctx.state, contact, manifold, ca.inverse_mass != Vec2{});
     set_row_geometry(ctx.scratch, row, manifold);
     for (int i = 0; i < row.count; ++i)
     {

@@ -29,6 +29,7 @@ constexpr int turns = 3;
 constexpr int settle_turns = 16;
 constexpr int groups_per_share = 16;
 constexpr int states_per_share = 256;
+constexpr int guard_passes = 8;
 constexpr float follow_turn = 0.03f; // rad
 
 // Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
@@ -422,14 +423,13 @@ private:
             });
     }
 
-    // The last line of defence, for balls that something far heavier presses into what does not give way: no deeper than half the radius.
+    // The last line of defence, for what something far heavier presses into what does not give way: no deeper than half of what is inside it.
     void guard_cores()
     {
-        for (const ContactRow& row : m_rows)
-        {
-            if (row.core > 0 && row.count == 1)
-                guard_core(row);
-        }
+        // Between two walls neither is to push it through the other.
+        float part = 1;
+        for (int pass = 0; pass < guard_passes && guard_rows(part) > 1; ++pass)
+            part = 0.5f;
         for (int i = m_unit.first_core; i < m_unit.first_core + m_unit.core_count; ++i)
             guard_wide_core(m_scratch.cores[static_cast<std::size_t>(i)]);
     }
@@ -458,14 +458,30 @@ private:
         return (s.delta_rotation.c - 1) * along + s.delta_rotation.s * across;
     }
 
-    void guard_core(const ContactRow& row)
+    // Says how many it found too deep.
+    int guard_rows(float part)
     {
-        const float depth = -row_separation(m_view, row, row.points[0]) - row.core;
+        int deep = 0;
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+        {
+            for (const ContactRow& row : rows)
+                deep += row.core > 0 && row.count > 0 && guard_core(row, part) ? 1 : 0;
+        }
+        return deep;
+    }
+
+    bool guard_core(const ContactRow& row, float part)
+    {
+        float separation = row_separation(m_view, row, row.points[0]);
+        if (row.count == 2)
+            separation = std::min(separation, row_separation(m_view, row, row.points[1]));
+        const float depth = -separation - row.core;
         if (depth <= 0)
-            return;
+            return false;
         const bool a_gives = m_view.constants[row.a].inverse_mass != Vec2{};
-        BodyState& ball = m_view.states[a_gives ? row.a : row.b];
-        ball.delta_position += (a_gives ? -depth : depth) * row.n;
+        BodyState& body = m_view.states[a_gives ? row.a : row.b];
+        body.delta_position += part * (a_gives ? -depth : depth) * row.n;
+        return true;
     }
 
     // --- contacts in small units: looked at anew within the step -----------------------------------------------------------------------

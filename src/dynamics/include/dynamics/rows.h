@@ -79,7 +79,7 @@ struct ContactRow
     float rolling = 0;  ///< torque limit over normal impulse, m
     float rolling_impulse = 0;
     float rolling_mass = 0;
-    float core = 0;    ///< half the radius of a ball against what does not give way; 0 elsewhere
+    float core = 0;    ///< half of what is inside a body, against what does not give way; 0 elsewhere
     Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
     Rotation turn_b{};
     std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
