@@ -47,12 +47,32 @@ double UnitEnergy::Body::twice_kinetic(const BodyState& s, const Motion& frame) 
            inertia * square(as_double(s.angular_velocity) - frame.w);
 }
 
-void UnitEnergy::Drift::add(const Body& body, const BodyState& s)
+void UnitEnergy::Drift::add(const Body& body, const BodyState& s, const Arm& at)
 {
     mass_x += body.mass_x;
     mass_y += body.mass_y;
     px += body.mass_x * as_double(s.velocity.x);
     py += body.mass_y * as_double(s.velocity.y);
+    x += body.mass_x * at.x;
+    y += body.mass_x * at.y;
+}
+
+void UnitEnergy::Drift::center()
+{
+    x = mass_x > 0 ? x / mass_x : 0;
+    y = mass_x > 0 ? y / mass_x : 0;
+}
+
+// Bodies with locked axes do not turn about a common center.
+void UnitEnergy::Drift::add_spin(const Body& body, const BodyState& s, const Arm& at)
+{
+    if (mass_x != mass_y)
+        return;
+    const double dx = at.x - x;
+    const double dy = at.y - y;
+    inertia += body.inertia + body.mass_x * (square(dx) + square(dy));
+    spin += body.inertia * as_double(s.angular_velocity) +
+            body.mass_x * (dx * (as_double(s.velocity.y) - vy()) - dy * (as_double(s.velocity.x) - vx()));
 }
 
 void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<const JointWork> joints, const Unit& unit)
@@ -89,14 +109,13 @@ void UnitEnergy::place_body(const StepContext& ctx, std::int32_t state)
          .group = state - m_first,
          .flew = flies(state)};
     group_of(state) = {};
-    if (!has_carrier())
-        return;
     const auto center = [&](std::int32_t i)
     { return m_state->sims[static_cast<std::size_t>(ctx.scratch.state_bodies[static_cast<std::size_t>(i)])].center; };
     const Position own = center(state);
-    const Position carrier = center(m_carrier);
-    b.center = {own.x - carrier.x, own.y - carrier.y};
-    b.arm = arm_of(state);
+    const Position origin = center(has_carrier() ? m_carrier : m_first);
+    b.center = {own.x - origin.x, own.y - origin.y};
+    if (has_carrier())
+        b.arm = arm_of(state);
 }
 
 // --- seen from what is driven -------------------------------------------------------------------------------------------------------
@@ -409,17 +428,35 @@ UnitEnergy::Drift UnitEnergy::drift_of(int index)
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (body(i).group == index)
-            drift.add(body(i), m_view.states[i]);
+            drift.add(body(i), m_view.states[i], place_of(i));
+    }
+    if (!m_joints.empty())
+        return drift; // chains whirl about so fast that the turn of the whole is as wrong as the rest
+    drift.center();
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == index)
+            drift.add_spin(body(i), m_view.states[i], place_of(i));
     }
     return drift;
 }
 
-// What is free moves on with its center of mass; what hangs on the world has no motion of its own, what is carried moves against the carrier.
+UnitEnergy::Arm UnitEnergy::place_of(std::int32_t state)
+{
+    const Arm& center = body(state).center;
+    const Vec2 way = m_view.states[state].delta_position;
+    return {center.x + as_double(way.x), center.y + as_double(way.y)};
+}
+
+// What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves against the carrier.
 UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
 {
     if (group.is_carried)
         return carried_motion(arm_of(state));
-    return group.is_anchored ? Motion{} : Motion{drift.vx(), drift.vy(), 0};
+    if (group.is_anchored)
+        return {};
+    const Arm at = place_of(state);
+    return {drift.vx() - drift.w() * (at.y - drift.y), drift.vy() + drift.w() * (at.x - drift.x), drift.w()};
 }
 
 void UnitEnergy::scale(int index, bool exact)

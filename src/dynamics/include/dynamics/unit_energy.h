@@ -65,7 +65,7 @@ private:
         Energy missing{}; ///< what there was and has been added since, less what there is
         Energy first{};   ///< what there was
         Energy work{};    ///< that forces have done since, among them, as the carrier sees it, the one that drives outwards
-        Arm center{};     ///< when the step began, seen from the carrier's center then
+        Arm center{};     ///< when the step began, seen from the carrier's center then, or from the first body's
         Arm arm{};        ///< seen from it at the start of the sub-step
         Vec2 position{};  ///< at the start of the sub-step
         Rotation rotation{};
@@ -77,17 +77,24 @@ private:
         [[nodiscard]] double twice_kinetic(const BodyState& s, const Motion& frame) const; ///< as seen there
     };
 
-    /// Velocity of the common center of mass, axis by axis: a locked axis has none.
+    /// How bodies move as one: velocity of the common center of mass, axis by axis (a locked axis has none), and the turn about it.
     struct Drift
     {
         double mass_x = 0;
         double mass_y = 0;
         double px = 0;
         double py = 0;
+        double x = 0; ///< center of mass, once all are added
+        double y = 0;
+        double inertia = 0; ///< about it, and angular momentum
+        double spin = 0;
 
-        void add(const Body& body, const BodyState& s);
+        void add(const Body& body, const BodyState& s, const Arm& at);
+        void add_spin(const Body& body, const BodyState& s, const Arm& at);
+        void center();
         [[nodiscard]] double vx() const { return mass_x > 0 ? px / mass_x : 0; }
         [[nodiscard]] double vy() const { return mass_y > 0 ? py / mass_y : 0; }
+        [[nodiscard]] double w() const { return inertia > 0 ? spin / inertia : 0; }
     };
 
     struct Group
@@ -132,6 +139,7 @@ private:
     [[nodiscard]] double force_on(std::int32_t state);
     void add_springs(double sign);
     void scale(int group, bool exact);
+    [[nodiscard]] Arm place_of(std::int32_t state);
     [[nodiscard]] Drift drift_of(int group);
     [[nodiscard]] Motion frame_of(const Group& group, const Drift& drift, std::int32_t state);
     void hold_back(int group, double share);
