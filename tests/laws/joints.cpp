@@ -112,6 +112,27 @@ TEST(LawRevolute, LimitsBounceByTheirRestitution)
     }
 }
 
+// However hard its motor drives a bat against its stop, and however softly it bounces off it.
+TEST(LawRevolute, AStopHoldsUnderATorque)
+{
+    Scene scene(weightless());
+    const BodyId bat = add(scene, {.type = BodyType::Dynamic, .angle = 0.4999f}, box(0.07f, 0.01f, {0.07f, 0})).body;
+    const float torque = 2800 * scene.body(bat).mass() * (0.07f * 0.07f) * 4 / 3;
+    const JointId hinge = scene.create_joint(RevoluteDef{.body_b = bat,
+                                                         .enable_limit = true,
+                                                         .lower_angle = -1,
+                                                         .upper_angle = 0.5f,
+                                                         .limit_restitution = 0.04f,
+                                                         .enable_motor = true,
+                                                         .motor_speed = 100,
+                                                         .max_motor_torque = torque});
+    for (int i = 0; i < 60; ++i)
+    {
+        scene.step(1.0f / 60);
+        EXPECT_NEAR(scene.joint(hinge).coordinate(), 0.5, 0.001) << "step " << i;
+    }
+}
+
 TEST(LawRevolute, MotorReachesItsSpeedWithItsTorque)
 {
     Scene scene(weightless());

@@ -117,3 +117,23 @@ TEST(Row10_Kinematic, AFlipperStruckByABallTakesTheImpulseAboutItsPivot)
     EXPECT_NEAR(scene.body(flipper).angular_velocity(), -j * 0.8 / static_cast<double>(inertia), 2e-2);
     EXPECT_EQ(scene.body(flipper).position(), (Position{0, 0}));
 }
+
+// Where its rows do not hold what has landed in mid-step, it falls on into the plate until the step is over.
+TEST(Row10_Kinematic, EveryBodyThatLandsOnAPlateIsCarriedAtOnce)
+{
+    SceneDef def = sleepless();
+    def.gravity = {0, -200};
+    Scene scene(def);
+    const float speed = 6;
+    add(scene, {.type = BodyType::Kinematic, .velocity = {0, speed}}, box(50, 0.5f), {.friction = 0, .restitution = 0});
+    std::vector<Thing> things;
+    for (int i = 0; i < 8; ++i) // far apart: each is solved by itself
+        things.push_back(add_dynamic(scene, {10.0 * i - 35, 1.02 + 0.002 * i}, Circle{}, {.friction = 0, .restitution = 0}));
+    for (int step = 1; step <= 3; ++step)
+    {
+        scene.step(1.0f / 60);
+        const double top = 0.5 + step * static_cast<double>(speed) / 60;
+        for (const Thing& t : things)
+            EXPECT_GT(scene.body(t.body).position().y - 0.5, top - 0.002) << "step " << step;
+    }
+}
