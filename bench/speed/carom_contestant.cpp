@@ -14,7 +14,7 @@ truth::State state_of(const carom::ConstBody& body)
 class CaromContestant final : public Contestant
 {
 public:
-    CaromContestant(const carom::scenes::SceneEntry& entry, const carom::SceneDef& def) : m_built(entry.create(def)) {}
+    CaromContestant(const SceneMaker& build, const carom::SceneDef& def) : m_built(build(def)) {}
 
     void step(float h) override { m_built.step(h); }
     carom::Scene& scene() override { return m_built.scene; }
@@ -41,9 +41,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Contestant> enter_carom(const carom::scenes::SceneEntry& entry, const carom::SceneDef& def)
+std::unique_ptr<Contestant> enter_carom(const SceneMaker& build, const carom::SceneDef& def)
 {
-    return std::make_unique<CaromContestant>(entry, def);
+    return std::make_unique<CaromContestant>(build, def);
 }
 
 } // namespace speed

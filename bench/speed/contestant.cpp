@@ -11,8 +11,8 @@ std::vector<Contender> contenders()
     {
         if (engine.peer)
         {
-            const auto enter = [engine](const carom::scenes::SceneEntry& entry, const carom::SceneDef& def)
-            { return enter_peer(engine, entry, def); };
+            const auto enter = [engine](const SceneMaker& build, const carom::SceneDef& def)
+            { return enter_peer(engine, build, def); };
             list.push_back({engine.key, engine.name, "as installed", engine.most_threads, enter});
         }
     }

@@ -7,6 +7,7 @@
 #include "truth/world.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
+/// Makes the scene that an engine is to run.
+using SceneMaker = std::function<carom::scenes::BuiltScene(const carom::SceneDef&)>;
+
 /// An engine that can be asked to run a scene.
 struct Contender
 {
@@ -47,14 +51,14 @@ struct Contender
     std::string name{}; ///< with its version
     std::string isa{};  ///< what it was compiled for
     int most_threads = 1;
-    std::function<std::unique_ptr<Contestant>(const carom::scenes::SceneEntry&, const carom::SceneDef&)> enter{};
+    std::function<std::unique_ptr<Contestant>(const SceneMaker&, const carom::SceneDef&)> enter{};
 };
 
 /// Carom first, then the peers that were found when this was built.
 [[nodiscard]] std::vector<Contender> contenders();
 
-[[nodiscard]] std::unique_ptr<Contestant> enter_carom(const carom::scenes::SceneEntry& entry, const carom::SceneDef& def);
-[[nodiscard]] std::unique_ptr<Contestant> enter_peer(const truth::Engine& engine, const carom::scenes::SceneEntry& entry,
+[[nodiscard]] std::unique_ptr<Contestant> enter_carom(const SceneMaker& build, const carom::SceneDef& def);
+[[nodiscard]] std::unique_ptr<Contestant> enter_peer(const truth::Engine& engine, const SceneMaker& build,
                                                      const carom::SceneDef& def);
 
 } // namespace speed

@@ -116,7 +116,10 @@ int benchmark(const Options& options)
     if (options.json)
         speed::print_json(std::cout, results);
     else if (!results.empty())
+    {
         speed::print_quality(std::cout, results);
+        speed::print_memory(std::cout, results);
+    }
     if (!options.csv.empty())
     {
         std::ofstream file(options.csv);
@@ -235,6 +238,9 @@ void add_options(CLI::App& app, Options& o)
     app.add_option("--threads", o.run.threads, "threads a scene may use")->check(CLI::Range(1, 64))->capture_default_str();
     app.add_option("--repeat", o.run.repeat, "runs of each; the fastest counts")
         ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    app.add_option("--disturbed", o.run.disturbed, "quality from so many more runs, with bodies off their places by up to 0.1 mm")
+        ->check(CLI::Range(0, 100))
         ->capture_default_str();
     app.add_option("--steps", o.run.steps, "steps, the first one included (default: the scene's own number)")
         ->check(CLI::Range(2, 1000000));

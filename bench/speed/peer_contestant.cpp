@@ -34,8 +34,7 @@ struct Motion
 class PeerContestant final : public Contestant
 {
 public:
-    PeerContestant(const truth::Engine& engine, const carom::scenes::SceneEntry& entry, const carom::SceneDef& base)
-        : m_script(entry.create(base))
+    PeerContestant(const truth::Engine& engine, const SceneMaker& build, const carom::SceneDef& base) : m_script(build(base))
     {
         const Changes all = m_translator.look(m_script.scene);
         m_bytes_before = heap_bytes();
@@ -122,10 +121,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Contestant> enter_peer(const truth::Engine& engine, const carom::scenes::SceneEntry& entry,
-                                       const carom::SceneDef& def)
+std::unique_ptr<Contestant> enter_peer(const truth::Engine& engine, const SceneMaker& build, const carom::SceneDef& def)
 {
-    return std::make_unique<PeerContestant>(engine, entry, def);
+    return std::make_unique<PeerContestant>(engine, build, def);
 }
 
 } // namespace speed

@@ -26,11 +26,20 @@ std::vector<truth::Vec> positions(const std::vector<truth::State>& states)
     return list;
 }
 
+Spread spread(std::vector<double> values)
+{
+    if (values.empty())
+        return {};
+    std::sort(values.begin(), values.end());
+    return {std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()),
+            values[values.size() * 99 / 100], values.back()};
+}
+
 } // namespace
 
-QualityMeter::QualityMeter(Contestant& contestant, bool at_rest) : m_at_rest(at_rest)
+void QualityMeter::start(Contestant& contestant)
 {
-    if (at_rest)
+    if (m_at_rest)
         m_built = positions(contestant.states());
 }
 
@@ -56,7 +65,7 @@ try
 }
 catch (const truth::Missing&)
 {
-    m_near_pairs = Quality::none; // shapes that overlaps are not measured of
+    m_near_pairs = none; // shapes that overlaps are not measured of
 }
 
 void QualityMeter::sample_joints(Contestant& contestant, const std::vector<truth::State>& states)
@@ -76,8 +85,7 @@ void QualityMeter::sample_joints(Contestant& contestant, const std::vector<truth
             const truth::State world{};
             const auto anchor = [&](carom::BodyId body, carom::Vec2 local)
             { return world_point(body ? *by_body.at(body) : world, local); };
-            const double apart = length(anchor(hinge->body_a, hinge->anchor_a) - anchor(hinge->body_b, hinge->anchor_b));
-            m_worst_joint = m_worst_joint > apart ? m_worst_joint : apart;
+            m_joints.push_back(length(anchor(hinge->body_a, hinge->anchor_a) - anchor(hinge->body_b, hinge->anchor_b)));
         }
     }
 }
@@ -85,43 +93,28 @@ void QualityMeter::sample_joints(Contestant& contestant, const std::vector<truth
 void QualityMeter::sample_bodies(Contestant& contestant, const std::vector<truth::State>& states)
 {
     const std::vector<carom::BodyId> bodies = contestant.scene().bodies();
-    double speeds = 0;
-    int count = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i)
     {
         if (contestant.scene().body(bodies[i]).type() != carom::BodyType::Dynamic)
             continue;
-        speeds += length(states[i].velocity);
         m_awake += states[i].awake ? 1 : 0;
-        ++count;
-        if (m_at_rest)
-            m_drift = std::max(m_drift, length(states[i].position - m_built[i]));
+        if (!m_at_rest)
+            continue;
+        m_speeds.push_back(length(states[i].velocity));
+        m_drifts.push_back(length(states[i].position - m_built[i]));
     }
-    m_speeds += count > 0 ? speeds / count : 0;
 }
 
 Quality QualityMeter::result() const
 {
-    Quality quality;
     if (m_samples == 0)
-        return quality;
-    if (!m_overlaps.empty())
-    {
-        std::vector<double> sorted = m_overlaps;
-        std::sort(sorted.begin(), sorted.end());
-        quality.mean_overlap = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
-        quality.p99_overlap = sorted[sorted.size() * 99 / 100];
-        quality.worst_overlap = sorted.back();
-    }
-    quality.worst_joint = m_worst_joint;
-    quality.near_pairs = m_near_pairs / m_samples;
-    quality.awake = m_awake / m_samples;
-    if (m_at_rest)
-    {
-        quality.drift = m_drift;
-        quality.residual_speed = m_speeds / m_samples;
-    }
-    return quality;
+        return {};
+    return {.overlap = spread(m_overlaps),
+            .joint = spread(m_joints),
+            .drift = spread(m_drifts),
+            .speed = spread(m_speeds),
+            .near_pairs = m_near_pairs / m_samples,
+            .awake = m_awake / m_samples};
 }
 
 } // namespace speed

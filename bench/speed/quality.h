@@ -9,26 +9,34 @@
 
 namespace speed {
 
-/// Lengths in m. Not a number where a scene has nothing to measure.
-struct Quality
+inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Of all that was sampled; not a number where a scene has nothing to measure.
+struct Spread
 {
-    static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    double mean_overlap = none;   ///< of the pairs of shapes that overlap
-    double p99_overlap = none;    ///< 99 of 100 such pairs overlap less
-    double worst_overlap = none;  ///<
-    double worst_joint = none;    ///< distance of a hinge's two anchors
-    double drift = none;          ///< of the body farthest from where it was built; scenes that are built at rest
-    double residual_speed = none; ///< mean of the dynamic bodies, m/s; scenes that are built at rest
-    double near_pairs = none;     ///< mean number of pairs of shapes less than 2 cm apart
-    double awake = none;          ///< mean number of dynamic bodies that are awake
+    double mean = none;
+    double p99 = none; ///< 99 of 100 are less
+    double worst = none;
 };
 
-/// Takes samples of a run and sums them up.
+/// Lengths in m.
+struct Quality
+{
+    Spread overlap{};         ///< of the pairs of shapes that overlap
+    Spread joint{};           ///< distance of a hinge's two anchors
+    Spread drift{};           ///< of bodies from where they were built; scenes that are built at rest
+    Spread speed{};           ///< of the dynamic bodies, m/s; scenes that are built at rest
+    double near_pairs = none; ///< mean number of pairs of shapes less than 2 cm apart
+    double awake = none;      ///< mean number of dynamic bodies that are awake
+};
+
+/// Takes samples of one run or several and sums them up.
 class QualityMeter
 {
 public:
-    /// At the start, where everything is as built.
-    QualityMeter(Contestant& contestant, bool at_rest);
+    explicit QualityMeter(bool at_rest) : m_at_rest(at_rest) {}
+    /// At the start of a run, where everything is as built.
+    void start(Contestant& contestant);
     void sample(Contestant& contestant);
     [[nodiscard]] Quality result() const;
 
@@ -40,9 +48,9 @@ private:
     bool m_at_rest;
     std::vector<truth::Vec> m_built{};
     std::vector<double> m_overlaps{};
-    double m_worst_joint = Quality::none;
-    double m_drift = 0;
-    double m_speeds = 0;
+    std::vector<double> m_joints{};
+    std::vector<double> m_drifts{};
+    std::vector<double> m_speeds{};
     double m_near_pairs = 0;
     double m_awake = 0;
     int m_samples = 0;

@@ -60,12 +60,17 @@ struct Measure
 std::vector<Measure> measures(const Result& r)
 {
     const Quality& q = r.quality;
-    return {{"mean_overlap", q.mean_overlap},
-            {"p99_overlap", q.p99_overlap},
-            {"worst_overlap", q.worst_overlap},
-            {"worst_joint", q.worst_joint},
-            {"drift", q.drift},
-            {"residual_speed", q.residual_speed},
+    return {{"mean_overlap", q.overlap.mean},
+            {"p99_overlap", q.overlap.p99},
+            {"worst_overlap", q.overlap.worst},
+            {"mean_joint", q.joint.mean},
+            {"p99_joint", q.joint.p99},
+            {"worst_joint", q.joint.worst},
+            {"mean_drift", q.drift.mean},
+            {"p99_drift", q.drift.p99},
+            {"worst_drift", q.drift.worst},
+            {"mean_speed", q.speed.mean},
+            {"p99_speed", q.speed.p99},
             {"near_pairs", q.near_pairs},
             {"awake", q.awake},
             {"bytes_per_body", r.bytes_per_body},
@@ -103,16 +108,18 @@ void print_times(std::ostream& out, const Result& r)
         line.add(std::to_string(count));
     line.add(r.ms, 0).add(r.cpu_ms, 0);
     for (const double stage : r.stages)
-        line.add(r.has_stages ? stage : Quality::none, 0);
+        line.add(r.has_stages ? stage : none, 0);
     line.add(hex(r.hash) + (r.repeats ? "" : " NOT THE SAME EVERY TIME")).print(out);
 }
 
 void print_quality(std::ostream& out, const std::vector<Result>& results)
 {
-    out << "\nLast half of the run; overlaps, joints and drift in mm, residual speed in mm/s, peak in MB\n";
+    out << "\nLast half of the run: mean, 99th percentile and worst of overlaps, of the gaps of hinges, of how far what is built "
+           "at rest has\n"
+           "strayed (mm) and of its speed (mm/s)\n";
     Line header;
-    for (const char* title :
-         {"scene", "engine", "mean", "99 %", "worst", "joint", "drift", "speed", "near", "awake", "B/body", "B/contact", "peak"})
+    for (const char* title : {"scene", "engine", "overlap", "99 %", "worst", "hinge", "99 %", "worst", "drift", "99 %", "worst",
+                              "speed", "99 %", "worst", "near", "awake"})
         header.add(title);
     header.print(out);
     for (const Result& r : results)
@@ -120,12 +127,21 @@ void print_quality(std::ostream& out, const std::vector<Result>& results)
         const Quality& q = r.quality;
         Line line;
         line.add(r.scene).add(r.engine);
-        for (const double length : {q.mean_overlap, q.p99_overlap, q.worst_overlap, q.worst_joint, q.drift, q.residual_speed})
-            line.add(length * 1000, 3);
-        for (const double count : {q.near_pairs, q.awake, r.bytes_per_body, r.bytes_per_contact, r.peak_mb})
-            line.add(count, 0);
-        line.print(out);
+        for (const Spread& s : {q.overlap, q.joint, q.drift, q.speed})
+            line.add(s.mean * 1000, 3).add(s.p99 * 1000, 3).add(s.worst * 1000, 3);
+        line.add(q.near_pairs, 0).add(q.awake, 0).print(out);
     }
+}
+
+void print_memory(std::ostream& out, const std::vector<Result>& results)
+{
+    out << "\nMemory: bytes a body once the scene is built, bytes more a contact at the end, peak in MB\n";
+    Line header;
+    for (const char* title : {"scene", "engine", "B/body", "B/contact", "peak"})
+        header.add(title);
+    header.print(out);
+    for (const Result& r : results)
+        Line().add(r.scene).add(r.engine).add(r.bytes_per_body, 0).add(r.bytes_per_contact, 0).add(r.peak_mb, 0).print(out);
 }
 
 void print_json(std::ostream& out, const std::vector<Result>& results)

@@ -3,6 +3,8 @@
 #include "speed/memory.h"
 #include "speed/task_pool.h"
 
+#include "scenes/random.h"
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -93,28 +95,52 @@ Result describe(const carom::scenes::SceneEntry& entry, const Contender& contend
             .hash = contestant.hash()};
 }
 
-Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options, bool first)
+SceneMaker maker_of(const carom::scenes::SceneEntry& entry) { return entry.create; }
+
+/// The same scene a hair's breadth beside itself: where it is chaotic it goes another way.
+SceneMaker disturbed(const carom::scenes::SceneEntry& entry, std::uint64_t seed)
+{
+    constexpr double most = 1e-4; // m
+    return [&entry, seed](const carom::SceneDef& def)
+    {
+        carom::scenes::BuiltScene built = entry.create(def);
+        carom::SplitMix64 random(seed);
+        for (const carom::BodyId id : built.scene.bodies())
+        {
+            carom::Body body = built.scene.body(id);
+            const double dx = most * (2 * random.unit() - 1);
+            const double dy = most * (2 * random.unit() - 1);
+            if (body.type() == carom::BodyType::Dynamic)
+                body.teleport({body.position().x + dx, body.position().y + dy}, body.angle());
+        }
+        return built;
+    };
+}
+
+/// `meter`: may be null.
+Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options,
+                const SceneMaker& make, QualityMeter* meter)
 {
     forget_peak();
     TaskPool pool(contender.key == "carom" ? options.threads : 1);
     carom::SceneDef def;
     def.tasks = pool.hooks();
     def.tasks.worker_count = options.threads;
-    const std::unique_ptr<Contestant> contestant = contender.enter(entry, def);
+    const std::unique_ptr<Contestant> contestant = contender.enter(make, def);
     const int steps = step_count(entry, options);
     const int bodies_built = static_cast<int>(contestant->scene().bodies().size());
     const std::size_t bytes_built = contestant->bytes();
-    QualityMeter meter(*contestant, entry.stands);
+    if (meter != nullptr)
+        meter->start(*contestant);
     Stopwatch watch(*contestant, entry.h);
     for (int step = 0; step < steps; ++step)
     {
         options.progress(position(contender, entry, step, steps));
         watch.step(step > 0);
-        if (first && is_sample(step, steps))
-            meter.sample(*contestant);
+        if (meter != nullptr && is_sample(step, steps))
+            meter->sample(*contestant);
     }
     Result result = describe(entry, contender, options, *contestant, watch);
-    result.quality = meter.result();
     weigh(result, *contestant, bodies_built, bytes_built);
     return result;
 }
@@ -123,10 +149,11 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
 
 Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
 {
-    Result best = run_once(entry, contender, options, true);
+    QualityMeter meter(entry.stands);
+    Result best = run_once(entry, contender, options, maker_of(entry), options.disturbed == 0 ? &meter : nullptr);
     for (int i = 1; i < options.repeat; ++i)
     {
-        const Result again = run_once(entry, contender, options, false);
+        const Result again = run_once(entry, contender, options, maker_of(entry), nullptr);
         best.repeats = best.repeats && again.hash == best.hash;
         best.cpu_ms = std::min(best.cpu_ms, again.cpu_ms);
         if (again.ms < best.ms)
@@ -135,6 +162,9 @@ Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, c
             best.stages = again.stages;
         }
     }
+    for (int i = 1; i <= options.disturbed; ++i)
+        static_cast<void>(run_once(entry, contender, options, disturbed(entry, static_cast<std::uint64_t>(i)), &meter));
+    best.quality = meter.result();
     return best;
 }
 
@@ -143,7 +173,7 @@ std::vector<std::uint64_t> hashes(const carom::scenes::SceneEntry& entry, const 
     TaskPool pool(options.threads);
     carom::SceneDef def;
     def.tasks = pool.hooks();
-    const std::unique_ptr<Contestant> contestant = contender.enter(entry, def);
+    const std::unique_ptr<Contestant> contestant = contender.enter(maker_of(entry), def);
     const int steps = step_count(entry, options);
     std::vector<std::uint64_t> list;
     for (int step = 0; step < steps; ++step)

@@ -18,6 +18,7 @@ struct RunOptions
     int steps = 0; ///< 0: as many as the scene says
     int threads = 1;
     int repeat = 1;
+    int disturbed = 0; ///< above 0: the quality is that of so many more runs, whose bodies start off their places by up to 0.1 mm
     std::function<void(const std::string&)> progress = [](const std::string&) {}; ///< may throw Interrupted
 };
 
@@ -37,9 +38,9 @@ struct Result
     bool has_stages = false;
     std::uint64_t hash = 0;
     bool repeats = true; ///< every repetition ended in the same state
-    Quality quality{};   ///< over the last half of the first repetition
-    double bytes_per_body = Quality::none;
-    double bytes_per_contact = Quality::none;
+    Quality quality{};   ///< over the last half of the first repetition, or of the disturbed runs
+    double bytes_per_body = none;
+    double bytes_per_contact = none;
     double peak_mb = 0;
 };
 
