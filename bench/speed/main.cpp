@@ -4,6 +4,7 @@
 #include "speed/flight_cost.h"
 #include "speed/report.h"
 #include "speed/scaling.h"
+#include "truth/chart.h"
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <iostream>
@@ -33,6 +35,7 @@ struct Options
     bool verify = false;
     bool flight = false;
     int scaling = 0; ///< most bodies; 0: not asked for
+    std::string plot;
 };
 
 /// One line on a terminal, rewritten in place a few times a second; looks for Ctrl-C on the way.
@@ -178,11 +181,20 @@ int show_scaling(const Options& options)
     };
     say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", options.run.threads, "bodies", "pairs", "steps", "ms/step",
         "ns/body", "B/body");
+    truth::Series pile{
+        .name = "a stirred pile, " + std::to_string(options.run.threads) + " threads", .color = "#0072b2", .lines = {{}}};
     for (int n = 1000; n <= options.scaling; n *= 10)
     {
         const speed::PileCost c = speed::pile_cost(n, options.run);
         say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body, c.bytes_per_body);
+        pile.lines.front().push_back({std::log10(c.bodies), c.ns_per_body});
     }
+    if (!options.plot.empty())
+        truth::write_svg({.title = "How cost grows with bodies",
+                          .x_label = "bodies, power of ten",
+                          .y_label = "ns a body and step",
+                          .series = {pile}},
+                         std::filesystem::path(options.plot) / "scaling.svg");
     say("\nBoxes that never move\n%10s %10s %12s %12s\n", "boxes", "built, s", "us/step", "us/move");
     for (int n = 1000; n <= options.scaling; n *= 10)
     {
@@ -250,6 +262,7 @@ void add_options(CLI::App& app, Options& o)
     app.add_option("--scaling", o.scaling,
                    "no scenes: how cost grows from 1,000 to so many bodies, and to as many that never move")
         ->check(CLI::Range(1000, 10000000));
+    app.add_option("--plot", o.plot, "with --scaling: also draw scaling.svg into this folder")->check(CLI::ExistingDirectory);
     app.add_flag("--flight", o.flight,
                  "no scenes: what impacts at their own time cost a pile at rest, with a fast ball, and one that tumbles");
     app.add_flag("--list", o.list, "engines and scenes");
