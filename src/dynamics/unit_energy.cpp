@@ -448,7 +448,8 @@ UnitEnergy::Arm UnitEnergy::place_of(std::int32_t state)
     return {center.x + as_double(way.x), center.y + as_double(way.y)};
 }
 
-// What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves against the carrier.
+// What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves
+// against the carrier.
 UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
 {
     if (group.is_carried)

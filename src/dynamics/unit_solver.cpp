@@ -112,10 +112,11 @@ private:
         const bool left_out = (contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0;
         if (contact.manifold.count > 0 || left_out || !may_come_to_face(contact, m_unit))
             return;
-        const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
-        if (other == none)
-            return;
         const bool is_a = contact.body_a == body;
+        const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
+        const bool is_others_too = other != none && (m_view.states[other].flags & body_flag::dynamic) != 0;
+        if (other == none || (is_others_too && !is_a))
+            return;
         m_output.late_rows.push_back(prepare_row(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
         follow_closely(contact, m_unit, m_output.late_rows.back());
     }

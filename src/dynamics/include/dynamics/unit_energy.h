@@ -86,8 +86,8 @@ private:
         double py = 0;
         double x = 0; ///< center of mass, once all are added
         double y = 0;
-        double inertia = 0; ///< about it, and angular momentum
-        double spin = 0;
+        double inertia = 0; ///< about it
+        double spin = 0;    ///< angular momentum about it
 
         void add(const Body& body, const BodyState& s, const Arm& at);
         void add_spin(const Body& body, const BodyState& s, const Arm& at);

@@ -81,7 +81,7 @@ struct Pressing
         0; ///< acceleration along the tangent that would stop the slip by the end of the time looked at, less the one there is
     double force = 0;    ///< comes out: > 0 holds
     double friction = 0; ///< along the tangent, on b
-    double limit = 0;    ///< of friction
+    double limit = 0;    ///< of the friction, N
 };
 
 /// Contact forces of what presses, with friction: fills in the forces and adds what they do to `accelerations` (bodies whose velocities are
