@@ -58,7 +58,7 @@ struct Motion
 {
     float speed;
     float mass;
-    bool is_anchored; ///< one of the two does not give way
+    bool is_anchored = false; ///< one of the two does not give way; only limits ask
 
     [[nodiscard]] float soft(float error, float accumulated, const Softness& s) const
     {
@@ -97,14 +97,14 @@ float free_impulse(const FreeRow& row, float accumulated, const Motion& motion, 
 void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const Pass& pass)
 {
     const JointRows& rows = work.rows;
+    const bool is_anchored = bodies.are_anchored();
     float speed = bodies.speed(rows.axis);
     float sum = 0;
     for (const FreeRow& row : rows.acts())
     {
         float& accumulated = joint.impulses[row.slot];
         const Softness& softness = row.is_soft ? work.softness : pass.softness;
-        const float updated =
-            free_impulse(row, accumulated, {row.sign * speed, rows.mass, bodies.are_anchored()}, softness, pass);
+        const float updated = free_impulse(row, accumulated, {row.sign * speed, rows.mass, is_anchored}, softness, pass);
         const float change = row.sign * (updated - accumulated);
         accumulated = updated;
         speed += rows.inverse_mass * change;
@@ -125,7 +125,7 @@ float free_impulse(const JointRecord& joint, const JointRows& rows)
 void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
 {
     float& accumulated = joint.impulses[row.slot];
-    const Motion motion{bodies.speed(row), bodies.mass(row), bodies.are_anchored()};
+    const Motion motion{bodies.speed(row), bodies.mass(row)};
     const float updated = pass.use_bias ? motion.soft(row.error, accumulated, pass.softness) : motion.rigid(accumulated, 0);
     bodies.apply(row, updated - accumulated);
     accumulated = updated;

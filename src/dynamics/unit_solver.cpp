@@ -67,8 +67,7 @@ public:
           m_energy(energy), m_crew(crew),
           m_watches_energy(unit.precise || (!unit.heap && unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
-          m_rows(std::span(ctx.scratch.rows)
-                     .subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count))),
+          m_rows(rows_of(ctx.scratch, unit)),
           m_joints(std::span(ctx.scratch.joints)
                        .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
           m_wide(ctx.scratch.wide_rows.data() + unit.wide_store),
@@ -155,11 +154,7 @@ private:
 
     void note_pressed()
     {
-        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
-        {
-            for (ContactRow& row : rows)
-                row.pressed = bears_load(row) ? 1 : 0;
-        }
+        for_each_row([](ContactRow& row) { row.pressed = bears_load(row) ? 1 : 0; });
     }
 
     // At the poses that have been reached: takes out the speed that pushed overlaps out.
@@ -195,11 +190,7 @@ private:
     // What is kept for the next step's warm start is of a whole sub-step.
     void scale_impulses(float by)
     {
-        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
-        {
-            for (ContactRow& row : rows)
-                scale_row(row, by);
-        }
+        for_each_row([by](ContactRow& row) { scale_row(row, by); });
         for (const JointWork& work : m_joints)
         {
             for (float& impulse : m_ctx.state.joints[work.joint].impulses)
@@ -208,6 +199,13 @@ private:
     }
 
     [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
+
+    template <class Visit>
+    void for_each_row(const Visit& visit)
+    {
+        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
+            std::for_each(rows.begin(), rows.end(), visit);
+    }
 
     void note_approaches()
     {
@@ -463,11 +461,7 @@ private:
     int guard_rows(float part)
     {
         int deep = 0;
-        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
-        {
-            for (const ContactRow& row : rows)
-                deep += row.core > 0 && row.count > 0 && guard_core(row, part) ? 1 : 0;
-        }
+        for_each_row([&](const ContactRow& row) { deep += row.core > 0 && row.count > 0 && guard_core(row, part) ? 1 : 0; });
         return deep;
     }
 
@@ -539,10 +533,7 @@ private:
     // The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
     void predict_bends()
     {
-        for (ContactRow& row : m_rows)
-            predict_bend(row);
-        for (ContactRow& row : late_rows())
-            predict_bend(row);
+        for_each_row([this](ContactRow& row) { predict_bend(row); });
     }
 
     void predict_bend(ContactRow& row) const
@@ -592,16 +583,7 @@ private:
 
     void refresh_rows()
     {
-        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
-        {
-            for (ContactRow& row : rows)
-            {
-                if (row.followed != 0)
-                    follow(row);
-                else
-                    refresh_row(row);
-            }
-        }
+        for_each_row([this](ContactRow& row) { row.followed != 0 ? follow(row) : refresh_row(row); });
     }
 
     // Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
@@ -901,10 +883,7 @@ private:
 
     void finish_substep(int k)
     {
-        for (ContactRow& row : m_rows)
-            sum_impulses(row);
-        for (ContactRow& row : late_rows())
-            sum_impulses(row);
+        for_each_row(sum_impulses);
         finish_joint_substep(m_view, m_ctx.state, m_joints);
         if (m_ctx.scene.def.record_substeps && (k + 1) % m_ctx.slices == 0)
             record_poses(k);

@@ -132,8 +132,7 @@ void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit
                 visit(row.a == state ? row.b : row.a);
         }
     };
-    look(std::span(span.scratch.rows)
-             .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
+    look(rows_of(span.scratch, span.unit));
     look(span.output.late_rows);
 }
 

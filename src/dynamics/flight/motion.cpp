@@ -362,8 +362,7 @@ void take_off(const FlightSpan& span, Flier& f, double time)
                 drop(row);
         }
     };
-    drop_rows(std::span(span.scratch.rows)
-                  .subspan(static_cast<std::size_t>(span.unit.first_row), static_cast<std::size_t>(span.unit.row_count)));
+    drop_rows(rows_of(span.scratch, span.unit));
     drop_rows(span.output.late_rows);
     for (int edge = span.state.bodies[f.body].first_contact; edge != none; edge = span.state.contacts[edge >> 1].next[edge & 1])
     {

@@ -350,6 +350,12 @@ struct Scratch
         .subspan(static_cast<std::size_t>(unit.first_flier), static_cast<std::size_t>(unit.flier_count));
 }
 
+/// Those of a unit that are in no lane; what has come since the step began is in UnitOutput::late_rows.
+[[nodiscard]] inline std::span<ContactRow> rows_of(Scratch& scratch, const Unit& unit)
+{
+    return std::span(scratch.rows).subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count));
+}
+
 struct StepContext
 {
     SceneData& scene;
