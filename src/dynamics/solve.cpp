@@ -70,6 +70,14 @@ void fall(const StepContext& ctx, std::int32_t index)
 
 [[nodiscard]] bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= crew_groups; }
 
+void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew)
+{
+    const Unit& unit = ctx.scratch.units[u];
+    fill_unit(ctx, unit, crew);
+    solve_unit(ctx, unit, ctx.scratch.outputs[u], energy, crew);
+    commit_unit(ctx, unit, crew);
+}
+
 // All threads on one after the other.
 void solve_large(StepContext& ctx)
 {
@@ -79,10 +87,7 @@ void solve_large(StepContext& ctx)
         if (!is_large(scratch.units[u]))
             continue;
         UnitEnergy energy;
-        const TaskHooks& hooks = ctx.scene.def.tasks;
-        fill_unit(ctx, scratch.units[u], hooks);
-        Crew::run(hooks, [&](Crew& crew) { solve_unit(ctx, scratch.units[u], scratch.outputs[u], energy, crew); });
-        commit_unit(ctx, scratch.units[u], hooks);
+        Crew::run(ctx.scene.def.tasks, [&](Crew& crew) { solve(ctx, u, energy, crew); });
     }
 }
 
@@ -143,9 +148,7 @@ void solve_small(StepContext& ctx)
                           fall(ctx, unit.first_state + 1);
                       if (unit.alone || is_large(unit))
                           continue;
-                      fill_unit(ctx, unit, {});
-                      solve_unit(ctx, unit, scratch.outputs[u], energy, alone);
-                      commit_unit(ctx, unit, {});
+                      solve(ctx, u, energy, alone);
                   }
               });
 }

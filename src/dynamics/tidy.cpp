@@ -16,6 +16,8 @@ namespace carom::internal {
 namespace {
 
 constexpr std::uint64_t steps_between = 8;
+constexpr std::uint64_t steps_between_cells = 32;
+constexpr std::size_t few_of = 8; // less than one of so many
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
 void sort_bodies(SceneState& state)
@@ -25,6 +27,28 @@ void sort_bodies(SceneState& state)
     std::sort(state.awake_bodies.begin(), state.awake_bodies.end());
     for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
+}
+
+// Into sixteenths, along a Z-curve through where they are; where few would change, all stay in theirs, for contacts are solved in another order then, and
+// what is coming to rest is stirred by that.
+void part_bodies(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    if (state.step_count % steps_between_cells != 1)
+        return;
+    ZOrder& order = ctx.scratch.plane_order;
+    order.sort(state.awake_bodies.size(),
+               [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
+    const std::span<const ZOrder::Key> keys = order.keys();
+    const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * plane_cells / keys.size()); };
+    const auto body_of = [&](std::size_t rank) -> BodyRecord& { return state.bodies[state.awake_bodies[keys[rank].index]]; };
+    std::size_t changed = 0;
+    for (std::size_t rank = 0; rank < keys.size(); ++rank)
+        changed += body_of(rank).plane_cell != cell_of(rank) ? 1 : 0;
+    if (changed * few_of < keys.size())
+        return;
+    for (std::size_t rank = 0; rank < keys.size(); ++rank)
+        body_of(rank).plane_cell = cell_of(rank);
 }
 
 class ContactOrder
@@ -188,6 +212,7 @@ void tidy(StepContext& ctx)
     if (ctx.state.step_count % steps_between != 1 || ctx.state.awake_contacts.size() < worth_it)
         return;
     sort_bodies(ctx.state);
+    part_bodies(ctx);
     ContactOrder order(ctx);
     order.find();
     if (!order.is_kept_already())

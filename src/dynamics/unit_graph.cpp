@@ -674,13 +674,11 @@ public:
             });
     }
 
-    // By place in awake_bodies.
+    // By unit, and of a unit by where they lie in the plane: threads that take parts of a unit seldom meet in one body.
     void sort_bodies()
     {
         std::vector<std::int32_t>& places = scratch.order;
-        places.resize(state.awake_bodies.size());
-        for (std::size_t i = 0; i < places.size(); ++i)
-            places[i] = static_cast<std::int32_t>(i);
+        sort_by_cell(places);
         sort_by_unit(
             places, scratch.solved_bodies, [&](int i) { return scratch.unit_of[static_cast<std::size_t>(i)]; },
             [](Unit& unit, int first, int count)
@@ -691,6 +689,20 @@ public:
     }
 
 private:
+    // Places in awake_bodies, by counting.
+    void sort_by_cell(std::vector<std::int32_t>& places)
+    {
+        const auto cell_of = [&](std::int32_t body) { return static_cast<std::size_t>(state.bodies[body].plane_cell); };
+        std::int32_t starts[plane_cells + 1] = {};
+        for (const std::int32_t body : state.awake_bodies)
+            ++starts[cell_of(body) + 1];
+        for (int cell = 0; cell < plane_cells; ++cell)
+            starts[cell + 1] += starts[cell];
+        places.resize(state.awake_bodies.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[static_cast<std::size_t>(starts[cell_of(state.awake_bodies[i])]++)] = static_cast<std::int32_t>(i);
+    }
+
     StepContext& ctx;
     SceneState& state;
     Scratch& scratch;

@@ -24,6 +24,8 @@ namespace {
 
 constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
 constexpr int items_per_task = 512;
+constexpr int most_cells = plane_cells;
+constexpr int links_worth_cells = 1024;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -92,7 +94,7 @@ public:
         m_scratch.lane_links.clear();
         m_scratch.impact_rows.clear();
         m_scratch.cores.clear();
-        m_scratch.color_starts.clear();
+        m_scratch.bin_starts.clear();
         for (Unit& unit : m_scratch.units)
             place_rows_of(unit);
     }
@@ -103,7 +105,7 @@ public:
     {
         m_scratch.joint_places.clear();
         m_scratch.joint_lanes.clear();
-        m_scratch.joint_color_starts.clear();
+        m_scratch.joint_bin_starts.clear();
         m_groups = 0;
         for (Unit& unit : m_scratch.units)
             place_joints_of(unit);
@@ -335,6 +337,7 @@ private:
         unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
         unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
         unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
+        unit.cells = unit.link_count >= links_worth_cells ? most_cells : 1;
         choose_colors(unit);
         give_out_places(unit);
         place_links(unit);
@@ -362,7 +365,8 @@ private:
             const int color = free_color(unit, l.a, l.b);
             l.color = static_cast<std::uint8_t>(color);
             l.in_lane = wide && color != color_limit && l.plain && (uniform || give_evenly(l));
-            ++m_bins[bin_of(l)];
+            l.cell = cell_of(unit, l);
+            ++place_for(unit, l);
             if (color == color_limit)
                 m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
             else
@@ -386,11 +390,20 @@ private:
         return true;
     }
 
-    // Lanes by color and number of points, then rows by color.
-    static constexpr std::size_t lane_bins = 2 * color_limit;
-    [[nodiscard]] static std::size_t bin_of(const Link& l)
+    // Where in the unit: states stand in the order of the plane.
+    [[nodiscard]] static std::uint8_t cell_of(const Unit& unit, const Link& l)
     {
-        return l.in_lane ? 2 * std::size_t{l.color} + (l.points == 2 ? 0 : 1) : lane_bins + l.color;
+        if (unit.cells == 1)
+            return 0;
+        const std::int32_t place = (is_dynamic(unit, l.a) ? l.a : l.b) - unit.first_state - 1;
+        return static_cast<std::uint8_t>(std::int64_t{place} * unit.cells / unit.dynamic_count);
+    }
+
+    // Of how many go there; then of where the next one goes. Lanes by bin, that is color and number of points, and by cell; rows by color.
+    [[nodiscard]] std::int32_t& place_for(const Unit& unit, const Link& l)
+    {
+        return l.in_lane ? m_bins[(2 * as_index(l.color) + (l.points == 2 ? 0 : 1)) * as_index(unit.cells) + l.cell]
+                         : m_row_bins[l.color];
     }
 
     int free_color(const Unit& unit, std::int32_t a, std::int32_t b)
@@ -408,34 +421,36 @@ private:
 
     void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
 
-    // Eight lanes to a group, each of one colour and one number of points.
+    // Eight lanes to a group, each of one colour and one number of points; from cell to cell they go on without a gap.
     void give_out_places(Unit& unit)
     {
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
-        unit.first_color = static_cast<std::int32_t>(m_scratch.color_starts.size());
-        for (std::size_t bin = 0; bin < 2 * as_index(unit.colors); ++bin)
+        const auto groups = [&] { return (lane + lane_count - 1) / lane_count - unit.first_wide; };
+        unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
+        unit.bin_count = 2 * unit.colors;
+        for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
         {
-            if (bin % 2 == 0 && m_bins[bin] + m_bins[bin + 1] > 0)
-                m_scratch.color_starts.push_back(lane / lane_count - unit.first_wide);
-            const std::int32_t first = lane;
-            lane += (m_bins[bin] + lane_count - 1) / lane_count * lane_count;
-            m_bins[bin] = first;
+            for (std::int32_t cell = 0; cell < unit.cells; ++cell)
+            {
+                m_scratch.bin_starts.push_back(groups());
+                lane += std::exchange(m_bins[bin * unit.cells + cell], lane);
+            }
+            lane = (lane + lane_count - 1) / lane_count * lane_count;
         }
-        m_scratch.color_starts.push_back(lane / lane_count - unit.first_wide);
-        unit.color_count = static_cast<std::int32_t>(m_scratch.color_starts.size()) - unit.first_color;
+        m_scratch.bin_starts.push_back(groups());
         auto row = unit.first_row;
-        for (std::size_t bin = lane_bins; bin < lane_bins + as_index(unit.colors); ++bin)
-            row += std::exchange(m_bins[bin], row);
-        row += std::exchange(m_bins[lane_bins + color_limit], row);
+        for (int color = 0; color < unit.colors; ++color)
+            row += std::exchange(m_row_bins[color], row);
+        row += std::exchange(m_row_bins[color_limit], row);
         m_scratch.lane_links.resize(as_index(lane), none);
         m_scratch.row_links.resize(as_index(row));
     }
 
     void clear_bins(const Unit& unit)
     {
-        std::fill_n(m_bins, 2 * as_index(unit.colors), 0);
-        std::fill_n(m_bins + lane_bins, as_index(unit.colors), 0);
-        m_bins[lane_bins + color_limit] = 0;
+        std::fill_n(m_bins, unit.bin_count * unit.cells, 0);
+        std::fill_n(m_row_bins, unit.colors, 0);
+        m_row_bins[color_limit] = 0;
     }
 
     void place_links(const Unit& unit)
@@ -443,7 +458,7 @@ private:
         for (std::int32_t i = unit.first_link; i < unit.first_link + unit.link_count; ++i)
         {
             const Link& l = m_scratch.solved_links[as_index(i)];
-            const std::int32_t place = m_bins[bin_of(l)]++;
+            const std::int32_t place = place_for(unit, l)++;
             (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(place)] = i;
             if (l.in_lane && l.round && l.points == 1)
                 add_core(unit, l, place);
@@ -544,13 +559,14 @@ private:
     {
         const auto begin = m_scratch.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
         sort_by_bin(first);
-        unit.first_joint_color = static_cast<std::int32_t>(m_scratch.joint_color_starts.size());
+        unit.first_joint_bin = static_cast<std::int32_t>(m_scratch.joint_bin_starts.size());
         std::int32_t bin = none;
         int lane = 0;
+        std::int32_t next_bin = 0; // to begin
         for (auto l = begin; l != m_scratch.joint_lanes.end(); ++l)
         {
-            if (bin == none || l->bin / 2 != bin / 2)
-                m_scratch.joint_color_starts.push_back(m_groups - unit.first_wide_joint);
+            for (; next_bin <= l->bin; ++next_bin)
+                m_scratch.joint_bin_starts.push_back(m_groups - unit.first_wide_joint);
             if (l->bin != bin || lane == lane_count)
             {
                 ++m_groups;
@@ -559,15 +575,18 @@ private:
             bin = l->bin;
             l->lane = (m_groups - 1) * lane_count + lane++;
         }
-        m_scratch.joint_color_starts.push_back(m_groups - unit.first_wide_joint);
-        unit.joint_color_count = static_cast<std::int32_t>(m_scratch.joint_color_starts.size()) - unit.first_joint_color;
+        for (; next_bin % 2 != 0; ++next_bin)
+            m_scratch.joint_bin_starts.push_back(m_groups - unit.first_wide_joint);
+        m_scratch.joint_bin_starts.push_back(m_groups - unit.first_wide_joint);
+        unit.joint_bin_count = next_bin;
     }
 
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    std::int32_t m_groups = 0;                             ///< of wide joints
-    std::int32_t m_bins[lane_bins + color_limit + 1] = {}; ///< of a unit: how many links go there; then where the next one goes
+    std::int32_t m_groups = 0; ///< of wide joints
+    std::int32_t m_bins[2 * color_limit * most_cells] = {};
+    std::int32_t m_row_bins[color_limit + 1] = {};
 };
 
 } // namespace

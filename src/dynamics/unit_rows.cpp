@@ -1,25 +1,32 @@
 #include "dynamics/unit_rows.h"
 
-#include "core/task_pool.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
+#include "dynamics/unit_bins.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
+
+#include <algorithm>
+#include <span>
 
 namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t groups_per_part = 64;
-constexpr std::size_t rows_per_part = 512;
+constexpr int enough_rows = 256; // to share
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Each of `count` places from the first on.
 template <class Visit>
-void for_each_place(const TaskHooks& hooks, std::int32_t begin, std::int32_t count, std::size_t part, const Visit& visit)
+void for_each_place(Crew& crew, std::int32_t begin, std::int32_t count, const Visit& visit)
 {
-    for_each_in_parts(hooks, as_index(count), part, [&](std::size_t i) { visit(begin + static_cast<std::int32_t>(i)); });
+    crew.share(count, enough_rows,
+               [&](int first, int last)
+               {
+                   for (std::int32_t i = begin + first; i < begin + last; ++i)
+                       visit(i);
+               });
 }
 
 // The unit's g-th.
@@ -54,30 +61,19 @@ void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
     follow_closely(contact, unit, row);
 }
 
-// A part begins with a group of its own.
-void fill_joint_lanes(const StepContext& ctx, const Unit& unit, const TaskHooks& hooks)
+void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
 {
-    const std::vector<JointLane>& lanes = ctx.scratch.joint_lanes;
-    const std::size_t begin = as_index(unit.first_joint_lane);
-    const std::size_t end = begin + as_index(unit.joint_lane_count);
-    const auto next_group = [&](std::size_t i)
+    const auto lanes =
+        std::span(ctx.scratch.joint_lanes).subspan(as_index(unit.first_joint_lane), as_index(unit.joint_lane_count));
+    const auto of_group = [&](int g)
+    { return std::ranges::lower_bound(lanes, (unit.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
+    for (auto l = of_group(first), end = of_group(last); l != end; ++l)
     {
-        while (i > begin && i < end && lanes[i].lane / lane_count == lanes[i - 1].lane / lane_count)
-            ++i;
-        return i;
-    };
-    run_parts(hooks, end - begin, rows_per_part,
-              [&](std::size_t first, std::size_t last)
-              {
-                  for (std::size_t i = next_group(begin + first); i < next_group(begin + last); ++i)
-                  {
-                      const JointLane& l = lanes[i];
-                      WideJoint& group = ctx.scratch.wide_joints[as_index(l.lane / lane_count)];
-                      if (l.lane % lane_count == 0)
-                          group = empty_wide_joint(l.fixed);
-                      fill_joint_lane(ctx, l.place.joint, l.place.a, l.place.b, group, l.lane % lane_count);
-                  }
-              });
+        WideJoint& group = ctx.scratch.wide_joints[as_index(l->lane / lane_count)];
+        if (l->lane % lane_count == 0)
+            group = empty_wide_joint(l->fixed);
+        fill_joint_lane(ctx, l->place.joint, l->place.a, l->place.b, group, l->lane % lane_count);
+    }
 }
 
 void commit_joint(const StepContext& ctx, const JointWork& work)
@@ -89,31 +85,47 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 
 } // namespace
 
-void fill_unit(const StepContext& ctx, const Unit& unit, const TaskHooks& hooks)
+void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
-    for_each_place(hooks, 0, unit.wide_count, groups_per_part, [&](std::int32_t g) { fill_group(unit_ctx, unit, g); });
-    for_each_place(hooks, unit.first_row, unit.row_count, rows_per_part, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
-    for_each_place(hooks, unit.first_joint, unit.joint_count, rows_per_part,
+    contact_bins(ctx.scratch, unit)
+        .all(crew,
+             [&](int first, int last)
+             {
+                 for (int g = first; g < last; ++g)
+                     fill_group(unit_ctx, unit, g);
+             });
+    for_each_place(crew, unit.first_row, unit.row_count, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
+    for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i)
                    {
                        const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
                        ctx.scratch.joints[as_index(i)] = prepare_joint(unit_ctx, place.joint, place.a, place.b);
                    });
-    fill_joint_lanes(unit_ctx, unit, hooks);
+    joint_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { fill_joint_groups(unit_ctx, unit, first, last); });
 }
 
-void commit_unit(const StepContext& ctx, const Unit& unit, const TaskHooks& hooks)
+void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const Scratch& scratch = ctx.scratch;
-    for_each_place(hooks, unit.wide_store, unit.wide_count, groups_per_part,
-                   [&](std::int32_t g) { commit_wide_row(ctx.state, scratch.wide_rows[as_index(g)]); });
-    for_each_place(hooks, unit.first_row, unit.row_count, rows_per_part,
+    contact_bins(scratch, unit)
+        .all(crew,
+             [&](int first, int last)
+             {
+                 for (int g = first; g < last; ++g)
+                     commit_wide_row(ctx.state, scratch.wide_rows[as_index(unit.wide_store + g)]);
+             });
+    for_each_place(crew, unit.first_row, unit.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
-    for_each_place(hooks, unit.first_joint, unit.joint_count, rows_per_part,
+    for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
-    for_each_place(hooks, unit.first_wide_joint, unit.wide_joint_count, groups_per_part,
-                   [&](std::int32_t g) { commit_wide_joint(ctx, scratch.wide_joints[as_index(g)]); });
+    joint_bins(scratch, unit)
+        .all(crew,
+             [&](int first, int last)
+             {
+                 for (int g = first; g < last; ++g)
+                     commit_wide_joint(ctx, scratch.wide_joints[as_index(unit.first_wide_joint + g)]);
+             });
 }
 
 void commit_row(SceneState& state, const ContactRow& row)

@@ -13,6 +13,7 @@
 #include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/springs.h"
+#include "dynamics/unit_bins.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
@@ -27,8 +28,7 @@ namespace {
 
 constexpr int turns = 3;
 constexpr int settle_turns = 16;
-constexpr int groups_per_share = 16;
-constexpr int states_per_share = 256;
+constexpr int enough_states = 256; // to share
 constexpr int guard_passes = 8;
 constexpr float follow_turn = 0.03f; // rad
 
@@ -74,7 +74,8 @@ public:
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness},
           m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
-          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.flier_count == 0)
+          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.flier_count == 0),
+          m_bins(contact_bins(m_scratch, unit)), m_joint_bins(joint_bins(m_scratch, unit))
     {}
 
     void run()
@@ -211,8 +212,7 @@ private:
     {
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             note_approach(m_view, impact_row(i));
-        m_crew.share(m_unit.wide_count, groups_per_share,
-                     [&](int first, int last) { m_kernels.note_approach(m_wide + first, last - first, m_view.states); });
+        m_bins.all(m_crew, [&](int first, int last) { m_kernels.note_approach(m_wide + first, last - first, m_view.states); });
         note_limit_approach(m_view, m_ctx.state, m_joints);
     }
 
@@ -242,7 +242,7 @@ private:
     template <class Visit>
     void over_states(const Visit& visit)
     {
-        m_crew.share(m_unit.state_count, states_per_share,
+        m_crew.share(m_unit.state_count, enough_states,
                      [&](int first, int last)
                      {
                          for (int i = m_unit.first_state + first; i < m_unit.first_state + last; ++i)
@@ -283,33 +283,6 @@ private:
             });
     }
 
-    // Colour by colour: within one no two groups share a body that gives way, and all threads take shares.
-    template <class Pass>
-    void over_colors(std::span<const std::int32_t> starts, const Pass& pass)
-    {
-        if (starts.empty())
-            return;
-        if (!m_crew.has_helpers())
-        {
-            pass(starts.front(), starts.back());
-            return;
-        }
-        for (std::size_t c = 0; c + 1 < starts.size(); ++c)
-            m_crew.share(starts[c + 1] - starts[c], groups_per_share,
-                         [&](int first, int last) { pass(starts[c] + first, starts[c] + last); });
-    }
-
-    [[nodiscard]] std::span<const std::int32_t> contact_colors() const
-    {
-        return std::span(m_scratch.color_starts)
-            .subspan(static_cast<std::size_t>(m_unit.first_color), static_cast<std::size_t>(m_unit.color_count));
-    }
-    [[nodiscard]] std::span<const std::int32_t> joint_colors() const
-    {
-        return std::span(m_scratch.joint_color_starts)
-            .subspan(static_cast<std::size_t>(m_unit.first_joint_color), static_cast<std::size_t>(m_unit.joint_color_count));
-    }
-
     void warm_start_all(int k)
     {
         kick_springs_before(m_view, m_ctx.state, m_joints);
@@ -318,10 +291,9 @@ private:
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         if (m_starts_by_body && k > 0)
             return;
-        over_colors(joint_colors(), [&](int first, int last)
-                    { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
-        over_colors(contact_colors(),
-                    [&](int first, int last) { m_kernels.warm_start(m_wide + first, last - first, m_view.states); });
+        m_joint_bins.by_color(m_crew, [&](int first, int last)
+                              { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
+        m_bins.by_color(m_crew, [&](int first, int last) { m_kernels.warm_start(m_wide + first, last - first, m_view.states); });
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
@@ -360,11 +332,11 @@ private:
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
             m_softness.share = m_joint_softness.share = turn + 1 == most ? 1 : 0;
             const auto joint_pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
-            over_colors(joint_colors(), [&](int first, int last)
-                        { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
+            m_joint_bins.by_color(m_crew, [&](int first, int last)
+                                  { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
             const auto contact_pass = use_bias ? m_kernels.solve : m_kernels.relax;
-            over_colors(contact_colors(),
-                        [&](int first, int last) { contact_pass(m_wide + first, last - first, m_view.states, m_softness); });
+            m_bins.by_color(m_crew,
+                            [&](int first, int last) { contact_pass(m_wide + first, last - first, m_view.states, m_softness); });
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
@@ -915,6 +887,8 @@ private:
     WideJoint* m_wide_joints;
     JointSoftness m_joint_softness;
     bool m_starts_by_body;
+    UnitBins m_bins;
+    UnitBins m_joint_bins;
     const WideKernels& m_kernels = wide_kernels();
     std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise units
 };

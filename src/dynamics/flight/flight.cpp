@@ -11,6 +11,7 @@
 #include "dynamics/flight/trace.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace carom::internal {
 
@@ -85,17 +86,32 @@ void note_all_reaches(const FlightSpan& span)
 }
 
 constexpr int fliers_per_share = 16;
+constexpr int enough_fliers = 32; // to share
 
 // Where nothing has happened yet each looks for itself.
 void find_first_events(const FlightSpan& span, Crew& crew)
 {
     const std::span<Flier> fliers = span.fliers();
-    crew.share(static_cast<int>(fliers.size()), fliers_per_share,
-               [&](int first, int last)
-               {
-                   for (int i = first; i < last; ++i)
-                       static_cast<void>(try_find_next_event(span, fliers[static_cast<std::size_t>(i)]));
-               });
+    const auto count = static_cast<int>(fliers.size());
+    const auto look = [&](int first, int last)
+    {
+        for (int i = first; i < std::min(last, count); ++i)
+            static_cast<void>(try_find_next_event(span, fliers[static_cast<std::size_t>(i)]));
+    };
+    if (!crew.has_helpers() || count < enough_fliers)
+    {
+        look(0, count);
+    }
+    else
+    { // some take far longer than others
+        std::atomic<int> next{0};
+        crew.in_parts(
+            [&](int, int)
+            {
+                for (int first = 0; (first = next.fetch_add(fliers_per_share)) < count;)
+                    look(first, first + fliers_per_share);
+            });
+    }
     for (Flier& f : fliers)
     {
         if (f.passes == none)

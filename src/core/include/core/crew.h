@@ -1,9 +1,9 @@
 #pragma once
 
 // Many short rounds of shared work inside one long task: the colours of a large unit. Tasks of the user's job system are too dear for that, so
-// one set of them stays together: the first to come leads, and does everything itself if nobody comes; the others take shares of whatever the
-// leader offers, until it is done. Shares write only what is their own; so who takes which does not matter. Each begins with its own part of
-// every round, so that what it has worked on before is still in its cache, and then helps the others.
+// one set of them stays together: the first to come leads, the others serve. A round has a part for each; a member takes its own part of every round, so
+// that what it has worked on before is still in its cache, and whoever is ready takes those of members that have not come. Parts write only what
+// is their own; so who takes which does not matter.
 
 #include "core/task_pool.h"
 
@@ -33,100 +33,100 @@ public:
                       const int member = crew.m_arrived++;
                       if (member > 0)
                       {
-                          crew.help(member);
+                          crew.serve(member);
                           return;
                       }
                       lead(crew);
-                      crew.m_over = true;
+                      crew.m_over.store(true, std::memory_order_release);
                   });
     }
 
     [[nodiscard]] bool has_helpers() const { return m_members > 1; }
 
-    /// Calls work(first, last) for shares of 0 ... count. For the leader.
+    /// Calls work(part, parts) for each part. For the leader.
     template <class Work>
-    void share(int count, int share_size, const Work& work)
+    void in_parts(const Work& work)
     {
-        const int shares = (count + share_size - 1) / share_size;
-        if (shares <= 1 || !has_helpers())
+        ++m_round;
+        for (int p = 1; p < m_members; ++p)
+        {
+            Part& part = m_parts[p];
+            part.context = &work;
+            part.work = [](const void* context, int i, int count) { (*static_cast<const Work*>(context))(i, count); };
+            part.offered.store(m_round, std::memory_order_release);
+        }
+        work(0, m_members);
+        for (int p = 1; p < m_members; ++p)
+            take(p);
+        for (int p = 1; p < m_members; ++p)
+        {
+            while (m_parts[p].done.load(std::memory_order_acquire) != m_round)
+            {
+            }
+        }
+    }
+
+    /// Calls work(first, last) for a slice of 0 ... count to each part, where there is enough to share.
+    template <class Work>
+    void share(int count, int enough, const Work& work)
+    {
+        if (!has_helpers() || count < enough)
         {
             if (count > 0)
                 work(0, count);
             return;
         }
-        m_context = &work;
-        m_work = [](const void* context, int first, int last) { (*static_cast<const Work*>(context))(first, last); };
-        m_count = count;
-        m_share_size = share_size;
-        m_shares = shares;
-        m_done = 0;
-        ++m_round;
-        for (int p = 0; p < m_members; ++p)
-            m_parts[p].tickets = std::uint64_t{m_round} << 32 | static_cast<std::uint32_t>(part_end(p) - part_end(p - 1));
-        while (take_share(0))
-        {
-        }
-        while (m_done != shares)
-        {
-        }
+        in_parts([&](int part, int parts) { work(bound(count, part, parts), bound(count, part + 1, parts)); });
+    }
+
+    /// Where the slice of a part begins.
+    [[nodiscard]] static int bound(int count, int part, int parts)
+    {
+        return static_cast<int>(std::int64_t{count} * part / parts);
     }
 
 private:
     static constexpr int most_members = 16;
+    static constexpr int looks_at_own = 64; // before a member looks for parts of others
+
+    using Call = void (*)(const void*, int, int);
 
     struct alignas(64) Part
     {
-        std::atomic<std::uint64_t> tickets{0}; ///< round, and in the lower half how many of its shares nobody has taken
+        std::atomic<std::uint32_t> offered{0}; ///< in this round, and nobody has taken it; 0: none
+        std::atomic<std::uint32_t> done{0};    ///< the last round in which it was
+        Call work = nullptr;                   ///< stays until it is done
+        const void* context = nullptr;
     };
 
-    [[nodiscard]] int part_end(int part) const { return (part + 1) * m_shares / m_members; }
-
-    bool take_share(int member)
+    // Who has taken a part keeps its round from ending.
+    bool take(int p)
     {
-        for (int i = 0; i < m_members; ++i)
-        {
-            if (take_share_of((member + i) % m_members))
-                return true;
-        }
-        return false;
-    }
-
-    // Who holds a ticket keeps its round from ending.
-    bool take_share_of(int part)
-    {
-        std::atomic<std::uint64_t>& at = m_parts[part].tickets;
-        std::uint64_t tickets = at;
-        do
-        {
-            if (static_cast<std::uint32_t>(tickets) == 0)
-                return false;
-        } while (!at.compare_exchange_weak(tickets, tickets - 1));
-        const int first = (part_end(part) - static_cast<int>(static_cast<std::uint32_t>(tickets))) * m_share_size;
-        m_work(m_context, first, std::min(first + m_share_size, m_count));
-        ++m_done;
+        Part& part = m_parts[p];
+        std::uint32_t round = part.offered.load(std::memory_order_relaxed);
+        if (round == 0 || !part.offered.compare_exchange_strong(round, 0, std::memory_order_acquire))
+            return false;
+        part.work(part.context, p, m_members);
+        part.done.store(round, std::memory_order_release);
         return true;
     }
 
-    void help(int member)
+    void serve(int member)
     {
-        while (!m_over)
-            take_share(member);
+        for (int look = 1; !m_over.load(std::memory_order_acquire); ++look)
+        {
+            if (take(member) || look % looks_at_own != 0)
+                continue;
+            for (int p = 1; p < m_members; ++p)
+                take(p);
+        }
     }
 
-    using Work = void (*)(const void*, int, int);
-
     std::atomic<int> m_arrived{0};
-    std::atomic<bool> m_over{false};
+    alignas(64) std::atomic<bool> m_over{false};
+    alignas(64) std::uint32_t m_round = 0; ///< the leader's
     int m_members = 1;
     Part m_parts[most_members];
-    alignas(64) std::atomic<int> m_done{0};
-    // Of the round; they stay until all its shares are done.
-    alignas(64) std::uint32_t m_round = 0;
-    int m_count = 0;
-    int m_share_size = 1;
-    int m_shares = 0;
-    Work m_work = nullptr;
-    const void* m_context = nullptr;
 };
 
 } // namespace carom::internal

@@ -19,6 +19,8 @@ namespace carom::internal {
 
 inline constexpr std::int32_t none = -1;
 
+inline constexpr int plane_cells = 16;
+
 struct BodyRecord
 {
     BodyType type = BodyType::Static;
@@ -26,6 +28,7 @@ struct BodyRecord
     bool enabled = true;
     bool can_sleep = true;
     bool mass_overridden = false;
+    std::uint8_t plane_cell = 0;     ///< sixteenth of the awake bodies, as tidy() last parted them by where they are
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;

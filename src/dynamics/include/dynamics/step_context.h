@@ -4,6 +4,7 @@
 
 #include "carom/event.h"
 #include "collision/time_of_impact.h"
+#include "collision/z_order.h"
 #include "dynamics/joint_rows.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
@@ -50,17 +51,18 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_color = 0; ///< where the colors of its wide rows begin, and where the last ends, in Scratch::color_starts
-    std::int32_t color_count = 0;
+    std::int32_t first_bin = 0; ///< where cells of bins of its wide rows begin, and where the last ends, in Scratch::bin_starts
+    std::int32_t bin_count = 0; ///< two to a color
+    std::int32_t cells = 1;     ///< of a bin: what lies in one part of the unit
     std::int32_t first_joint_lane = 0;
     std::int32_t joint_lane_count = 0;
-    std::int32_t first_joint_color = 0;
-    std::int32_t joint_color_count = 0;
-    std::int32_t slices = 1; ///< of each sub-step
-    bool alone = false;      ///< one body with nothing near: it falls
-    bool precise = false;    ///< few bodies: contacts of round shapes are looked at anew in every sub-step
-    bool heap = false;       ///< joints that lie on something, of several islands
-    bool traced = false;     ///< paths of some of its bodies are recorded
+    std::int32_t first_joint_bin = 0;
+    std::int32_t joint_bin_count = 0; ///< two to a color, of one cell each
+    std::int32_t slices = 1;          ///< of each sub-step
+    bool alone = false;               ///< one body with nothing near: it falls
+    bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
+    bool heap = false;                ///< joints that lie on something, of several islands
+    bool traced = false;              ///< paths of some of its bodies are recorded
 };
 
 /// What the update of a contact found that others must hear of.
@@ -91,6 +93,7 @@ struct Link
     bool in_lane = false;
     std::uint8_t points = 0;
     std::uint8_t color = 0;
+    std::uint8_t cell = 0;
 };
 
 /// What a task has found.
@@ -317,8 +320,8 @@ struct Scratch
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     std::vector<WideRow> wide_rows;
-    std::vector<std::int32_t> color_starts; ///< groups of wide rows, from the unit's first on
-    std::vector<std::int32_t> joint_color_starts;
+    std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
+    std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
     std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
@@ -341,6 +344,7 @@ struct Scratch
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
     std::vector<std::int32_t> moved_to; ///< by contact slot
+    ZOrder plane_order;                 ///< of the awake bodies
 };
 
 /// Those of a unit, in flight or landed.
