@@ -34,6 +34,15 @@ bool is_same(const Link& a, const Link& b)
            a.plain == b.plain && a.round == b.round && a.points == b.points;
 }
 
+// Bodies awake, and in the parts of the plane by which they are laid out.
+bool bodies_stay(const StepContext& ctx)
+{
+    const KeptUnits& kept = ctx.scratch.kept_units;
+    return std::equal(kept.bodies.begin(), kept.bodies.end(), ctx.state.awake_bodies.begin(), ctx.state.awake_bodies.end(),
+                      [&](const KeptBody& k, std::int32_t body)
+                      { return k.body == body && k.cell == ctx.state.bodies[body].plane_cell; });
+}
+
 bool are_same(const std::vector<Link>& a, const std::vector<Link>& b)
 {
     return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), is_same);
@@ -46,7 +55,7 @@ bool units_stay(const StepContext& ctx)
     const Scratch& scratch = ctx.scratch;
     const KeptUnits& kept = scratch.kept_units;
     return kept.are_plain && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven && all_grounded(scratch) &&
-           kept.bodies == ctx.state.awake_bodies && are_same(kept.links, scratch.links) && kept.joints == scratch.joint_links;
+           bodies_stay(ctx) && are_same(kept.links, scratch.links) && kept.joints == scratch.joint_links;
 }
 
 void keep_units(StepContext& ctx)
@@ -57,7 +66,9 @@ void keep_units(StepContext& ctx)
                      std::all_of(scratch.units.begin(), scratch.units.end(), is_plain);
     if (!kept.are_plain)
         return;
-    kept.bodies = ctx.state.awake_bodies;
+    kept.bodies.clear();
+    for (const std::int32_t body : ctx.state.awake_bodies)
+        kept.bodies.push_back({body, ctx.state.bodies[body].plane_cell});
     kept.bound.resize(scratch.states.size());
     for (std::size_t s = 0; s < scratch.states.size(); ++s)
         kept.bound[s] = (scratch.states[s].flags & body_flag::unbound) == 0 ? 1 : 0;

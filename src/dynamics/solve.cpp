@@ -129,6 +129,7 @@ void form_batches(Scratch& scratch)
         unit.wide_store += is_large(unit) ? store : 0;
     if (scratch.wide_rows.size() < static_cast<std::size_t>(store + large))
         scratch.wide_rows.resize(static_cast<std::size_t>(store + large));
+    scratch.struck.resize(scratch.wide_rows.size());
 }
 
 void solve_small(StepContext& ctx)

@@ -70,8 +70,8 @@ public:
           m_rows(rows_of(ctx.scratch, unit)),
           m_joints(std::span(ctx.scratch.joints)
                        .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
-          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store),
-          m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness},
+          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store), m_struck(ctx.scratch.struck.data() + unit.wide_store),
+          m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness, m_ctx.rest_speed},
           m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
           m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.flier_count == 0),
@@ -334,9 +334,14 @@ private:
             const auto joint_pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
             m_joint_bins.by_color(m_crew, [&](int first, int last)
                                   { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
-            const auto contact_pass = use_bias ? m_kernels.solve : m_kernels.relax;
             m_bins.by_color(m_crew,
-                            [&](int first, int last) { contact_pass(m_wide + first, last - first, m_view.states, m_softness); });
+                            [&](int first, int last)
+                            {
+                                if (use_bias)
+                                    m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness);
+                                else
+                                    m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_struck + first);
+                            });
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
@@ -630,28 +635,17 @@ private:
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
         for (int g = 0; g < m_unit.wide_count; ++g)
-            bounce_wide_row(g, k);
+        {
+            for (unsigned lanes = m_struck[g]; lanes != 0; lanes &= lanes - 1)
+                bounce_lane(m_wide[g], (m_unit.wide_store + g) * lane_count + std::countr_zero(lanes), k);
+        }
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
             m_output.direct->keep_together();
         return m_output.kicked_shapes.size() != kicks;
     }
 
-    // Lanes that bear a load: told once, bounced once.
-    void bounce_wide_row(int group, int k)
-    {
-        WideRow& wide = m_wide[group];
-        unsigned news = wide.may_hit | wide.untold;
-        for (; news != 0; news &= news - 1)
-        {
-            const int i = std::countr_zero(news);
-            const bool loaded =
-                wide.points[0].normal_impulse.v[i] > 0 || (wide.count == 2 && wide.points[1].normal_impulse.v[i] > 0);
-            if (loaded)
-                bounce_lane(wide, (m_unit.wide_store + group) * lane_count + i, k);
-        }
-    }
-
+    // It bears a load: told once, bounced once.
     void bounce_lane(WideRow& wide, std::int32_t lane, int k)
     {
         const unsigned bit = 1u << (lane % lane_count);
@@ -662,8 +656,6 @@ private:
                 approach = std::max(approach, wide.points[p].approach.v[lane % lane_count]);
         }
         const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
-        if (!strikes && (wide.untold & bit) == 0)
-            return;
         ContactRow row = row_of_lane(m_ctx, lane);
         row.hit = strikes ? 0 : 1;
         const ContactRow before = row;
@@ -883,6 +875,7 @@ private:
     std::span<ContactRow> m_rows;
     std::span<JointWork> m_joints;
     WideRow* m_wide;
+    std::uint8_t* m_struck; ///< lanes of each group
     WideSoftness m_softness;
     WideJoint* m_wide_joints;
     JointSoftness m_joint_softness;

@@ -182,6 +182,23 @@ CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftnes
     g.finish(row, states);
 }
 
+// Lanes that bear a load: struck harder than rest, or touching for the first time.
+template <int points>
+CAROM_INLINE std::uint8_t struck_lanes(const WideRow& row, float rest_speed)
+{
+    if ((row.may_hit | row.untold) == 0)
+        return 0;
+    unsigned loaded = 0;
+    unsigned fast = 0;
+    for (int i = 0; i < points; ++i)
+    {
+        const I8 is_loaded = load(row.points[i].normal_impulse) > all(0);
+        loaded |= bits(is_loaded);
+        fast |= bits(is_loaded & (load(row.points[i].approach) > all(rest_speed)));
+    }
+    return static_cast<std::uint8_t>(loaded & (row.untold | (row.may_hit & fast)));
+}
+
 template <int points>
 CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
 {
@@ -257,14 +274,20 @@ void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftn
     }
 }
 
-void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s)
+void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, std::uint8_t* struck)
 {
-    for (WideRow* row = rows; row < rows + count; ++row)
+    for (WideRow* row = rows; row < rows + count; ++row, ++struck)
     {
         if (row->count == 2)
+        {
             relax_group<2>(*row, states, s);
+            *struck = struck_lanes<2>(*row, s.rest_speed);
+        }
         else
+        {
             relax_group<1>(*row, states, s);
+            *struck = struck_lanes<1>(*row, s.rest_speed);
+        }
     }
 }
 

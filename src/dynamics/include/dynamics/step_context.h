@@ -138,10 +138,16 @@ struct JointLink
     [[nodiscard]] bool operator==(const JointLink&) const = default;
 };
 
+struct KeptBody
+{
+    std::int32_t body;
+    std::uint8_t cell; ///< of the plane
+};
+
 /// What the units of the last step were made of, see kept_units.cpp.
 struct KeptUnits
 {
-    std::vector<std::int32_t> bodies;
+    std::vector<KeptBody> bodies;
     std::vector<Link> links;
     std::vector<JointLink> joints;
     std::vector<std::uint8_t> bound; ///< of each state: rows, limits or motors hold it
@@ -320,6 +326,7 @@ struct Scratch
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     std::vector<WideRow> wide_rows;
+    std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
     std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
     std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;

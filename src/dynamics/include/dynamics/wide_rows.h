@@ -58,8 +58,9 @@ struct WideSoftness
     float inverse_h;
     float push_speed;
     Softness contact;
-    Softness stiff;  ///< against what has infinite mass
-    float share = 1; ///< of the impulses, that relaxing adds to the sums
+    Softness stiff;   ///< against what has infinite mass
+    float rest_speed; ///< approach below it is no blow
+    float share = 1;  ///< of the impulses, that relaxing adds to the sums
 };
 
 } // namespace carom::internal
