@@ -16,12 +16,14 @@
 #include "dynamics/wake.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace carom::internal {
 
 namespace {
 
+constexpr std::size_t bodies_per_task = 512;
 constexpr float creeping = 0.2f;      // of the sleep speed
 constexpr float creep_time = 0.5f;    // s
 constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
@@ -266,8 +268,10 @@ void keep_carried_awake(const StepContext& ctx)
     SceneState& state = ctx.state;
     for (const std::int32_t body : state.awake_bodies)
     {
+        if (state.bodies[body].type != BodyType::Kinematic)
+            continue;
         const BodySim& carrier = state.sims[static_cast<std::size_t>(body)];
-        if (state.bodies[body].type != BodyType::Kinematic || (carrier.velocity == Vec2{} && carrier.angular_velocity == 0))
+        if (carrier.velocity == Vec2{} && carrier.angular_velocity == 0)
             continue;
         for_each_contact(state, body,
                          [&](int index)
@@ -283,11 +287,22 @@ void keep_carried_awake(const StepContext& ctx)
 void put_to_sleep(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), 1024,
-                      [&](std::size_t i) { settle_or_stir(ctx, state.awake_bodies[i]); });
-    if (!ctx.scene.def.sleeping)
+    std::atomic<bool> any_tired{false};
+    std::atomic<bool> any_kinematic{false};
+    for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
+                      [&](std::size_t i)
+                      {
+                          const std::int32_t body = state.awake_bodies[i];
+                          settle_or_stir(ctx, body);
+                          if (state.sims[static_cast<std::size_t>(body)].sleep_time >= time_to_sleep)
+                              any_tired.store(true, std::memory_order_relaxed);
+                          if (state.bodies[body].type == BodyType::Kinematic)
+                              any_kinematic.store(true, std::memory_order_relaxed);
+                      });
+    if (ctx.scene.def.sleeping && any_kinematic)
+        keep_carried_awake(ctx);
+    if (!ctx.scene.def.sleeping || !any_tired)
         return;
-    keep_carried_awake(ctx);
     // The least sleep time of each island, at the place of its label.
     std::vector<float>& least = ctx.scratch.least_sleep;
     least.assign(state.awake_bodies.size(), 3e38f);
@@ -317,21 +332,23 @@ void put_to_sleep(StepContext& ctx)
 
 void clear_forces(StepContext& ctx)
 {
-    for (const std::int32_t body : ctx.state.awake_bodies)
-    {
-        BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-        if (!ctx.scene.keep_forces)
-        {
-            sim.force = {};
-            sim.torque = 0;
-        }
-        if (ctx.state.bodies[body].has_target)
-        {
-            ctx.state.bodies[body].has_target = false;
-            sim.velocity = {};
-            sim.angular_velocity = 0;
-        }
-    }
+    for_each_in_parts(ctx.scene.def.tasks, ctx.state.awake_bodies.size(), bodies_per_task,
+                      [&](std::size_t i)
+                      {
+                          const std::int32_t body = ctx.state.awake_bodies[i];
+                          BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+                          if (!ctx.scene.keep_forces)
+                          {
+                              sim.force = {};
+                              sim.torque = 0;
+                          }
+                          if (ctx.state.bodies[body].has_target)
+                          {
+                              ctx.state.bodies[body].has_target = false;
+                              sim.velocity = {};
+                              sim.angular_velocity = 0;
+                          }
+                      });
 }
 
 } // namespace
@@ -348,9 +365,15 @@ void commit_and_sleep(StepContext& ctx)
             record_kinematic(ctx, body);
         commit_kinematic(ctx, body);
     }
-    for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), 512,
-                      [&](std::size_t i) { commit_state(ctx, static_cast<std::int32_t>(i)); });
-    for (std::size_t i = 0; i < scratch.states.size(); ++i)
+    std::atomic<bool> any_unsound{false};
+    for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), bodies_per_task,
+                      [&](std::size_t i)
+                      {
+                          commit_state(ctx, static_cast<std::int32_t>(i));
+                          if ((scratch.states[i].flags & body_flag::unsound) != 0)
+                              any_unsound.store(true, std::memory_order_relaxed);
+                      });
+    for (std::size_t i = 0; any_unsound && i < scratch.states.size(); ++i)
     {
         if ((scratch.states[i].flags & body_flag::unsound) != 0)
             scratch.unsound.push_back(scratch.state_bodies[i]);

@@ -49,6 +49,12 @@ bool too_wide(const FloatBox& fat, const FloatBox& needed, float margin)
     return (fat.ux - fat.lx) > (needed.ux - needed.lx) + 8 * margin || (fat.uy - fat.ly) > (needed.uy - needed.ly) + 8 * margin;
 }
 
+// Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
+bool is_sound(const BodySim& sim, float motion)
+{
+    return motion + std::fabs(sim.angular_velocity) + std::fabs(sim.torque) < 1e15f;
+}
+
 // Writes to its own body and boxes alone.
 void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& moved)
 {
@@ -60,6 +66,11 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     const Vec2 shift = predicted_shift(ctx, record, sim);
     const float any_way = free_motion(ctx, body, sim, shift);
     motion = length(shift) + any_way;
+    if (!is_sound(sim, motion))
+    {
+        moved.unsound.push_back(body);
+        return;
+    }
     const float margin = ctx.scene.tolerances.box_margin;
     for_each_leaf(state, body,
                   [&](int shape)
@@ -77,29 +88,10 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
                   });
 }
 
-// Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
-void put_aside_unsound(StepContext& ctx)
-{
-    std::vector<std::int32_t>& unsound = ctx.scratch.unsound;
-    unsound.clear();
-    for (const std::int32_t body : ctx.state.awake_bodies)
-    {
-        const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-        const float reach =
-            length(predicted_shift(ctx, ctx.state.bodies[body], sim)) + std::fabs(sim.angular_velocity) + std::fabs(sim.torque);
-        if (!(reach < 1e15f))
-            unsound.push_back(body);
-    }
-    for (const std::int32_t body : unsound)
-        quarantine(ctx, body, 0);
-}
-
-} // namespace
-
-void sweep_paths(StepContext& ctx)
+// True where all are sound.
+bool sweep_all(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    put_aside_unsound(ctx);
     const std::vector<std::int32_t>& bodies = ctx.state.awake_bodies;
     scratch.motion.resize(bodies.size());
     const std::span<MovedBoxes> parts = find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.moved_of_task,
@@ -107,18 +99,34 @@ void sweep_paths(StepContext& ctx)
                                                       {
                                                           moved.items.clear();
                                                           moved.boxes.clear();
+                                                          moved.unsound.clear();
                                                           for (std::size_t i = first; i < last; ++i)
                                                               sweep_body(ctx, bodies[i], scratch.motion[i], moved);
                                                       });
     MovedBoxes& all = scratch.moved;
     all.items.clear();
     all.boxes.clear();
+    scratch.unsound.clear();
     for (const MovedBoxes& some : parts)
     {
         all.items.insert(all.items.end(), some.items.begin(), some.items.end());
         all.boxes.insert(all.boxes.end(), some.boxes.begin(), some.boxes.end());
+        scratch.unsound.insert(scratch.unsound.end(), some.unsound.begin(), some.unsound.end());
     }
-    scratch.all_fitted = !all.items.empty() && ctx.state.broad_phase.update_moving(all.items, all.boxes);
+    for (const std::int32_t body : scratch.unsound)
+        quarantine(ctx, body, 0);
+    return scratch.unsound.empty();
+}
+
+} // namespace
+
+void sweep_paths(StepContext& ctx)
+{
+    while (!sweep_all(ctx))
+    { // without those that were put aside
+    }
+    const MovedBoxes& moved = ctx.scratch.moved;
+    ctx.scratch.all_fitted = !moved.items.empty() && ctx.state.broad_phase.update_moving(moved.items, moved.boxes);
 }
 
 } // namespace carom::internal

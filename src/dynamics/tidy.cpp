@@ -2,6 +2,7 @@
 // last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
 // in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
+#include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_graph.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr std::uint64_t steps_between = 8;
 constexpr std::uint64_t steps_between_cells = 32;
 constexpr std::size_t few_of = 8; // less than one of so many
+constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
 void sort_bodies(SceneState& state)
@@ -55,7 +57,8 @@ class ContactOrder
 {
 public:
     explicit ContactOrder(StepContext& ctx)
-        : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order), m_sorted(ctx.scratch.sorted_contacts)
+        : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order), m_sorted(ctx.scratch.sorted_contacts),
+          m_moved_to(ctx.scratch.moved_to), m_tasks(ctx.scene.def.tasks)
     {}
 
     void find()
@@ -94,16 +97,13 @@ public:
         slots = m_state.awake_contacts;
         std::sort(slots.begin(), slots.end());
         m_state.awake_contacts = slots;
-        std::vector<std::int32_t>& moved_to = m_scratch.moved_to;
-        moved_to.resize(static_cast<std::size_t>(m_state.contacts.capacity()));
-        std::iota(moved_to.begin(), moved_to.end(), 0);
+        m_moved_to.resize(static_cast<std::size_t>(m_state.contacts.capacity()));
+        std::iota(m_moved_to.begin(), m_moved_to.end(), 0);
         for (std::size_t i = 0; i < m_order.size(); ++i)
-            moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
-        for (const std::int32_t slot : slots)
-            move_around(slot);
-        for (std::size_t i = 0; i < slots.size(); ++i)
-            m_state.contacts[slots[i]].awake_index = static_cast<std::int32_t>(i);
-        rename();
+            m_moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
+        take_up();
+        put_down(slots);
+        rename_others();
     }
 
 private:
@@ -152,56 +152,75 @@ private:
         m_order.swap(m_sorted);
     }
 
-    // What stands in a slot goes where it belongs, what stood there goes on, until one comes to this slot. What has been moved has no awake_index until
-    // all have.
-    void move_around(std::int32_t start)
+    // Copies in their new order, with what they name renamed.
+    void take_up()
     {
-        if (m_state.contacts[start].awake_index == none)
-            return;
-        Contact contact = m_state.contacts[start];
-        KeptManifold kept = m_state.kept_manifolds[static_cast<std::size_t>(start)];
-        std::int32_t slot = start;
-        do
-        {
-            slot = m_scratch.moved_to[static_cast<std::size_t>(slot)];
-            contact.awake_index = none;
-            std::swap(contact, m_state.contacts[slot]);
-            std::swap(kept, m_state.kept_manifolds[static_cast<std::size_t>(slot)]);
-        } while (slot != start);
+        std::vector<MovedContact>& moved = m_scratch.moved_contacts;
+        moved.resize(m_order.size());
+        for_each_in_parts(m_tasks, moved.size(), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t from = m_order[i].contact;
+                              moved[i] = {m_state.contacts[from], m_state.kept_manifolds[static_cast<std::size_t>(from)]};
+                              Contact& contact = moved[i].contact;
+                              contact.awake_index = static_cast<std::int32_t>(i);
+                              rename_edges(contact);
+                              if (contact.pair != none)
+                                  m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact =
+                                      m_moved_to[static_cast<std::size_t>(from)];
+                          });
     }
 
-    void rename()
+    void put_down(const std::vector<std::int32_t>& slots)
     {
-        const std::vector<std::int32_t>& moved_to = m_scratch.moved_to;
-        const auto rename_edge = [&](std::int32_t& edge)
-        {
-            if (edge != none)
-                edge = moved_to[static_cast<std::size_t>(edge >> 1)] * 2 + (edge & 1);
-        };
-        for (int i = 0; i < m_state.contacts.capacity(); ++i)
-        {
-            if (!m_state.contacts.is_live(i))
-                continue;
-            Contact& contact = m_state.contacts[i];
-            for (int side = 0; side < 2; ++side)
+        for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              m_state.contacts[slots[i]] = m_scratch.moved_contacts[i].contact;
+                              m_state.kept_manifolds[static_cast<std::size_t>(slots[i])] = m_scratch.moved_contacts[i].kept;
+                          });
+    }
+
+    void rename_others()
+    {
+        if (static_cast<std::size_t>(m_state.contacts.count()) != m_order.size())
+        { // asleep, or triggers'
+            for (int i = 0; i < m_state.contacts.capacity(); ++i)
             {
-                rename_edge(contact.next[side]);
-                rename_edge(contact.previous[side]);
+                const Contact& c = m_state.contacts[i];
+                if (m_state.contacts.is_live(i) && (c.awake_index == none || (c.flags & contact_flag::trigger) != 0))
+                    rename_edges(m_state.contacts[i]);
             }
-            if (contact.pair != none)
-                m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = i;
         }
-        for (int i = 0; i < m_state.bodies.capacity(); ++i)
+        for_each_in_parts(m_tasks, static_cast<std::size_t>(m_state.bodies.capacity()), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              if (m_state.bodies.is_live(static_cast<int>(i)))
+                                  rename(m_state.bodies[static_cast<int>(i)].first_contact);
+                          });
+    }
+
+    void rename_edges(Contact& contact) const
+    {
+        for (int side = 0; side < 2; ++side)
         {
-            if (m_state.bodies.is_live(i))
-                rename_edge(m_state.bodies[i].first_contact);
+            rename(contact.next[side]);
+            rename(contact.previous[side]);
         }
+    }
+
+    void rename(std::int32_t& edge) const
+    {
+        if (edge != none)
+            edge = m_moved_to[static_cast<std::size_t>(edge >> 1)] * 2 + (edge & 1);
     }
 
     SceneState& m_state;
     Scratch& m_scratch;
     std::vector<ContactPlace>& m_order;
     std::vector<ContactPlace>& m_sorted;
+    std::vector<std::int32_t>& m_moved_to;
+    const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
 };
 

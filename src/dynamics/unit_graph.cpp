@@ -30,6 +30,7 @@ constexpr int hinge_slice_limit = 64; // between bodies that move by themselves:
 constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t joints_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
+constexpr std::size_t items_per_task = 4096;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr int heap_bodies = 256;             // in a batch
 
@@ -37,18 +38,22 @@ constexpr int heap_bodies = 256;             // in a batch
 
 std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i)
 {
-    while (parent[static_cast<std::size_t>(i)] != i)
+    for (;;)
     {
-        std::int32_t& up = parent[static_cast<std::size_t>(i)];
-        up = parent[static_cast<std::size_t>(up)];
-        i = up;
+        const std::int32_t up = parent[static_cast<std::size_t>(i)];
+        const std::int32_t above = parent[static_cast<std::size_t>(up)];
+        if (above == up)
+            return up;
+        parent[static_cast<std::size_t>(i)] = above;
+        i = above;
     }
-    return i;
 }
 
 // The lesser place becomes the root: the result does not depend on the order of the links. False where they were linked already.
 bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b)
 {
+    if (parent[static_cast<std::size_t>(a)] == parent[static_cast<std::size_t>(b)])
+        return false;
     a = find_root(parent, a);
     b = find_root(parent, b);
     if (a == b)
@@ -399,7 +404,9 @@ public:
             std::int32_t& slices = scratch.units[static_cast<std::size_t>(unit)].slices;
             slices = std::max(slices, wanted);
         };
-        for (const Link& l : scratch.links)
+        const bool has_small = std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
+                                           [](const UnitTally& t) { return t.bodies <= precise_limit; });
+        for (const Link& l : has_small ? std::span(scratch.links) : std::span<Link>{})
         {
             if (l.solved && tally(unit_of_link(l)).bodies <= precise_limit)
                 slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn,
@@ -603,40 +610,40 @@ public:
         }
     }
 
-    // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count).
+    // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count). Where unit_of says none, the item is left out.
     template <class Item, class UnitOf, class SetRange>
-    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, UnitOf&& unit_of, SetRange&& set_range)
+    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, const UnitOf& unit_of, const SetRange& set_range)
     {
+        const TaskHooks& tasks = ctx.scene.def.tasks;
+        std::vector<std::int32_t>& units = scratch.unit_of_item;
+        units.resize(items.size());
+        for_each_in_parts(tasks, items.size(), items_per_task, [&](std::size_t i) { units[i] = unit_of(items[i]); });
         std::vector<std::int32_t>& starts = scratch.unit_starts;
         starts.assign(scratch.units.size() + 1, 0);
         std::int32_t last = 0;
         bool in_order = true;
-        for (const Item& item : items)
+        for (const std::int32_t unit : units)
         {
-            const std::int32_t unit = unit_of(item);
-            if (unit == none)
-                continue;
-            ++starts[static_cast<std::size_t>(unit) + 1];
-            in_order &= last <= unit;
+            in_order &= last <= unit; // not where it is left out
             last = unit;
+            if (unit != none)
+                ++starts[static_cast<std::size_t>(unit) + 1];
         }
         for (std::size_t u = 0; u < scratch.units.size(); ++u)
         {
             set_range(scratch.units[u], starts[u], starts[u + 1]);
             starts[u + 1] += starts[u];
         }
+        sorted.resize(static_cast<std::size_t>(starts.back()));
         if (in_order)
         {
-            sorted.clear();
-            std::copy_if(items.begin(), items.end(), std::back_inserter(sorted),
-                         [&](const Item& i) { return unit_of(i) != none; });
+            for_each_in_parts(tasks, items.size(), items_per_task, [&](std::size_t i) { sorted[i] = items[i]; });
             return;
         }
-        sorted.resize(static_cast<std::size_t>(starts.back()));
-        for (const Item& item : items)
+        for (std::size_t i = 0; i < items.size(); ++i)
         {
-            if (const std::int32_t unit = unit_of(item); unit != none)
-                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(unit)]++)] = item;
+            if (units[i] != none)
+                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(units[i])]++)] = items[i];
         }
     }
 
@@ -649,13 +656,16 @@ public:
 
     void sort_links()
     {
-        for (const Link& l : scratch.links)
-        {
-            if (l.solved && !gets_row(l))
-                forget_impulses(state.contacts[l.contact]);
-        }
         sort_by_unit(
-            scratch.links, scratch.solved_links, [&](const Link& l) { return gets_row(l) ? unit_of_link(l) : none; },
+            scratch.links, scratch.solved_links,
+            [&](const Link& l)
+            {
+                if (gets_row(l))
+                    return unit_of_link(l);
+                if (l.solved)
+                    forget_impulses(state.contacts[l.contact]);
+                return none;
+            },
             [](Unit& unit, int first, int count)
             {
                 unit.first_link = first;

@@ -24,6 +24,7 @@ namespace {
 
 constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
 constexpr int items_per_task = 512;
+constexpr std::size_t links_per_task = 2048;
 constexpr int most_cells = plane_cells;
 constexpr int links_worth_cells = 1024;
 
@@ -252,11 +253,22 @@ private:
     // written. A flier may land on one. Links name states from here on.
     void copy_kinematic_bodies(const Unit& unit)
     {
-        for (Link& l : links_of(unit))
-        {
-            l.a = state_at(unit, l.a);
-            l.b = state_at(unit, l.b);
+        const std::span<Link> links = links_of(unit);
+        for (Link& l : m_scratch.has_kinematic ? links : std::span<Link>{})
+        { // first, one after the other: they may get a state here
+            l.a = l.a < none ? -2 - state_at(unit, l.a) : l.a;
+            l.b = l.b < none ? -2 - state_at(unit, l.b) : l.b;
         }
+        const auto state_of = [&](std::int32_t place)
+        {
+            return place >= 0 ? m_scratch.state_of[as_index(place)] : place == none ? unit.first_state : -2 - place;
+        };
+        for_each_in_parts(m_ctx.scene.def.tasks, links.size(), links_per_task,
+                          [&](std::size_t i)
+                          {
+                              links[i].a = state_of(links[i].a);
+                              links[i].b = state_of(links[i].b);
+                          });
         for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
         {
             JointLink& j = m_scratch.solved_joints[as_index(i)];

@@ -101,17 +101,20 @@ struct Target
     F8 speed, bias, give;
 };
 
-CAROM_INLINE Target target_of(const Group& g, const WidePoint& p, const Displacement& d, const Soft& soft, const WideSoftness& s)
+CAROM_INLINE Target target_of(const Group& g, const WidePoint& p, const Soft& soft, const WideSoftness& s)
 {
-    const F8 separation = d.separation(p);
+    const F8 separation = load(p.separation);
     const I8 apart = separation > all(0);
     return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, all(-s.push_speed))),
             select(apart, all(1), soft.give)};
 }
 
-CAROM_INLINE Target relaxed(const Group& g, const WidePoint& p, const Displacement& d, const WideSoftness& s)
+// At new poses, which stay until the next sub-step's turn.
+CAROM_INLINE Target relaxed(const Group& g, WidePoint& p, const Displacement& d, const WideSoftness& s)
 {
-    return {g.normal_speed(p), greatest(d.separation(p), all(0)) * s.inverse_h, all(1)};
+    const F8 separation = d.separation(p);
+    store(p.separation, separation);
+    return {g.normal_speed(p), greatest(separation, all(0)) * s.inverse_h, all(1)};
 }
 
 CAROM_INLINE F8 set_normal(Group& g, WidePoint& p, F8 old, F8 impulse)
@@ -169,11 +172,10 @@ template <int points>
 CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftness& s)
 {
     Group g(row, states);
-    const Displacement d(row, g, states);
     const Soft soft(row, s);
-    const Target t = target_of(g, row.points[0], d, soft, s);
+    const Target t = target_of(g, row.points[0], soft, s);
     if (points == 2)
-        solve_normals(g, row, t, target_of(g, row.points[1], d, soft, s));
+        solve_normals(g, row, t, target_of(g, row.points[1], soft, s));
     else
         solve_normal(g, row.points[0], t);
     const F8 friction = load(row.friction);
@@ -188,15 +190,15 @@ CAROM_INLINE std::uint8_t struck_lanes(const WideRow& row, float rest_speed)
 {
     if ((row.may_hit | row.untold) == 0)
         return 0;
-    unsigned loaded = 0;
-    unsigned fast = 0;
-    for (int i = 0; i < points; ++i)
+    I8 loaded = load(row.points[0].normal_impulse) > all(0);
+    I8 struck = loaded & (load(row.points[0].approach) > all(rest_speed));
+    if (points == 2)
     {
-        const I8 is_loaded = load(row.points[i].normal_impulse) > all(0);
-        loaded |= bits(is_loaded);
-        fast |= bits(is_loaded & (load(row.points[i].approach) > all(rest_speed)));
+        const I8 other = load(row.points[1].normal_impulse) > all(0);
+        loaded |= other;
+        struck |= other & (load(row.points[1].approach) > all(rest_speed));
     }
-    return static_cast<std::uint8_t>(loaded & (row.untold | (row.may_hit & fast)));
+    return static_cast<std::uint8_t>((bits(loaded) & row.untold) | (bits(struck) & row.may_hit));
 }
 
 template <int points>
@@ -239,6 +241,7 @@ void prepare(WideRow* rows, std::int32_t count)
             const F8 k = mass + na * na * ia + nb * nb * ib;
             const F8 tangent_k = mass + ta * ta * ia + tb * tb * ib;
             store(p.k, select(k > all(0), k, all(1)));
+            store(p.separation, load(p.base));
             store(p.tangent_mass, select(tangent_k > all(0), all(1) / tangent_k, all(0)));
         }
         const F8 coupling = mass + load(row->points[0].across_a) * load(row->points[1].across_a) * ia +

@@ -45,13 +45,12 @@ CAROM_INLINE F8 root(F8 x)
     return r;
 }
 
-/// A bit per lane.
+/// A bit for each lane of a comparison that holds.
 CAROM_INLINE unsigned bits(I8 mask)
 {
-    unsigned r = 0;
-    for (int i = 0; i < lane_count; ++i)
-        r |= mask[i] != 0 ? 1u << i : 0u;
-    return r;
+    const I4 low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
+    const I4 high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+    return bits(low) | bits(high) << 4;
 }
 
 /// Eight records of four floats become four vectors of eight lanes. Lane i is what `at(i)` points to.

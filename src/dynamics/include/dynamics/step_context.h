@@ -112,6 +112,13 @@ struct ContactPlace
     std::int32_t contact;
 };
 
+/// On its way to another slot.
+struct MovedContact
+{
+    Contact contact;
+    KeptManifold kept;
+};
+
 /// What a unit is made of.
 struct UnitTally
 {
@@ -281,6 +288,7 @@ struct MovedBoxes
 {
     std::vector<std::int32_t> items;
     std::vector<FloatBox> boxes;
+    std::vector<std::int32_t> unsound; ///< bodies that would leave all numbers
 };
 
 struct Scratch
@@ -309,7 +317,8 @@ struct Scratch
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
-    std::vector<Link> solved_links; ///< those that get rows, by unit
+    std::vector<std::int32_t> unit_of_item; ///< of those that are sorted by unit
+    std::vector<Link> solved_links;         ///< those that get rows, by unit
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
@@ -351,7 +360,8 @@ struct Scratch
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
     std::vector<std::int32_t> moved_to; ///< by contact slot
-    ZOrder plane_order;                 ///< of the awake bodies
+    std::vector<MovedContact> moved_contacts;
+    ZOrder plane_order; ///< of the awake bodies
 };
 
 /// Those of a unit, in flight or landed.

@@ -19,8 +19,9 @@ struct WidePoint
     LaneFloats along_a;
     LaneFloats across_b;
     LaneFloats along_b;
-    LaneFloats base; ///< separation = base + n · (relative displacement of the anchors)
-    LaneFloats k;    ///< J M^-1 J^T of the normal; 1 in empty lanes
+    LaneFloats base;       ///< separation at the start of the step; later n · (relative displacement of the anchors) more
+    LaneFloats separation; ///< at the poses that bodies have, as relaxing found it
+    LaneFloats k;          ///< J M^-1 J^T of the normal; 1 in empty lanes
     LaneFloats tangent_mass;
     LaneFloats normal_impulse;
     LaneFloats tangent_impulse;
