@@ -74,6 +74,7 @@ void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int 
             group = empty_wide_joint(l->fixed);
         fill_joint_lane(ctx, l->place.joint, l->place.a, l->place.b, group, l->lane % lane_count);
     }
+    wide_kernels().prepare_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint + first, last - first);
 }
 
 void commit_joint(const StepContext& ctx, const JointWork& work)

@@ -10,8 +10,6 @@ struct Hinge
     F8 mass_a, mass_b, inertia_a, inertia_b;
     Speeds a, b;
     F8 ax, ay, bx, by; ///< arms now
-    F8 gap_x, gap_y;
-    F8 turn_c, turn_s; ///< of b against a within the step
 
     CAROM_INLINE Hinge(const WideJoint& j, const BodyState* states)
     {
@@ -21,20 +19,10 @@ struct Hinge
         inertia_b = load(j.inverse_inertia_b);
         a = speeds_of(states, j.a);
         b = speeds_of(states, j.b);
-        const Poses pa = poses_of(states, j.a);
-        const Poses pb = poses_of(states, j.b);
-        const F8 ax0 = load(j.arm_ax);
-        const F8 ay0 = load(j.arm_ay);
-        const F8 bx0 = load(j.arm_bx);
-        const F8 by0 = load(j.arm_by);
-        ax = pa.c * ax0 - pa.s * ay0;
-        ay = pa.s * ax0 + pa.c * ay0;
-        bx = pb.c * bx0 - pb.s * by0;
-        by = pb.s * bx0 + pb.c * by0;
-        gap_x = load(j.gap_x) + (pb.x - pa.x) + (bx - bx0) - (ax - ax0);
-        gap_y = load(j.gap_y) + (pb.y - pa.y) + (by - by0) - (ay - ay0);
-        turn_c = pb.c * pa.c + pb.s * pa.s;
-        turn_s = pb.s * pa.c - pb.c * pa.s;
+        ax = load(j.now.ax);
+        ay = load(j.now.ay);
+        bx = load(j.now.bx);
+        by = load(j.now.by);
     }
 
     CAROM_INLINE void push(F8 x, F8 y)
@@ -58,17 +46,40 @@ struct Hinge
         put(states, j.a, a, j.fixed_a);
         put(states, j.b, b, j.fixed_b);
     }
-
-    // The turn by its quarter, whose arc tangent's series is short: exact to a float's rounding up to a quarter turn in a step.
-    CAROM_INLINE F8 turn() const
-    {
-        const F8 half = turn_s / greatest(1 + turn_c, all(1e-6f));
-        const F8 u = half / (1 + root(1 + half * half));
-        const F8 z = u * u;
-        const F8 series = 1 - z * (1.0f / 3 - z * (1.0f / 5 - z * (1.0f / 7 - z * (1.0f / 9 - z * (1.0f / 11)))));
-        return 4 * (u * series);
-    }
 };
+
+// The angle of (c, s) by its quarter, whose arc tangent's series is short: exact to a float's rounding up to a quarter turn in a step.
+CAROM_INLINE F8 angle_of(F8 c, F8 s)
+{
+    const F8 half = s / greatest(1 + c, all(1e-6f));
+    const F8 u = half / (1 + root(1 + half * half));
+    const F8 z = u * u;
+    const F8 series = 1 - z * (1.0f / 3 - z * (1.0f / 5 - z * (1.0f / 7 - z * (1.0f / 9 - z * (1.0f / 11)))));
+    return 4 * (u * series);
+}
+
+// Bodies have come to new poses.
+CAROM_INLINE void place(WideJoint& j, const BodyState* states)
+{
+    const Poses a = poses_of(states, j.a);
+    const Poses b = poses_of(states, j.b);
+    const F8 ax0 = load(j.start.ax);
+    const F8 ay0 = load(j.start.ay);
+    const F8 bx0 = load(j.start.bx);
+    const F8 by0 = load(j.start.by);
+    const F8 ax = a.c * ax0 - a.s * ay0;
+    const F8 ay = a.s * ax0 + a.c * ay0;
+    const F8 bx = b.c * bx0 - b.s * by0;
+    const F8 by = b.s * bx0 + b.c * by0;
+    store(j.now.ax, ax);
+    store(j.now.ay, ay);
+    store(j.now.bx, bx);
+    store(j.now.by, by);
+    store(j.now.gap_x, load(j.start.gap_x) + (b.x - a.x) + (bx - bx0) - (ax - ax0));
+    store(j.now.gap_y, load(j.start.gap_y) + (b.y - a.y) + (by - by0) - (ay - ay0));
+    if (j.turns != 0)
+        store(j.angle.now, load(j.angle.start) + angle_of(b.c * a.c + b.s * a.s, b.s * a.c - b.c * a.s));
+}
 
 // The anchors stay together.
 CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 impulse_scale)
@@ -77,10 +88,10 @@ CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 i
     const F8 k11 = mass + h.inertia_a * h.ay * h.ay + h.inertia_b * h.by * h.by;
     const F8 k12 = -(h.inertia_a * h.ax * h.ay + h.inertia_b * h.bx * h.by);
     const F8 k22 = mass + h.inertia_a * h.ax * h.ax + h.inertia_b * h.bx * h.bx;
-    const F8 cx = (h.b.x - h.b.w * h.by) - (h.a.x - h.a.w * h.ay) + bias_rate * h.gap_x;
-    const F8 cy = (h.b.y + h.b.w * h.bx) - (h.a.y + h.a.w * h.ax) + bias_rate * h.gap_y;
     const F8 det = k11 * k22 - k12 * k12;
     const F8 inverse_det = select(det > all(0), all(1) / det, all(0)); // empty lanes have no mass
+    const F8 cx = (h.b.x - h.b.w * h.by) - (h.a.x - h.a.w * h.ay) + bias_rate * load(j.now.gap_x);
+    const F8 cy = (h.b.y + h.b.w * h.bx) - (h.a.y + h.a.w * h.ax) + bias_rate * load(j.now.gap_y);
     const F8 old_x = load(j.impulse_x);
     const F8 old_y = load(j.impulse_y);
     const F8 x = -mass_scale * (inverse_det * (k22 * cx - k12 * cy)) - impulse_scale * old_x;
@@ -134,15 +145,24 @@ CAROM_INLINE void spring(Hinge& h, WideAngle& t, const AngleMass& mass, F8 angle
     h.twist(change);
 }
 
-CAROM_INLINE void turn(Hinge& h, WideAngle& t, const JointSoftness& s, bool use_bias)
+CAROM_INLINE void hold_angle(Hinge& h, WideAngle& t, const JointSoftness& s, bool use_bias)
 {
     const AngleMass mass(h);
-    const F8 angle = load(t.start) + h.turn();
+    const F8 angle = load(t.now);
     if (use_bias)
         spring(h, t, mass, angle);
     drive(h, t, mass);
     limit(h, t.lower_impulse, mass, angle - load(t.lower), 1, s, use_bias);
     limit(h, t.upper_impulse, mass, load(t.upper) - angle, -1, s, use_bias);
+}
+
+void prepare(WideJoint* joints, std::int32_t count)
+{
+    for (WideJoint* j = joints; j < joints + count; ++j)
+    {
+        j->now = j->start;
+        j->angle.now = j->angle.start;
+    }
 }
 
 void warm_start(WideJoint* joints, std::int32_t count, BodyState* states)
@@ -164,7 +184,7 @@ void solve(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
     {
         Hinge h(*j, states);
         if (j->turns != 0)
-            turn(h, j->angle, s, true);
+            hold_angle(h, j->angle, s, true);
         hold(h, *j, all(s.soft.bias_rate), all(s.soft.mass_scale), all(s.soft.impulse_scale));
         h.finish(*j, states);
     }
@@ -174,11 +194,12 @@ void relax(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
 {
     for (WideJoint* j = joints; j < joints + count; ++j)
     {
+        place(*j, states);
         Hinge h(*j, states);
         WideAngle& t = j->angle;
         if (j->turns != 0)
         {
-            turn(h, t, s, false);
+            hold_angle(h, t, s, false);
             store(t.torque_sum, load(t.torque_sum) + s.share * (load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) -
                                                       load(t.upper_impulse)));
         }

@@ -57,7 +57,7 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 } // namespace
 
 extern const WideKernels kernels;
-const WideKernels kernels = {CAROM_ISA_NAME,         contacts::prepare,       contacts::warm_start, contacts::solve, contacts::relax,
-                             contacts::note_approach, joints::warm_start, joints::solve,       joints::relax};
+const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
+                             contacts::note_approach, joints::prepare,   joints::warm_start,   joints::solve,   joints::relax};
 
 } // namespace carom::internal::CAROM_ISA

@@ -14,6 +14,7 @@ namespace carom::internal {
 struct WideAngle
 {
     LaneFloats start; ///< the angle at the start of the step
+    LaneFloats now;   ///< at the poses that bodies have, as relaxing found it
     LaneFloats target;
     LaneFloats spring_bias_rate;
     LaneFloats spring_mass_scale;
@@ -29,6 +30,17 @@ struct WideAngle
     LaneFloats torque_sum; ///< of impulses over the step
 };
 
+/// Where a hinge's anchors are, world axes.
+struct WideArms
+{
+    LaneFloats ax; ///< anchors from the centers of mass
+    LaneFloats ay;
+    LaneFloats bx;
+    LaneFloats by;
+    LaneFloats gap_x; ///< anchor b - anchor a
+    LaneFloats gap_y;
+};
+
 struct WideJoint
 {
     LaneInts a; ///< states
@@ -38,12 +50,8 @@ struct WideJoint
     LaneFloats inverse_mass_b;
     LaneFloats inverse_inertia_a;
     LaneFloats inverse_inertia_b;
-    LaneFloats arm_ax; ///< anchors from the centers of mass at the start of the step, world axes
-    LaneFloats arm_ay;
-    LaneFloats arm_bx;
-    LaneFloats arm_by;
-    LaneFloats gap_x; ///< anchor b - anchor a at the start of the step
-    LaneFloats gap_y;
+    WideArms start; ///< of the step
+    WideArms now;   ///< at the poses that bodies have, as relaxing found them
     LaneFloats impulse_x;
     LaneFloats impulse_y;
     LaneFloats sum_x; ///< over the step

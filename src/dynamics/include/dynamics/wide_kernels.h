@@ -22,8 +22,11 @@ struct WideKernels
     void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, std::uint8_t* struck);
     /// Approach speeds of groups that may be struck.
     void (*note_approach)(WideRow* rows, std::int32_t count, const BodyState* states);
+    /// Once all lanes are filled.
+    void (*prepare_joints)(WideJoint* joints, std::int32_t count);
     void (*warm_start_joints)(WideJoint* joints, std::int32_t count, BodyState* states);
     void (*solve_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
+    /// At the poses that the bodies have come to; the other passes are at those that relaxing last found.
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
 };
 
