@@ -4,6 +4,12 @@
 
 namespace carom::internal {
 
+namespace {
+
+constexpr std::size_t items_per_task = 2048;
+
+} // namespace
+
 void BroadPhase::insert(int item, const FloatBox& box, Layer layer, ItemTraits traits)
 {
     if (item >= static_cast<int>(m_places.size()))
@@ -70,7 +76,7 @@ void BroadPhase::widen(int item, const FloatBox& box)
         m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(leaf.tree)].update(leaf.index, box);
 }
 
-bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
+bool BroadPhase::update_moving(const TaskHooks& tasks, std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
 {
     Forest& forest = m_forests[0];
     std::size_t total = forest.recent.size();
@@ -78,24 +84,24 @@ bool BroadPhase::update_moving(std::span<const std::int32_t> items, std::span<co
         total += static_cast<std::size_t>(tree.live_count());
     // Fitting all boxes costs about as much as widening a quarter of the paths, and leaves a better tree.
     const bool many = items.size() * 4 > total;
-    for (std::size_t i = 0; i < items.size(); ++i)
-    {
-        if (many)
-            m_places[static_cast<std::size_t>(items[i])].box = boxes[i];
-        else
-            widen(items[i], boxes[i]);
-    }
     if (many)
-        fit_moving();
-    return many;
+    {
+        for_each_in_parts(tasks, items.size(), items_per_task,
+                          [&](std::size_t i) { m_places[static_cast<std::size_t>(items[i])].box = boxes[i]; });
+        fit_moving(tasks);
+        return true;
+    }
+    for (std::size_t i = 0; i < items.size(); ++i)
+        widen(items[i], boxes[i]);
+    return false;
 }
 
 // Neighbours remain neighbours for a few steps.
-void BroadPhase::fit_moving()
+void BroadPhase::fit_moving(const TaskHooks& tasks)
 {
     Forest& forest = m_forests[0];
     if (++m_fits < fits_per_sort && forest.trees.size() == 1 && forest.recent.empty())
-        forest.trees[0].refit([&](std::int32_t item) { return box(item); });
+        forest.trees[0].refit(tasks, [&](std::int32_t item) { return box(item); });
     else
         rebuild(forest, 0);
     m_past.resize(static_cast<std::size_t>(block_count()));

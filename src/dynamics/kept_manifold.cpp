@@ -1,6 +1,7 @@
 #include "dynamics/kept_manifold.h"
 
 #include "collision/edge_rules.h"
+#include "core/float4.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/scene_data.h"
 
@@ -46,12 +47,28 @@ void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const Manifold
     kept.margin = margin;
     for (int i = 0; i < m.count; ++i)
     {
-        kept.on_a[i] = inverse_rotate(a.rotation, m.points[i].anchor_a);
-        kept.on_b[i] = inverse_rotate(b.rotation, m.points[i].anchor_b);
+        kept.points[i] = {inverse_rotate(a.rotation, m.points[i].anchor_a), inverse_rotate(b.rotation, m.points[i].anchor_b)};
     }
     if (m.count > 0)
         kept.normal = inverse_rotate(edge_is_of_b(m.points[0].feature) ? b.rotation : a.rotation, m.normal);
 }
+
+// Of a point, both anchors at once: {a.x, a.y, b.x, b.y}.
+class AnchorTurn
+{
+public:
+    AnchorTurn(Rotation a, Rotation b) : m_cosines{a.c, a.c, b.c, b.c}, m_sines{-a.s, a.s, -b.s, b.s} {}
+
+    [[nodiscard]] F4 operator()(const KeptManifold::Anchors& p) const
+    {
+        const F4 local = load4(&p.on_a.x);
+        return m_cosines * local + m_sines * __builtin_shufflevector(local, local, 1, 0, 3, 2);
+    }
+
+private:
+    F4 m_cosines;
+    F4 m_sines;
+};
 
 // The point of the other body stays where it is on it; opposite, on the edge, it slides along.
 void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifold& m)
@@ -60,16 +77,21 @@ void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifo
         return;
     const bool of_b = edge_is_of_b(m.points[0].feature);
     const Vec2 apart = b.center - a.center;
+    const AnchorTurn turned(a.rotation, b.rotation);
     m.normal = rotate(of_b ? b.rotation : a.rotation, kept.normal);
     for (int i = 0; i < m.count; ++i)
     {
         ManifoldPoint& p = m.points[i];
-        p.anchor_a = rotate(a.rotation, kept.on_a[i]);
-        p.anchor_b = rotate(b.rotation, kept.on_b[i]);
+        const F4 anchors = turned(kept.points[i]);
+        p.anchor_a = {anchors[0], anchors[1]};
+        p.anchor_b = {anchors[2], anchors[3]};
         const Vec2 gap = apart + (p.anchor_b - p.anchor_a);
         p.separation = dot(m.normal, gap);
         const Vec2 slid = gap - p.separation * m.normal;
-        (of_b ? p.anchor_b : p.anchor_a) += of_b ? -slid : slid;
+        if (of_b)
+            p.anchor_b -= slid;
+        else
+            p.anchor_a += slid;
     }
 }
 

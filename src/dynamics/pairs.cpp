@@ -168,8 +168,9 @@ void look_around_fresh(StepContext& ctx)
 void settle(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    for (const std::int32_t shape : ctx.scratch.moved.items)
-        state.broad_phase.settle(shape);
+    const std::vector<std::int32_t>& moved = ctx.scratch.moved.items;
+    for_each_in_parts(ctx.scene.def.tasks, moved.size(), pairs_per_task,
+                      [&](std::size_t i) { state.broad_phase.settle(moved[i]); });
     for (const std::int32_t shape : state.fresh_shapes)
     {
         if (state.broad_phase.has(shape))

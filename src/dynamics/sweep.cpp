@@ -126,7 +126,8 @@ void sweep_paths(StepContext& ctx)
     { // without those that were put aside
     }
     const MovedBoxes& moved = ctx.scratch.moved;
-    ctx.scratch.all_fitted = !moved.items.empty() && ctx.state.broad_phase.update_moving(moved.items, moved.boxes);
+    ctx.scratch.all_fitted =
+        !moved.items.empty() && ctx.state.broad_phase.update_moving(ctx.scene.def.tasks, moved.items, moved.boxes);
 }
 
 } // namespace carom::internal

@@ -137,14 +137,22 @@ public:
         scratch.flight.assign(state.awake_bodies.size(), earthbound);
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
         scratch.has_uneven = false;
+        scratch.places.assign(static_cast<std::size_t>(state.bodies.capacity()), none);
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
                           [&](std::size_t i)
                           {
                               const int body = state.awake_bodies[i];
+                              note_place(body, static_cast<std::int32_t>(i));
                               note_uneven(body);
                               if (ctx.scene.def.continuous)
                                   scratch.flight[i] = kind_of_flight(body);
                           });
+    }
+
+    void note_place(int body, std::int32_t place) const
+    {
+        const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
+        scratch.places[static_cast<std::size_t>(body)] = dynamic ? place : -2 - place;
     }
 
     void note_uneven(int body) const
@@ -273,13 +281,7 @@ public:
                               scratch.grounded[static_cast<std::size_t>(place)] != earthbound);
     }
 
-    [[nodiscard]] std::int32_t place_of(int body) const
-    {
-        const BodyRecord& record = state.bodies[body];
-        if (record.awake_index == none || record.type == BodyType::Static)
-            return none;
-        return record.type == BodyType::Dynamic ? record.awake_index : -2 - record.awake_index;
-    }
+    [[nodiscard]] std::int32_t place_of(int body) const { return scratch.places[static_cast<std::size_t>(body)]; }
 
     // Whoever comes first writes what the others would.
     void ground(std::int32_t place) const

@@ -139,7 +139,7 @@ TEST(CollisionBroadPhase, StaysRightUnderTenThousandChanges)
                     }
                 }
                 if (k % 10 == 0)
-                    broad.update_moving(items, boxes);
+                    broad.update_moving({}, items, boxes);
                 else
                     for (std::size_t i = 0; i < items.size(); ++i)
                         broad.set_box(items[i], boxes[i]);

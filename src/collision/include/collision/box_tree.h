@@ -6,8 +6,10 @@
 // afterwards without moving.
 
 #include "core/float4.h"
+#include "core/task_pool.h"
 #include "geometry/bounds.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -61,18 +63,24 @@ class BoxTree
 {
 public:
     static constexpr int arity = BoxBlock::size;
+    static constexpr std::size_t blocks_per_task = 64;
     static constexpr int max_levels = 12; // 8^11 leaves
 
     void build(std::span<const TreeLeaf> leaves);
     /// New boxes for all leaves, in the order in which they are: box_of(item).
     template <class BoxOf>
-    void refit(const BoxOf& box_of)
+    void refit(const TaskHooks& tasks, const BoxOf& box_of)
     {
-        for (std::size_t i = 0; i < m_items.size(); ++i)
-        {
-            if (m_items[i] >= 0)
-                m_levels[0][i / arity].set(static_cast<int>(i % arity), box_of(m_items[i]));
-        }
+        for_each_in_parts(tasks, m_levels[0].size(), blocks_per_task,
+                          [&](std::size_t k)
+                          {
+                              const std::size_t end = std::min((k + 1) * arity, m_items.size());
+                              for (std::size_t i = k * arity; i < end; ++i)
+                              {
+                                  if (m_items[i] >= 0)
+                                      m_levels[0][k].set(static_cast<int>(i % arity), box_of(m_items[i]));
+                              }
+                          });
         build_levels();
     }
 

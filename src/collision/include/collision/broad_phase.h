@@ -72,7 +72,7 @@ public:
 
     /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: all boxes are fitted anew, and now
     /// and then sorted. True: all are fitted.
-    bool update_moving(std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
+    bool update_moving(const TaskHooks& tasks, std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
 
     /// Of this step; between steps, and for what rests, the box stands still.
     void set_path(int item, const BoxPath& path) { m_places[static_cast<std::size_t>(item)].path = path; }
@@ -230,7 +230,7 @@ private:
     }
 
     void stand_still(int item);
-    void fit_moving();
+    void fit_moving(const TaskHooks& tasks);
     void widen(int item, const FloatBox& box);
     void add_recent(int item, Layer layer);
     void take_out(int item);

@@ -175,8 +175,12 @@ struct Contact
 /// What the narrow phase last found of a contact in a crowd, fixed to the two bodies; points and features are those of its manifold.
 struct alignas(64) KeptManifold
 {
-    Vec2 on_a[2]; ///< from a's center of mass, in a's axes
-    Vec2 on_b[2];
+    struct Anchors
+    {
+        Vec2 on_a; ///< from a's center of mass, in a's axes
+        Vec2 on_b;
+    };
+    Anchors points[2];
     Vec2 normal{}; ///< from a to b, in the axes of the body whose edge it is normal to
     Vec2 center{}; ///< where b's center of mass was seen from a
     Rotation rotation{};

@@ -301,6 +301,7 @@ struct Scratch
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
     std::vector<std::uint8_t> pair_fates;
+    std::vector<std::int32_t> places;   ///< by body slot, as in Link
     std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
