@@ -56,7 +56,7 @@ struct StepReport
     int awake_bodies = 0;    ///< dynamic and kinematic ones that were simulated
     int shapes = 0;
     int joints = 0;
-    int pairs = 0;    ///< pairs of fat boxes that overlap
+    int pairs = 0;    ///< pairs of shapes that may meet in the step, one awake, touching or not
     int touching = 0; ///< awake pairs that touch
     int units = 0;    ///< groups solved on their own
     int colors = 0;   ///< of the largest unit

@@ -82,8 +82,8 @@ bool BroadPhase::update_moving(const TaskHooks& tasks, std::span<const std::int3
     std::size_t total = forest.recent.size();
     for (const BoxTree& tree : forest.trees)
         total += static_cast<std::size_t>(tree.live_count());
-    // Fitting all boxes costs about as much as widening a quarter of the paths, and leaves a better tree.
-    const bool many = items.size() * 4 > total;
+    // Fitting all boxes costs about as much as widening a quarter of the paths, leaves a better tree, and lets whole blocks look for new overlaps at once.
+    const bool many = items.size() * 16 > total;
     if (many)
     {
         for_each_in_parts(tasks, items.size(), items_per_task,

@@ -28,6 +28,13 @@ constexpr float creeping = 0.2f;      // of the sleep speed
 constexpr float creep_time = 0.5f;    // s
 constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
 
+// Written once: threads that read it do not wait for each other.
+void raise(std::atomic<bool>& flag)
+{
+    if (!flag.load(std::memory_order_relaxed))
+        flag.store(true, std::memory_order_relaxed);
+}
+
 Rotation renormalized(Rotation q)
 {
     const float l = std::sqrt(q.c * q.c + q.s * q.s);
@@ -295,9 +302,9 @@ void put_to_sleep(StepContext& ctx)
                           const std::int32_t body = state.awake_bodies[i];
                           settle_or_stir(ctx, body);
                           if (state.sims[static_cast<std::size_t>(body)].sleep_time >= time_to_sleep)
-                              any_tired.store(true, std::memory_order_relaxed);
+                              raise(any_tired);
                           if (state.bodies[body].type == BodyType::Kinematic)
-                              any_kinematic.store(true, std::memory_order_relaxed);
+                              raise(any_kinematic);
                       });
     if (ctx.scene.def.sleeping && any_kinematic)
         keep_carried_awake(ctx);
@@ -371,7 +378,7 @@ void commit_and_sleep(StepContext& ctx)
                       {
                           commit_state(ctx, static_cast<std::int32_t>(i));
                           if ((scratch.states[i].flags & body_flag::unsound) != 0)
-                              any_unsound.store(true, std::memory_order_relaxed);
+                              raise(any_unsound);
                       });
     for (std::size_t i = 0; any_unsound && i < scratch.states.size(); ++i)
     {

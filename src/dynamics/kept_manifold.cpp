@@ -97,11 +97,6 @@ void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifo
 
 } // namespace
 
-bool in_crowd(const SceneState& state, const Contact& contact)
-{
-    return sim_of(state, contact.body_a).crowded && sim_of(state, contact.body_b).crowded;
-}
-
 void follow_manifold(const StepContext& ctx, int index, float reach)
 {
     SceneState& state = ctx.state;

@@ -521,11 +521,18 @@ public:
     {
         std::vector<TreeLeaf>& reaches = scratch.reaches;
         reaches.clear();
+        scratch.is_deflected.resize(state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
+                          [&](std::size_t i)
+                          {
+                              const bool flies = scratch.flight[i] != earthbound;
+                              scratch.is_deflected[i] = flies && may_be_deflected(state.awake_bodies[i]) ? 1 : 0;
+                          });
         for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         {
-            const int body = state.awake_bodies[i];
-            if (scratch.flight[i] == earthbound || !may_be_deflected(body))
+            if (scratch.is_deflected[i] == 0)
                 continue;
+            const int body = state.awake_bodies[i];
             const Position c = state.sims[static_cast<std::size_t>(body)].center;
             const double r =
                 static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
@@ -569,10 +576,16 @@ public:
                 {
                     const std::int32_t other = state.bodies[state.shapes[shape].body].awake_index;
                     std::atomic_ref(scratch.may_be_struck[static_cast<std::size_t>(other)]).store(1, std::memory_order_relaxed);
-                    note(place, other);
+                    if (scratch.is_deflected[static_cast<std::size_t>(other)] == 0)
+                        note(place, other);
                 });
-            // two that are both deflected
-            tree.for_each_overlap(k, lanes, tree, [&](int own, int other) { note(tree.item(own), tree.item(other)); });
+            // of two that are both deflected the first finds the second
+            tree.for_each_overlap(k, lanes, tree,
+                                  [&](int own, int other)
+                                  {
+                                      if (own < other)
+                                          note(tree.item(own), tree.item(other));
+                                  });
         }
     }
 

@@ -10,7 +10,11 @@
 namespace carom::internal {
 
 /// Both bodies were solved in a crowd in the last step, or do not count.
-[[nodiscard]] bool in_crowd(const SceneState& state, const Contact& contact);
+[[nodiscard]] inline bool in_crowd(const SceneState& state, const Contact& contact)
+{
+    return state.sims[static_cast<std::size_t>(contact.body_a)].crowded &&
+           state.sims[static_cast<std::size_t>(contact.body_b)].crowded;
+}
 
 /// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over. `reach`: how much nearer
 /// the two may come in this step.

@@ -313,7 +313,8 @@ struct Scratch
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
     std::vector<SomeLinks> links_of_task;
     std::vector<Link> links;
-    std::vector<TreeLeaf> reaches; ///< of what may be deflected
+    std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
+    std::vector<TreeLeaf> reaches;          ///< of these
     BoxTree reach_tree;
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
     std::vector<UnitTally> tallies;
