@@ -8,8 +8,11 @@
 #include "dynamics/unit_graph.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace carom::internal {
@@ -101,8 +104,7 @@ public:
         std::iota(m_moved_to.begin(), m_moved_to.end(), 0);
         for (std::size_t i = 0; i < m_order.size(); ++i)
             m_moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
-        take_up();
-        put_down(slots);
+        move_contacts(slots);
         rename_others();
     }
 
@@ -152,33 +154,35 @@ private:
         m_order.swap(m_sorted);
     }
 
-    // Copies in their new order, with what they name renamed.
-    void take_up()
+    // With what they name renamed.
+    void move_contacts(const std::vector<std::int32_t>& slots)
     {
-        std::vector<MovedContact>& moved = m_scratch.moved_contacts;
-        moved.resize(m_order.size());
-        for_each_in_parts(m_tasks, moved.size(), contacts_per_task,
-                          [&](std::size_t i)
-                          {
-                              const std::int32_t from = m_order[i].contact;
-                              moved[i] = {m_state.contacts[from], m_state.kept_manifolds[static_cast<std::size_t>(from)]};
-                              Contact& contact = moved[i].contact;
-                              contact.awake_index = static_cast<std::int32_t>(i);
-                              rename_edges(contact);
-                              if (contact.pair != none)
-                                  m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact =
-                                      m_moved_to[static_cast<std::size_t>(from)];
-                          });
-    }
-
-    void put_down(const std::vector<std::int32_t>& slots)
-    {
+        move_items(slots, [&](int slot) -> Contact& { return m_state.contacts[slot]; });
         for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
                           [&](std::size_t i)
                           {
-                              m_state.contacts[slots[i]] = m_scratch.moved_contacts[i].contact;
-                              m_state.kept_manifolds[static_cast<std::size_t>(slots[i])] = m_scratch.moved_contacts[i].kept;
+                              Contact& contact = m_state.contacts[slots[i]];
+                              contact.awake_index = static_cast<std::int32_t>(i);
+                              rename_edges(contact);
+                              if (contact.pair != none)
+                                  m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = slots[i];
                           });
+        move_items(slots, [&](int slot) -> KeptManifold& { return m_state.kept_manifolds[static_cast<std::size_t>(slot)]; });
+    }
+
+    // Through one room for both kinds of items.
+    template <class At>
+    void move_items(const std::vector<std::int32_t>& slots, const At& at)
+    {
+        using Item = std::remove_reference_t<decltype(at(0))>;
+        static_assert(std::is_trivially_copyable_v<Item>);
+        std::vector<std::byte>& room = m_scratch.moved_items;
+        room.resize(std::max(room.size(), slots.size() * sizeof(Item)));
+        const auto place = [&](std::size_t i) -> void* { return room.data() + i * sizeof(Item); };
+        for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
+                          [&](std::size_t i) { std::memcpy(place(i), &at(m_order[i].contact), sizeof(Item)); });
+        for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
+                          [&](std::size_t i) { std::memcpy(static_cast<void*>(&at(slots[i])), place(i), sizeof(Item)); });
     }
 
     void rename_others()

@@ -11,6 +11,7 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -110,13 +111,6 @@ struct ContactPlace
     std::uint32_t color; ///< counted over all units
     std::uint32_t body;  ///< place in awake_bodies
     std::int32_t contact;
-};
-
-/// On its way to another slot.
-struct MovedContact
-{
-    Contact contact;
-    KeptManifold kept;
 };
 
 /// What a unit is made of.
@@ -362,8 +356,8 @@ struct Scratch
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
     std::vector<std::int32_t> moved_to; ///< by contact slot
-    std::vector<MovedContact> moved_contacts;
-    ZOrder plane_order; ///< of the awake bodies
+    std::vector<std::byte> moved_items; ///< on their way
+    ZOrder plane_order;                 ///< of the awake bodies
 };
 
 /// Those of a unit, in flight or landed.
