@@ -1,9 +1,10 @@
-// Stage 7, events: sorted spans, then callbacks from copies of them, so that callbacks may change anything.
+// Stage 7, events: sorted spans, then callbacks from copies of the events, so that callbacks may change anything.
 
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
 
 #include <algorithm>
+#include <memory>
 #include <tuple>
 
 namespace carom::internal {
@@ -33,12 +34,12 @@ void take_pending(std::vector<Event>& pending, std::vector<Event>& events)
 
 // --- callbacks -----------------------------------------------------------------------------------------------------------------------------
 
-// The callbacks of a shape that still lives, copied: the callback may replace or destroy them.
-std::optional<ShapeCallbacks> callbacks_of(const SceneData& scene, ShapeId id)
+// The callbacks of a shape that still lives, held: the callback may replace or destroy them.
+std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, ShapeId id)
 {
     const int slot = static_cast<int>(id.slot) - 1;
     if (!scene.state.shapes.is_live(slot, id.generation))
-        return std::nullopt;
+        return nullptr;
     return scene.shape_extras[static_cast<std::size_t>(slot)].callbacks;
 }
 

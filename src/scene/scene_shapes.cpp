@@ -219,7 +219,7 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     add_leaves(*m_data, slot, normal);
     if (m_data->shape_extras.size() < static_cast<std::size_t>(state.shapes.capacity()))
         m_data->shape_extras.resize(static_cast<std::size_t>(state.shapes.capacity()));
-    m_data->shape_extras[static_cast<std::size_t>(slot)] = {def.user_data, std::move(normal), std::nullopt};
+    m_data->shape_extras[static_cast<std::size_t>(slot)] = {def.user_data, std::move(normal), nullptr};
     include_mass(state, body_slot, slot);
     wake_body(*m_data, body_slot);
     return shape_id(state, slot);
@@ -242,11 +242,8 @@ void Scene::set_callbacks(ShapeId id, ShapeCallbacks callbacks)
     auto& slot = m_data->shape_extras[static_cast<std::size_t>(slot_of(id))].callbacks;
     const bool any = callbacks.on_contact_begin || callbacks.on_impact || callbacks.on_contact_end ||
                      callbacks.on_trigger_enter || callbacks.on_trigger_inside || callbacks.on_trigger_exit;
-    m_data->callback_count += static_cast<int>(any) - static_cast<int>(slot.has_value());
-    if (any)
-        slot = std::move(callbacks);
-    else
-        slot.reset();
+    m_data->callback_count += static_cast<int>(any) - (slot ? 1 : 0);
+    slot = any ? std::make_shared<const ShapeCallbacks>(std::move(callbacks)) : nullptr;
 }
 
 Shape Scene::shape(ShapeId id)

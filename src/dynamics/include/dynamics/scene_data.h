@@ -7,7 +7,7 @@
 #include "dynamics/scene_state.h"
 #include "dynamics/step_context.h"
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace carom::internal {
@@ -70,7 +70,7 @@ struct ShapeExtra
 {
     std::uint64_t user_data = 0;
     Geometry geometry{};
-    std::optional<ShapeCallbacks> callbacks{};
+    std::shared_ptr<const ShapeCallbacks> callbacks{}; ///< few have any; one that runs may replace or destroy them
 };
 struct JointExtra
 {
