@@ -251,6 +251,7 @@ void add_options(CLI::App& app, Options& o)
     app.add_option("--repeat", o.run.repeat, "runs of each; the fastest counts")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    app.add_flag("--discrete", o.run.discrete, "without continuous collision: what impacts at their own time cost a scene");
     app.add_option("--disturbed", o.run.disturbed, "quality from so many more runs, with bodies off their places by up to 0.1 mm")
         ->check(CLI::Range(0, 100))
         ->capture_default_str();

@@ -126,6 +126,7 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
     carom::SceneDef def;
     def.tasks = pool.hooks();
     def.tasks.worker_count = options.threads;
+    def.continuous = !options.discrete;
     const std::unique_ptr<Contestant> contestant = contender.enter(make, def);
     const int steps = step_count(entry, options);
     const int bodies_built = static_cast<int>(contestant->scene().bodies().size());

@@ -18,6 +18,7 @@ struct RunOptions
     int steps = 0; ///< 0: as many as the scene says
     int threads = 1;
     int repeat = 1;
+    bool discrete = false; ///< without continuous collision
     int disturbed = 0; ///< above 0: the quality is that of so many more runs, whose bodies start off their places by up to 0.1 mm
     std::function<void(const std::string&)> progress = [](const std::string&) {}; ///< may throw Interrupted
 };
