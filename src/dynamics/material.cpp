@@ -34,12 +34,13 @@ std::uint64_t user_data_of(const SceneData& scene, int shape)
     return scene.shape_extras[static_cast<std::size_t>(scene.state.shapes[shape].owner)].user_data;
 }
 
-float restitution_at(const ShapeRecord& shape, float speed)
+float restitution_at(const SceneState& state, const ShapeRecord& shape, float speed)
 {
-    const std::uint32_t n = shape.curve.count;
-    if (n == 0)
+    if (!shape.has_curve)
         return shape.restitution;
-    const auto& p = shape.curve.points;
+    const RestitutionCurve& curve = state.curves[static_cast<std::size_t>(shape.owner)];
+    const std::uint32_t n = curve.count;
+    const auto& p = curve.points;
     if (speed <= p[0].speed)
         return p[0].restitution;
     for (std::uint32_t i = 1; i < n; ++i)
@@ -81,9 +82,9 @@ float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float 
 {
     const ShapeRecord& a = scene.state.shapes[shape_a];
     const ShapeRecord& b = scene.state.shapes[shape_b];
-    const float value =
-        mix(scene.def, MixedValue::Restitution, {restitution_at(a, speed), a.yields_material, user_data_of(scene, shape_a)},
-            {restitution_at(b, speed), b.yields_material, user_data_of(scene, shape_b)});
+    const float value = mix(scene.def, MixedValue::Restitution,
+                            {restitution_at(scene.state, a, speed), a.yields_material, user_data_of(scene, shape_a)},
+                            {restitution_at(scene.state, b, speed), b.yields_material, user_data_of(scene, shape_b)});
     return value > 0 ? std::min(value, 1.0f) : 0;
 }
 

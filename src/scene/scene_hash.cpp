@@ -57,16 +57,17 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
     h.add(s.sleep_time);
 }
 
-void add_material(Hasher& h, const ShapeRecord& s)
+void add_material(Hasher& h, const SceneState& state, const ShapeRecord& s)
 {
+    const RestitutionCurve curve = curve_of(state, s);
     h.add(static_cast<int>(s.trigger) | (static_cast<int>(s.yields_material) << 1));
     for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, s.kick.speed,
                               s.kick.threshold, s.kick.cooldown, s.field.drag})
         h.add(value);
-    for (std::uint32_t i = 0; i < s.curve.count; ++i)
+    for (std::uint32_t i = 0; i < curve.count; ++i)
     {
-        h.add(s.curve.points[i].speed);
-        h.add(s.curve.points[i].restitution);
+        h.add(curve.points[i].speed);
+        h.add(curve.points[i].restitution);
     }
     h.add(s.kick_ready);
     add(h, s.one_way);
@@ -95,7 +96,7 @@ void add_shape(Hasher& h, const SceneState& state, int shape)
     const ShapeRecord& s = state.shapes[shape];
     h.add(s.body);
     h.add(s.owner);
-    add_material(h, s);
+    add_material(h, state, s);
     if (!s.has_leaf)
         return;
     add_leaf(h, view(s.leaf, state.vertices));

@@ -75,7 +75,7 @@ void write_def(ShapeRecord& record, const ShapeDef& def)
     record.density = def.density;
     record.friction = def.friction;
     record.restitution = def.restitution;
-    record.curve = def.restitution_curve;
+    record.has_curve = def.restitution_curve.count > 0;
     record.rolling_resistance = def.rolling_resistance;
     record.surface_speed = def.surface_speed;
     record.one_way = normalize(def.one_way);
@@ -84,12 +84,22 @@ void write_def(ShapeRecord& record, const ShapeDef& def)
     record.field = def.field;
 }
 
-ShapeDef read_def(const ShapeRecord& record, std::uint64_t user_data)
+void keep_curve(SceneState& state, int shape, const RestitutionCurve& curve)
 {
+    if (curve.count == 0)
+        return;
+    const auto slot = static_cast<std::size_t>(shape);
+    state.curves.resize(std::max(state.curves.size(), slot + 1));
+    state.curves[slot] = curve;
+}
+
+ShapeDef read_def(const SceneState& state, int shape, std::uint64_t user_data)
+{
+    const ShapeRecord& record = state.shapes[shape];
     return {.density = record.density,
             .friction = record.friction,
             .restitution = record.restitution,
-            .restitution_curve = record.curve,
+            .restitution_curve = curve_of(state, record),
             .rolling_resistance = record.rolling_resistance,
             .surface_speed = record.surface_speed,
             .one_way = record.one_way,
@@ -212,6 +222,7 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     write_def(record, def);
     const int slot = state.shapes.create(record);
     state.shapes[slot].owner = slot;
+    keep_curve(state, slot, def.restitution_curve);
     // At the end of the body's list, so that shapes keep the order they were made in.
     BodyRecord& owner = state.bodies[body_slot];
     (owner.last_shape == none ? owner.first_shape : state.shapes[owner.last_shape].next_shape) = slot;
@@ -296,7 +307,7 @@ ShapeDef ConstShape::def() const
 {
     if (!check_live(*m_data, "Shape::def", "shape", m_id))
         return {};
-    return read_def(m_data->state.shapes[slot_of(m_id)], m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data);
+    return read_def(m_data->state, slot_of(m_id), m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data);
 }
 
 bool ConstShape::is_trigger() const
@@ -357,6 +368,7 @@ void Shape::set_def(const ShapeDef& def)
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
     const bool meets_others = old.filter != def.filter || old.trigger != def.trigger;
     write_def(state.shapes[slot], def);
+    keep_curve(state, slot, def.restitution_curve);
     for_each_own_leaf(state, slot,
                       [&](int leaf)
                       {
@@ -385,7 +397,7 @@ void Shape::set_geometry(const Geometry& geometry)
     const int body = m_data->state.shapes[slot].body;
     Geometry normal = geometry;
     if (!check_placement(*m_data, function, body, geometry) ||
-        !check_geometry(function, normal, read_def(m_data->state.shapes[slot], 0)))
+        !check_geometry(function, normal, read_def(m_data->state, slot, 0)))
         return;
     remove_leaves(*m_data, slot);
     add_leaves(*m_data, slot, normal);

@@ -107,10 +107,10 @@ struct alignas(64) ShapeRecord
     bool has_leaf = false;
     bool trigger = false;
     bool yields_material = false;
+    bool has_curve = false; ///< of restitution, in SceneState::curves
     float density = 0;
     float friction = 0;
     float restitution = 0;
-    RestitutionCurve curve{};
     float rolling_resistance = 0;
     float surface_speed = 0;
     Vec2 one_way{};
@@ -255,6 +255,7 @@ struct SceneState
     std::vector<BodySim> sims;       ///< by body slot
     std::vector<BodyTarget> targets; ///< by body slot, as far as any body has had one
     Pool<ShapeRecord> shapes;
+    std::vector<RestitutionCurve> curves; ///< by slot of the public shape, as far as any shape has had one
     VertexStore vertices;
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
@@ -273,5 +274,11 @@ struct SceneState
     std::uint64_t step_count = 0;
     double accumulator = 0;
 };
+
+/// Empty where the restitution is the same at all speeds.
+[[nodiscard]] inline RestitutionCurve curve_of(const SceneState& state, const ShapeRecord& shape)
+{
+    return shape.has_curve ? state.curves[static_cast<std::size_t>(shape.owner)] : RestitutionCurve{};
+}
 
 } // namespace carom::internal
