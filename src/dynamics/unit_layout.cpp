@@ -254,10 +254,13 @@ private:
     void copy_kinematic_bodies(const Unit& unit)
     {
         const std::span<Link> links = links_of(unit);
-        for (Link& l : m_scratch.has_kinematic ? links : std::span<Link>{})
+        if (m_scratch.has_kinematic)
         { // first, one after the other: they may get a state here
-            l.a = l.a < none ? -2 - state_at(unit, l.a) : l.a;
-            l.b = l.b < none ? -2 - state_at(unit, l.b) : l.b;
+            for (Link& l : links)
+            {
+                l.a = l.a < none ? -2 - state_at(unit, l.a) : l.a;
+                l.b = l.b < none ? -2 - state_at(unit, l.b) : l.b;
+            }
         }
         const auto state_of = [&](std::int32_t place)
         {

@@ -89,13 +89,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
-    contact_bins(ctx.scratch, unit)
-        .all(crew,
-             [&](int first, int last)
-             {
-                 for (int g = first; g < last; ++g)
-                     fill_group(unit_ctx, unit, g);
-             });
+    contact_bins(ctx.scratch, unit).for_each(crew, [&](int g) { fill_group(unit_ctx, unit, g); });
     for_each_place(crew, unit.first_row, unit.row_count, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
     for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i)
@@ -110,23 +104,13 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const Scratch& scratch = ctx.scratch;
     contact_bins(scratch, unit)
-        .all(crew,
-             [&](int first, int last)
-             {
-                 for (int g = first; g < last; ++g)
-                     commit_wide_row(ctx.state, scratch.wide_rows[as_index(unit.wide_store + g)]);
-             });
+        .for_each(crew, [&](int g) { commit_wide_row(ctx.state, scratch.wide_rows[as_index(unit.wide_store + g)]); });
     for_each_place(crew, unit.first_row, unit.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
     for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
     joint_bins(scratch, unit)
-        .all(crew,
-             [&](int first, int last)
-             {
-                 for (int g = first; g < last; ++g)
-                     commit_wide_joint(ctx, scratch.wide_joints[as_index(unit.first_wide_joint + g)]);
-             });
+        .for_each(crew, [&](int g) { commit_wide_joint(ctx, scratch.wide_joints[as_index(unit.first_wide_joint + g)]); });
 }
 
 void commit_row(SceneState& state, const ContactRow& row)

@@ -98,7 +98,7 @@ void find_first_events(const FlightSpan& span, Crew& crew)
         for (int i = first; i < std::min(last, count); ++i)
             static_cast<void>(try_find_next_event(span, fliers[static_cast<std::size_t>(i)]));
     };
-    if (!crew.has_helpers() || count < enough_fliers)
+    if (count < enough_fliers)
     {
         look(0, count);
     }

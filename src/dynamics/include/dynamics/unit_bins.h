@@ -49,6 +49,18 @@ public:
         of_bins(crew, 0, m_count, pass);
     }
 
+    /// Calls visit(group), each by the member that solves it.
+    template <class Visit>
+    void for_each(Crew& crew, const Visit& visit) const
+    {
+        all(crew,
+            [&](int first, int last)
+            {
+                for (int group = first; group < last; ++group)
+                    visit(group);
+            });
+    }
+
 private:
     static constexpr int enough_groups = 12; // to share
 
