@@ -86,8 +86,12 @@ bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 {
     if (!ctx.scene.def.continuous || (s.flags & (body_flag::flier | body_flag::alone)) != 0)
         return false;
-    const float size = ctx.state.sims[static_cast<std::size_t>(body)].size;
-    return dot(s.delta_position, s.delta_position) > size * size;
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    if (dot(s.delta_position, s.delta_position) <= sim.size * sim.size)
+        return false;
+    const Vec2 strayed = s.delta_position - predicted_shift(ctx, ctx.state.bodies[body], sim);
+    const float seen = 0.5f * ctx.scene.tolerances.box_margin; // beside the way there: what rests nearer has a contact
+    return dot(strayed, strayed) > seen * seen || ctx.state.bodies[body].first_contact != none;
 }
 
 // What is stopped at a wall has not gone the rest of its way: forces have done no work on it.

@@ -24,16 +24,6 @@ void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)
     sim.angular_velocity = static_cast<float>(arc_tangent(turn.s, turn.c)) / dt;
 }
 
-// Displacement of the center of mass over the step, if nothing stops it.
-Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const BodySim& sim)
-{
-    if (record.type != BodyType::Dynamic)
-        return ctx.dt * sim.velocity;
-    const Vec2 a = {sim.gravity_scale * ctx.state.gravity.x + sim.inverse_mass.x * sim.force.x,
-                    sim.gravity_scale * ctx.state.gravity.y + sim.inverse_mass.y * sim.force.y};
-    return ctx.dt * sim.velocity + ctx.dt * ctx.dt * a;
-}
-
 // How far a point may come by turning, by the bend of its parabola, and any way that a force law may push.
 float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shift)
 {

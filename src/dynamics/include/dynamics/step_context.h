@@ -399,4 +399,14 @@ struct StepContext
     return place == none ? 0 : ctx.scratch.motion[static_cast<std::size_t>(place)];
 }
 
+/// Displacement of a body's center of mass over the step, if nothing stops it.
+[[nodiscard]] inline Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const BodySim& sim)
+{
+    if (record.type != BodyType::Dynamic)
+        return ctx.dt * sim.velocity;
+    const Vec2 a = {sim.gravity_scale * ctx.state.gravity.x + sim.inverse_mass.x * sim.force.x,
+                    sim.gravity_scale * ctx.state.gravity.y + sim.inverse_mass.y * sim.force.y};
+    return ctx.dt * sim.velocity + ctx.dt * ctx.dt * a;
+}
+
 } // namespace carom::internal
