@@ -121,6 +121,12 @@ bool only_holds(const JointRecord& joint)
     return joint.kind != JointType::Spring && joint.hertz == 0 && !joint.enable_motor && !joint.enable_limit;
 }
 
+bool loses_energy(const JointRecord& joint)
+{
+    const bool has_brake = joint.enable_motor && joint.motor_speed == 0;
+    return has_brake || (joint.hertz > 0 && joint.damping_ratio > 0);
+}
+
 bool has_angle(const JointRecord& joint)
 {
     return joint.kind == JointType::Prismatic || (joint.kind == JointType::Revolute && !only_holds(joint));

@@ -32,6 +32,7 @@ constexpr std::size_t joints_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
 constexpr std::size_t items_per_task = 4096;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
+constexpr float calm_swing = 0.1f;           // rad, in a step
 constexpr int heap_bodies = 256;             // in a batch
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
@@ -270,6 +271,7 @@ public:
         link.b = b;
         link.hinge = fits_joint_lane(joint);
         link.holds = only_holds(joint);
+        link.damped = loses_energy(joint);
         link.binds = !link.holds && joint.kind != JointType::Spring;
         link.flies = may_fly(a) || may_fly(b);
     }
@@ -385,8 +387,11 @@ public:
             return;
         for (const Link& l : scratch.links)
         {
-            if (l.solved && l.bears)
-                ++tally(unit_of_link(l)).bearing;
+            if (!l.solved)
+                continue;
+            UnitTally& t = tally(unit_of_link(l));
+            ++t.contacts;
+            t.bearing += l.bears ? 1 : 0;
         }
     }
 
@@ -417,10 +422,15 @@ public:
         for (const JointLink& j : scratch.joint_links)
         {
             const std::int32_t unit = unit_of_link(j);
-            ++tally(unit).joints;
-            tally(unit).hangs |= j.a < 0 || j.b < 0;
-            if (tally(unit).bodies <= UnitEnergy::most_bodies)
-                slice(unit, swing_rate(state.joints[j.joint]), slice_swing, slice_limit);
+            UnitTally& t = tally(unit);
+            ++t.joints;
+            t.hangs |= j.a < 0 || j.b < 0;
+            t.damped += j.damped ? 1 : 0;
+            if (t.bodies > UnitEnergy::most_bodies)
+                continue;
+            const float swing = swing_rate(state.joints[j.joint]);
+            t.swing = std::max(t.swing, swing);
+            slice(unit, swing, slice_swing, slice_limit);
         }
     }
 
@@ -449,6 +459,8 @@ public:
             place[u] = count;
             scratch.units[static_cast<std::size_t>(count)] = scratch.units[u];
             scratch.units[static_cast<std::size_t>(count)].heap = heap;
+            if (heap)
+                scratch.units[static_cast<std::size_t>(count)].slices = 1;
             ++count;
         }
         ctx.report.units = static_cast<int>(scratch.units.size());
@@ -459,13 +471,14 @@ public:
             u = u == none ? none : place[static_cast<std::size_t>(u)];
     }
 
-    // Figures and chains that lie on something: for four joints a contact bears a load, and none holds to what does not move. What joints hold exactly
-    // otherwise is held softly here, as in piles.
+    // What joints hold exactly otherwise is held softly here, as in piles: where it lies on something, for four joints a contact bears a load; and where
+    // all joints brake or damp what they hold, and none of it turns fast near something that it may meet. None holds to what does not move.
     [[nodiscard]] bool is_heap(std::int32_t unit)
     {
         const UnitTally& t = tally(unit);
-        return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && 4 * t.bearing >= t.joints && !t.hangs && t.fliers == 0 &&
-               scratch.units[static_cast<std::size_t>(unit)].slices == 1;
+        const bool lies = 4 * t.bearing >= t.joints && scratch.units[static_cast<std::size_t>(unit)].slices == 1;
+        const bool wearies = t.damped == t.joints && (t.contacts == 0 || ctx.dt * t.swing < calm_swing);
+        return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && !t.hangs && t.fliers == 0 && (lies || wearies);
     }
 
     // How fast a joint's arms turn, in rad/s.

@@ -87,6 +87,8 @@ void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointR
 
 /// It holds and does nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);
+/// By a brake, or by the damping of its spring.
+[[nodiscard]] bool loses_energy(const JointRecord& joint);
 
 /// Whether its rows ask for the angle between the bodies.
 [[nodiscard]] bool has_angle(const JointRecord& joint);

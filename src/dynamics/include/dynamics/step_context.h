@@ -62,7 +62,7 @@ struct Unit
     std::int32_t slices = 1;          ///< of each sub-step
     bool alone = false;               ///< one body with nothing near: it falls
     bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
-    bool heap = false;                ///< joints that lie on something, of several islands
+    bool heap = false;                ///< figures that are held softly, of several islands
     bool traced = false;              ///< paths of some of its bodies are recorded
 };
 
@@ -119,7 +119,10 @@ struct UnitTally
     std::int32_t bodies = 0;
     std::int32_t fliers = 0;
     std::int32_t joints = 0;
-    std::int32_t bearing = 0; ///< contacts that bore a load in the last step
+    std::int32_t contacts = 0;
+    std::int32_t bearing = 0; ///< of these, those that bore a load in the last step
+    float swing = 0;          ///< rad/s, of the joints' arms
+    std::int32_t damped = 0;  ///< of the joints, those that brake or damp what they hold
     bool hangs = false;       ///< a joint holds to what does not move
 };
 
@@ -131,10 +134,11 @@ struct JointLink
     std::int32_t joint = none;
     std::int32_t a = none; ///< as in Link: the place of the body, from copy_kinematic_bodies on its state
     std::int32_t b = none;
-    bool hinge = false; ///< of a kind that goes in lanes
-    bool holds = false; ///< and does nothing else
-    bool binds = false; ///< it does something about an angle or a length beside
-    bool flies = false; ///< one of its bodies may fly about it
+    bool hinge = false;  ///< of a kind that goes in lanes
+    bool holds = false;  ///< and does nothing else
+    bool damped = false; ///< it brakes or damps
+    bool binds = false;  ///< it does something about an angle or a length beside
+    bool flies = false;  ///< one of its bodies may fly about it
 
     [[nodiscard]] bool operator==(const JointLink&) const = default;
 };
