@@ -78,6 +78,18 @@ public:
         m_w_frame = std::fabs(m_frame.w) + duration * std::fabs(m_frame.alpha);
     }
 
+    /// At t = 0 the surface is farther from the probe than this, or does not answer.
+    [[nodiscard]] bool starts_beyond(double tolerance) const
+    {
+        const SinCos turn_probe = {m_carrier.s, m_carrier.c};
+        const SinCos turn_frame = {m_frame.s, m_frame.c};
+        const Vector q = turned(turn_probe, m_local);
+        const Vector r = {m_carrier.center.x + q.x - m_frame.center.x, m_carrier.center.y + q.y - m_frame.center.y};
+        const Vector in_leaf = place_in_leaf(turn_frame, r);
+        const std::optional<Surface<double>> surface = surface_for(in_leaf.x, in_leaf.y, turn_probe, turn_frame);
+        return !surface || surface->distance - m_probe.radius > tolerance;
+    }
+
     [[nodiscard]] Sight look(double t) const
     {
         const CenterPath& p = m_carrier.center;
@@ -92,9 +104,7 @@ public:
                           to_carrier.y + q.y - (f.y + t * f.vy + 0.5 * t * t * f.ay)};
         // Velocity of the probe as the turning frame sees it.
         const Vector v = {p.vx - f.vx + t * m_a.x - wp * q.y + wf * r.y, p.vy - f.vy + t * m_a.y + wp * q.x - wf * r.x};
-        const Vector local = turned_back(turn_frame, r);
-        const Vector in_leaf = {local.x + static_cast<double>(m_frame.local_center.x),
-                                local.y + static_cast<double>(m_frame.local_center.y)};
+        const Vector in_leaf = place_in_leaf(turn_frame, r);
         const std::optional<Surface<double>> surface = surface_for(in_leaf.x, in_leaf.y, turn_probe, turn_frame);
         Sight sight{};
         bound_motion(sight, t, r, v);
@@ -140,6 +150,13 @@ public:
     }
 
 private:
+    // Of a point seen from the center that the frame turns about.
+    [[nodiscard]] Vector place_in_leaf(SinCos turn_frame, Vector r) const
+    {
+        const Vector local = turned_back(turn_frame, r);
+        return {local.x + static_cast<double>(m_frame.local_center.x), local.y + static_cast<double>(m_frame.local_center.y)};
+    }
+
     // The surface as the probe meets it. A vertex that has come through a thin line by less than its band is still outside, on the side that
     // its shape is on: a rounding does not decide that.
     [[nodiscard]] std::optional<Surface<double>> surface_for(double px, double py, SinCos turn_probe, SinCos turn_frame) const
@@ -495,6 +512,7 @@ public:
     }
 
     [[nodiscard]] bool stays_open() const { return m_gap > m_closing; }
+    [[nodiscard]] double gap() const { return m_gap; }
 
     /// A corner on the far side: it cannot come to where the other leaf is.
     [[nodiscard]] bool leaves_out(const Probe& probe, bool on_a) const
@@ -522,6 +540,18 @@ bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, c
                 double duration)
 {
     return Interval(a, path_a, b, path_b, {axis.x, axis.y}, duration).stays_open();
+}
+
+bool are_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis, double distance)
+{
+    return !axis.is_none() && Interval(a, path_a, b, path_b, {axis.x, axis.y}, 0).gap() > distance;
+}
+
+Axis line_of_centers(const FramePath& a, const FramePath& b)
+{
+    const Vector d = {b.center.x - a.center.x, b.center.y - a.center.y};
+    const double l = size(d);
+    return l > 0 ? Axis{d.x / l, d.y / l} : Axis{};
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
@@ -585,6 +615,8 @@ Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& 
                         {
                             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0,
                                                     length);
+                            if (approach.starts_beyond(tolerance))
+                                return;
                             const Sight sight = approach.look(0);
                             if (!sight.faces || sight.distance > tolerance)
                                 return;

@@ -202,8 +202,11 @@ void ImpactSet::add_touches(int member, std::int32_t own, std::int32_t other, st
     const int other_body = m_state.shapes[other].body;
     const double size = std::min(probe_size(own_leaf), probe_size(other_leaf));
     const FramePath other_path = path_from(m_span, other_body, m_time, m_origin);
-    const Touches touches = touches_now(other_leaf, other_path, own_leaf, m_members[static_cast<std::size_t>(member)].path,
-                                        nearness(member, own, other, other_body) * size);
+    const FramePath& own_path = m_members[static_cast<std::size_t>(member)].path;
+    const double near = nearness(member, own, other, other_body) * size;
+    if (are_apart(other_leaf, other_path, own_leaf, own_path, line_of_centers(other_path, own_path), near))
+        return;
+    const Touches touches = touches_now(other_leaf, other_path, own_leaf, own_path, near);
     for (const Touch& t : touches)
     {
         if (lets_pass(m_span.ctx.scene, other, own, {static_cast<float>(t.nx), static_cast<float>(t.ny)}))

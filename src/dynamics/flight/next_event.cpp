@@ -215,14 +215,6 @@ private:
         return !axis.is_none() && stay_apart(a, path_a, b, path_b, axis, left);
     }
 
-    [[nodiscard]] static Axis line_of_centers(const FramePath& target, const FramePath& own_path)
-    {
-        const double dx = own_path.center.x - target.center.x;
-        const double dy = own_path.center.y - target.center.y;
-        const double l = std::sqrt(dx * dx + dy * dy);
-        return l > 0 ? Axis{dx / l, dy / l} : Axis{};
-    }
-
     // From the shape to the flier.
     [[nodiscard]] Axis normal_at_start(int shape, int contact) const
     {

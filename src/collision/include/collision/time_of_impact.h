@@ -95,6 +95,13 @@ inline constexpr double nearly_touch = 1e-3;
 [[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
                               double duration);
 
+/// True where they are farther apart than that along the axis at t = 0. False says nothing.
+[[nodiscard]] bool are_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
+                             double distance);
+
+/// From the center that a turns about to that of b; none where they are in one place.
+[[nodiscard]] Axis line_of_centers(const FramePath& a, const FramePath& b);
+
 /// All points at which the leaves are nearer than `tolerance` at t = 0.
 struct Touches
 {
