@@ -5,6 +5,7 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/kept_manifold.h"
+#include "dynamics/kept_rows.h"
 #include "dynamics/material.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
@@ -75,7 +76,7 @@ void find_manifold(const StepContext& ctx, Contact& contact, float reach)
     contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b),
                                       ctx.scene.tolerances.speculation + reach);
     carry_impulses(old, contact.manifold);
-    contact.flags &= ~contact_flag::kept;
+    contact.flags &= ~(contact_flag::kept | contact_flag::followed);
 }
 
 void update_manifold(const StepContext& ctx, int index)
@@ -169,7 +170,25 @@ News news_of(const StepContext& ctx, const Contact& contact)
     return one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
 
+} // namespace
+
+News update_contact(const StepContext& ctx, int index)
+{
+    Contact& contact = ctx.state.contacts[index];
+    update_manifold(ctx, index);
+    contact.flags &= ~contact_flag::fresh;
+    return news_of(ctx, contact);
+}
+
+namespace {
+
 constexpr std::size_t contacts_per_task = 512;
+
+// Since follow_rows has tried to do with less.
+bool is_looked_at(const Scratch& scratch, std::int32_t contact)
+{
+    return !scratch.is_looked_at.empty() && scratch.is_looked_at[static_cast<std::size_t>(contact)] != 0;
+}
 
 // Writes to its own contacts alone.
 void update_some(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<ContactNews>& news)
@@ -178,10 +197,8 @@ void update_some(const StepContext& ctx, std::size_t first, std::size_t last, st
     for (std::size_t i = first; i < last; ++i)
     {
         const std::int32_t index = ctx.state.awake_contacts[i];
-        Contact& contact = ctx.state.contacts[index];
-        update_manifold(ctx, index);
-        contact.flags &= ~contact_flag::fresh;
-        if (const News what = news_of(ctx, contact); what != News::Nothing)
+        const News what = is_looked_at(ctx.scratch, index) ? news_of(ctx, ctx.state.contacts[index]) : update_contact(ctx, index);
+        if (what != News::Nothing)
             news.push_back({index, what});
     }
 }
@@ -190,6 +207,12 @@ void update_some(const StepContext& ctx, std::size_t first, std::size_t last, st
 
 void update_contacts(StepContext& ctx)
 {
+    if (follow_rows(ctx))
+    {
+        ctx.report.pairs = static_cast<int>(ctx.state.awake_contacts.size());
+        ctx.report.touching = ctx.scratch.kept_units.touching;
+        return;
+    }
     SceneState& state = ctx.state;
     using Some = std::vector<ContactNews>;
     const std::span<Some> parts =

@@ -106,6 +106,7 @@ void follow_manifold(const StepContext& ctx, int index, float reach)
     const BodySim& b = sim_of(state, contact.body_b);
     const Tolerances& t = ctx.scene.tolerances;
     const float margin = t.speculation + reach;
+    contact.flags &= ~contact_flag::followed;
     const float way = is_kept(contact) ? way_since(kept, a, b) : 3e38f;
     // What has two points gets no third.
     if (way < t.keep && (contact.manifold.count == 2 || margin + way <= kept.margin))
@@ -123,6 +124,42 @@ void follow_manifold(const StepContext& ctx, int index, float reach)
         return;
     contact.flags |= contact_flag::kept;
     keep(kept, a, b, contact.manifold, wide_margin);
+}
+
+Manifold manifold_at_start(const SceneState& state, int index)
+{
+    const Contact& contact = state.contacts[index];
+    Manifold m = contact.manifold;
+    if ((contact.flags & contact_flag::followed) != 0)
+        follow(state.kept_manifolds[static_cast<std::size_t>(index)], sim_of(state, contact.body_a),
+               sim_of(state, contact.body_b), m);
+    return m;
+}
+
+Manifold settled_manifold(const SceneState& state, int index)
+{
+    const Contact& contact = state.contacts[index];
+    Manifold m = contact.manifold;
+    if ((contact.flags & contact_flag::followed) == 0)
+        return m;
+    const auto before = [&](int body)
+    {
+        BodySim sim = sim_of(state, body);
+        if (state.bodies[body].type != BodyType::Static)
+        {
+            sim.center = sim.previous_center;
+            sim.rotation = sim.previous_rotation;
+        }
+        return sim;
+    };
+    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b), m);
+    return m;
+}
+
+void settle_manifold(SceneState& state, int index)
+{
+    state.contacts[index].manifold = settled_manifold(state, index);
+    state.contacts[index].flags &= ~contact_flag::followed;
 }
 
 } // namespace carom::internal

@@ -34,7 +34,13 @@ bool is_same(const Link& a, const Link& b)
            a.plain == b.plain && a.round == b.round && a.points == b.points;
 }
 
-// Bodies awake, and in the parts of the plane by which they are laid out.
+bool are_same(const std::vector<Link>& a, const std::vector<Link>& b)
+{
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), is_same);
+}
+
+} // namespace
+
 bool bodies_stay(const StepContext& ctx)
 {
     const KeptUnits& kept = ctx.scratch.kept_units;
@@ -42,13 +48,6 @@ bool bodies_stay(const StepContext& ctx)
                       [&](const KeptBody& k, std::int32_t body)
                       { return k.body == body && k.cell == ctx.state.bodies[body].plane_cell; });
 }
-
-bool are_same(const std::vector<Link>& a, const std::vector<Link>& b)
-{
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), is_same);
-}
-
-} // namespace
 
 bool units_stay(const StepContext& ctx)
 {

@@ -94,7 +94,8 @@ void solve_large(StepContext& ctx)
 // Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
 constexpr int batch_bodies = 512;
 
-// The units of a batch are solved one after the other in the same memory, which stays in the cache. Fills Scratch::order with where batches begin.
+// The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the next step. Fills
+// Scratch::order with where batches begin.
 void form_batches(Scratch& scratch)
 {
     std::vector<std::int32_t>& starts = scratch.order;
@@ -124,11 +125,18 @@ void form_batches(Scratch& scratch)
         most = 0;
         bodies = 0;
     }
-    // The large ones come behind.
+    std::int32_t groups = store + large;
     for (Unit& unit : scratch.units)
-        unit.wide_store += is_large(unit) ? store : 0;
-    if (scratch.wide_rows.size() < static_cast<std::size_t>(store + large))
-        scratch.wide_rows.resize(static_cast<std::size_t>(store + large));
+    {
+        unit.wide_store += is_large(unit) ? store : 0; // the large ones come behind
+        if (scratch.kept_units.rows_apart)
+        {
+            unit.wide_store = unit.first_wide;
+            groups = unit.first_wide + unit.wide_count;
+        }
+    }
+    if (scratch.wide_rows.size() < static_cast<std::size_t>(groups))
+        scratch.wide_rows.resize(static_cast<std::size_t>(groups));
     scratch.struck.resize(scratch.wide_rows.size());
 }
 
@@ -165,6 +173,7 @@ void solve_units(StepContext& ctx)
         scratch.outputs[i].clear();
     mark_traced(ctx);
     scratch.pushes.resize(scratch.states.size());
+    ctx.state.rows_stamp = ++scratch.kept_units.stamp;
     form_batches(scratch);
     solve_large(ctx);
     solve_small(ctx);

@@ -4,6 +4,7 @@
 
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
+#include "dynamics/kept_units.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_graph.h"
 
@@ -236,10 +237,16 @@ void tidy(StepContext& ctx)
         return;
     sort_bodies(ctx.state);
     part_bodies(ctx);
+    bool& in_order = ctx.scratch.kept_units.contacts_in_order;
+    if (in_order && ctx.scratch.kept_units.rows_stay && bodies_stay(ctx))
+        return;
     ContactOrder order(ctx);
     order.find();
-    if (!order.is_kept_already())
-        order.apply();
+    in_order = order.is_kept_already();
+    if (in_order)
+        return;
+    order.apply();
+    ctx.state.rows_stamp = 0; // they name contacts
 }
 
 } // namespace carom::internal

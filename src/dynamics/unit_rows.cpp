@@ -89,7 +89,8 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
-    contact_bins(ctx.scratch, unit).for_each(crew, [&](int g) { fill_group(unit_ctx, unit, g); });
+    if (!ctx.scratch.kept_units.rows_stay)
+        contact_bins(ctx.scratch, unit).for_each(crew, [&](int g) { fill_group(unit_ctx, unit, g); });
     for_each_place(crew, unit.first_row, unit.row_count, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
     for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i)
@@ -104,7 +105,8 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const Scratch& scratch = ctx.scratch;
     contact_bins(scratch, unit)
-        .for_each(crew, [&](int g) { commit_wide_row(ctx.state, scratch.wide_rows[as_index(unit.wide_store + g)]); });
+        .for_each(crew, [&](int g)
+                  { wide_kernels().take_impulses(scratch.wide_rows[as_index(unit.wide_store + g)], &ctx.state.contacts[0]); });
     for_each_place(crew, unit.first_row, unit.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
     for_each_place(crew, unit.first_joint, unit.joint_count,

@@ -1,6 +1,7 @@
 // Stage 4, units: first who is solved together (unit_graph.cpp), then all that each unit needs side by side (unit_layout.cpp). Where nothing has changed
-// since the last step, and nothing flies, everyone stays in place (kept_units.cpp).
+// since the last step, and nothing flies, everyone stays in place (kept_units.cpp), and so do the rows (kept_rows.cpp).
 
+#include "dynamics/kept_rows.h"
 #include "dynamics/kept_units.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_graph.h"
@@ -10,12 +11,19 @@ namespace carom::internal {
 
 void build_units(StepContext& ctx)
 {
-    gather_unit_graph(ctx);
-    if (units_stay(ctx))
+    if (ctx.scratch.kept_units.rows_stay)
     {
         refill_units(ctx);
         return;
     }
+    gather_unit_graph(ctx);
+    if (units_stay(ctx))
+    {
+        refill_units(ctx);
+        keep_rows(ctx);
+        return;
+    }
+    ctx.scratch.kept_units.rows_apart = ctx.scratch.kept_units.contacts_in_order = false;
     build_unit_graph(ctx);
     lay_out_units(ctx);
     keep_units(ctx);

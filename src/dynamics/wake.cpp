@@ -2,6 +2,7 @@
 
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
+#include "dynamics/kept_manifold.h"
 
 #include <algorithm>
 
@@ -127,6 +128,7 @@ void wake_body(SceneData& scene, int body)
 void sleep_body(SceneData& scene, int body)
 {
     BodySim& sim = scene.state.sims[static_cast<std::size_t>(body)];
+    for_each_contact(scene.state, body, [&](int contact) { settle_manifold(scene.state, contact); });
     sim.velocity = {};
     sim.angular_velocity = 0;
     sim.previous_center = sim.center;

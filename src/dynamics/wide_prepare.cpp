@@ -1,7 +1,9 @@
 #include "dynamics/wide_prepare.h"
 
+#include "collision/edge_rules.h"
 #include "dynamics/joint_bodies.h"
 #include "dynamics/joint_solver.h"
+#include "dynamics/kept_manifold.h"
 #include "dynamics/prepare.h"
 #include "dynamics/scene_data.h"
 
@@ -38,7 +40,7 @@ void start_wide_row(WideRow& row)
         p.approach = {};
     }
     row.coupling = {};
-    row.may_hit = row.untold = 0;
+    row.may_hit = row.untold = row.edge_of_b = 0;
 }
 
 void empty_wide_row(std::int32_t fixed, WideRow& row)
@@ -71,6 +73,8 @@ void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
     row.inverse_inertia_a.v[i] = a.inverse_inertia;
     row.inverse_inertia_b.v[i] = b.inverse_inertia;
     row.count = m.count;
+    if (edge_is_of_b(m.points[0].feature))
+        row.edge_of_b |= 1u << i;
     for (int k = 0; k < m.count; ++k)
     {
         const ManifoldPoint& from = m.points[k];
@@ -94,7 +98,7 @@ ContactRow row_of_lane(const StepContext& ctx, std::int32_t index)
     const Lane lane(ctx.scratch, index);
     const int i = lane.i;
     const std::int32_t contact = lane.row.contact.v[i];
-    ContactRow row = prepare_row(ctx, contact, ctx.state.contacts[contact].manifold, lane.row.a.v[i], lane.row.b.v[i]);
+    ContactRow row = prepare_row(ctx, contact, manifold_at_start(ctx.state, contact), lane.row.a.v[i], lane.row.b.v[i]);
     for (int k = 0; k < row.count; ++k)
     {
         const WidePoint& from = lane.row.points[k];
@@ -143,28 +147,6 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     contact.flags &= ~contact_flag::loaded;
     for (ManifoldPoint& p : contact.manifold.points)
         p.normal_impulse = p.tangent_impulse = 0;
-}
-
-void commit_wide_row(SceneState& state, const WideRow& row)
-{
-    for (int i = 0; i < lane_count; ++i)
-    {
-        if (row.contact.v[i] == none)
-            continue;
-        Contact& contact = state.contacts[row.contact.v[i]];
-        contact.flags &= ~contact_flag::loaded;
-        for (int k = 0; k < row.count; ++k)
-        {
-            const WidePoint& p = row.points[k];
-            ManifoldPoint& to = contact.manifold.points[k];
-            to.normal_impulse = p.normal_impulse.v[i];
-            to.tangent_impulse = p.tangent_impulse.v[i];
-            to.total_impulse = p.total_impulse.v[i];
-            to.total_tangent = p.total_tangent.v[i];
-            if (to.normal_impulse > 0)
-                contact.flags |= contact_flag::loaded;
-        }
-    }
 }
 
 bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }

@@ -2,6 +2,7 @@
 
 #include "carom/scene.h"
 #include "dynamics/body_store.h"
+#include "dynamics/kept_manifold.h"
 #include "dynamics/wake.h"
 #include "geometry/bounds.h"
 #include "scene/access.h"
@@ -75,8 +76,9 @@ public:
                 continue;
             const Contact& contact = m_state.contacts[i];
             const Position center = m_state.sims[static_cast<std::size_t>(contact.body_a)].center;
-            for (int p = 0; p < contact.manifold.count; ++p)
-                draw_contact(contact.manifold, contact.manifold.points[p], center);
+            const Manifold manifold = settled_manifold(m_state, i);
+            for (int p = 0; p < manifold.count; ++p)
+                draw_contact(manifold, manifold.points[p], center);
         }
     }
 

@@ -109,7 +109,7 @@ void add_contact(Hasher& h, const Contact& c)
 {
     h.add(c.shape_a);
     h.add(c.shape_b);
-    h.add(static_cast<int>(c.flags));
+    h.add(static_cast<int>(c.flags & ~contact_flag::followed)); // which says only where the rest of it is
     h.add(c.manifold.count);
     h.add(c.manifold.rolling_impulse);
     for (int i = 0; i < c.manifold.count; ++i)

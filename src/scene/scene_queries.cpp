@@ -4,6 +4,7 @@
 #include "collision/manifold.h"
 #include "dynamics/body_store.h"
 #include "dynamics/half_space_box.h"
+#include "dynamics/kept_manifold.h"
 #include "geometry/bounds.h"
 #include "geometry/ray.h"
 #include "geometry/surface.h"
@@ -266,19 +267,21 @@ std::optional<PointHit> Scene::closest_point(Position point, float max_distance,
 
 namespace {
 
-ContactInfo describe(const SceneState& state, const Contact& contact)
+ContactInfo describe(const SceneState& state, int index)
 {
+    const Contact& contact = state.contacts[index];
+    const Manifold manifold = settled_manifold(state, index);
     ContactInfo info;
     info.shape_a = shape_id(state, contact.shape_a);
     info.shape_b = shape_id(state, contact.shape_b);
-    info.normal = contact.manifold.normal;
-    info.point_count = contact.manifold.count;
+    info.normal = manifold.normal;
+    info.point_count = manifold.count;
     info.touching = (contact.flags & contact_flag::touching) != 0;
     info.color = contact.color;
     const Position center = state.sims[static_cast<std::size_t>(contact.body_a)].center;
-    for (int i = 0; i < contact.manifold.count; ++i)
+    for (int i = 0; i < manifold.count; ++i)
     {
-        const ManifoldPoint& p = contact.manifold.points[i];
+        const ManifoldPoint& p = manifold.points[i];
         info.points[i] = {center + p.anchor_a, p.separation, p.total_impulse, p.total_tangent};
     }
     return info;
@@ -295,7 +298,7 @@ std::vector<ContactInfo> Scene::contacts() const
     for (int i = 0; i < state.contacts.capacity(); ++i)
     {
         if (state.contacts.is_live(i) && is_listed(state.contacts[i]))
-            list.push_back(describe(state, state.contacts[i]));
+            list.push_back(describe(state, i));
     }
     return list;
 }
@@ -310,7 +313,7 @@ std::vector<ContactInfo> ConstBody::contacts() const
     {
         const Contact& contact = state.contacts[edge >> 1];
         if (is_listed(contact) && (contact.flags & contact_flag::touching) != 0)
-            list.push_back(describe(state, contact));
+            list.push_back(describe(state, edge >> 1));
     }
     return list;
 }

@@ -1,6 +1,7 @@
 // All kernels for one instruction set, in a namespace of its own: CAROM_ISA. Every set does the same, bit for bit.
 
 #include "core/lane_math.h"
+#include "dynamics/scene_state.h"
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_rows.h"
@@ -53,11 +54,13 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 
 #include "contact_kernels.inl"
 #include "joint_kernels.inl"
+#include "follow_kernels.inl"
 
 } // namespace
 
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
-                             contacts::note_approach, joints::prepare,   joints::warm_start,   joints::solve,   joints::relax};
+                             contacts::note_approach, joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
+                             follows::follow,        follows::take_impulses};
 
 } // namespace carom::internal::CAROM_ISA

@@ -38,6 +38,9 @@ void carry_impulses(const Manifold& old, Manifold& fresh);
     return length(b.shift - a.shift) + a.any_way + b.any_way;
 }
 
+/// Its manifold at the start of the step, and what others must hear of. Writes to this contact alone.
+[[nodiscard]] News update_contact(const StepContext& ctx, int index);
+
 [[nodiscard]] inline float least_separation(const Manifold& m)
 {
     float least = 3e38f;

@@ -20,4 +20,11 @@ namespace carom::internal {
 /// the two may come in this step.
 void follow_manifold(const StepContext& ctx, int index, float reach);
 
+/// A contact's manifold, at the poses of the start of this step, or, between steps, of the last: where its row has followed it, it is followed here now.
+[[nodiscard]] Manifold manifold_at_start(const SceneState& state, int contact);
+[[nodiscard]] Manifold settled_manifold(const SceneState& state, int contact);
+
+/// Writes it into the contact: before poses are lost.
+void settle_manifold(SceneState& state, int contact);
+
 } // namespace carom::internal

@@ -151,6 +151,8 @@ inline constexpr std::uint32_t begun = 64;    ///< began to touch while the unit
 inline constexpr std::uint32_t one_way = 128; ///< a one-way shape takes part
 inline constexpr std::uint32_t plain = 512;   ///< no points means apart; pieces of chains and arcs may also face elsewhere
 inline constexpr std::uint32_t kept = 256;    ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
+inline constexpr std::uint32_t followed =
+    1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
 } // namespace contact_flag
 
 struct Contact
@@ -268,6 +270,7 @@ struct SceneState
     std::vector<std::int32_t> awake_contacts;
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
+    std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
     bool graph_dirty = true;                ///< touching contacts, joints or sleep changed since the islands were labelled
     Vec2 gravity{};
     double time = 0;

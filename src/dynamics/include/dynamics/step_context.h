@@ -155,8 +155,15 @@ struct KeptUnits
     std::vector<KeptBody> bodies;
     std::vector<Link> links;
     std::vector<JointLink> joints;
-    std::vector<std::uint8_t> bound; ///< of each state: rows, limits or motors hold it
-    bool are_plain = false;          ///< nothing in them depends on anything else
+    std::vector<std::uint8_t> bound;    ///< of each state: rows, limits or motors hold it
+    bool are_plain = false;             ///< nothing in them depends on anything else
+    bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
+    bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
+    bool contacts_in_order = false;     ///< in memory, when tidy() last looked
+    std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice
+    std::vector<std::int32_t> contacts; ///< the awake ones, when the rows were filled
+    std::vector<std::int32_t> loose;    ///< of these, those without a lane
+    int touching = 0;                   ///< of the report
 };
 
 /// A joint and the states of its bodies.
@@ -281,6 +288,13 @@ struct UnitOutput
     UnitOutput& operator=(const UnitOutput&) = delete;
 };
 
+/// What following wide rows in place has found, in a task.
+struct FollowedRows
+{
+    std::vector<std::int32_t> looked_at; ///< contacts whose manifold was found anew or followed by itself
+    bool stay = true;                    ///< all are what they were
+};
+
 /// Shapes whose fat box changed, and what it is now.
 struct MovedBoxes
 {
@@ -322,6 +336,9 @@ struct Scratch
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
+    std::vector<FollowedRows> followed_of_task;
+    std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
+    std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
     bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake
     std::vector<JointLink> solved_joints;    ///< by unit
     std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by unit

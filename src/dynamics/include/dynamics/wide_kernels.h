@@ -9,6 +9,35 @@
 
 namespace carom::internal {
 
+struct BodySim;
+struct Contact;
+struct KeptManifold;
+
+/// Where the manifolds of rows that stay are followed.
+struct FollowedScene
+{
+    const BodySim* sims;
+    const Contact* contacts;
+    const KeptManifold* kept; ///< by contact
+    float sure_way;           ///< bodies that have moved less against each other are surely followed
+    float slop;
+    float speculation;
+};
+
+/// What has become of a row's contacts; bits are lanes.
+struct FollowedRow
+{
+    LaneFloats way;        ///< how far any point of b has moved against a since the manifold was found
+    LaneFloats separation; ///< the least of the contact's points
+    std::uint32_t strange; ///< not what the lane was made for
+    std::uint32_t unsure;  ///< to be looked at one by one; what else is told of them does not hold
+    std::uint32_t begins_or_ends;
+    std::uint32_t borne; ///< near, and it bore a load
+    std::uint32_t sunk;  ///< not borne, and deeper than the slop
+    std::uint32_t unloaded;
+    std::uint32_t unnoted; ///< without contact_flag::followed
+};
+
 /// The passes over wide rows and joints, compiled for one instruction set. Every set does the same, bit for bit.
 struct WideKernels
 {
@@ -28,6 +57,10 @@ struct WideKernels
     void (*solve_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
     /// At the poses that the bodies have come to; the other passes are at those that relaxing last found.
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
+    /// Normal, arms and separations of a row whose contacts it held in the last step, at the poses that bodies have now.
+    void (*follow)(WideRow& row, const FollowedScene& scene, FollowedRow& found);
+    /// Impulses of all lanes, and whether they bear a load, to their contacts.
+    void (*take_impulses)(const WideRow& row, Contact* contacts);
 };
 
 /// The best that this machine has, or that CAROM_ISA allows (sse2, avx2, avx512); chosen once.

@@ -24,9 +24,6 @@ void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t lane);
 /// Its body has taken off: the lane pushes no more.
 void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
 
-/// Impulses of all lanes, to their contacts.
-void commit_wide_row(SceneState& state, const WideRow& row);
-
 /// A hinge that bounces off no limit; its bodies must be able to move along every axis.
 [[nodiscard]] bool fits_joint_lane(const JointRecord& joint);
 

@@ -50,7 +50,8 @@ struct WideRow
     std::uint32_t untold;  ///< lanes that did not touch when the step began and whose touch is not told
     std::uint32_t fixed_a; ///< lanes whose body a does not give way; what all threads read, none writes
     std::uint32_t fixed_b;
-    std::uint32_t padding[3];
+    std::uint32_t edge_of_b; ///< lanes whose normal is that of an edge of b
+    std::uint32_t padding[2];
 };
 
 struct WideSoftness
