@@ -17,7 +17,8 @@ bool can_keep(const SceneState& state, const Contact& contact)
     const auto has_edges = [&](int shape)
     {
         const LeafType type = state.shapes[shape].leaf.type;
-        return type == LeafType::Polygon || type == LeafType::Capsule;
+        const bool is_line = type == LeafType::Segment && (contact.flags & contact_flag::plain) != 0;
+        return type == LeafType::Polygon || type == LeafType::Capsule || is_line;
     };
     const Manifold& m = contact.manifold;
     return (contact.flags & contact_flag::one_way) == 0 && has_edges(contact.shape_a) && has_edges(contact.shape_b) &&
