@@ -69,12 +69,12 @@ void update_passing(const StepContext& ctx, Contact& contact)
         contact.flags |= contact_flag::passing;
 }
 
-void find_manifold(const StepContext& ctx, Contact& contact, float reach)
+void find_manifold(const StepContext& ctx, Contact& contact)
 {
     const SceneState& state = ctx.state;
     const Manifold old = contact.manifold;
     contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b),
-                                      ctx.scene.tolerances.speculation + reach);
+                                      ctx.scene.tolerances.speculation + relative_motion(state, contact));
     carry_impulses(old, contact.manifold);
     contact.flags &= ~(contact_flag::kept | contact_flag::followed);
 }
@@ -82,11 +82,10 @@ void find_manifold(const StepContext& ctx, Contact& contact, float reach)
 void update_manifold(const StepContext& ctx, int index)
 {
     Contact& contact = ctx.state.contacts[index];
-    const float reach = relative_motion(ctx.state, contact);
     if (in_crowd(ctx.state, contact))
-        follow_manifold(ctx, index, reach);
+        follow_manifold(ctx, index);
     else
-        find_manifold(ctx, contact, reach);
+        find_manifold(ctx, contact);
     if ((contact.flags & contact_flag::one_way) != 0)
         update_passing(ctx, contact);
 }
@@ -190,18 +189,76 @@ bool is_looked_at(const Scratch& scratch, std::int32_t contact)
     return !scratch.is_looked_at.empty() && scratch.is_looked_at[static_cast<std::size_t>(contact)] != 0;
 }
 
-// Writes to its own contacts alone.
-void update_some(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<ContactNews>& news)
+// A task's contacts, and what is new of each. Writes to these contacts alone.
+class ContactUpdate
 {
-    news.clear();
-    for (std::size_t i = first; i < last; ++i)
+public:
+    ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last)
+        : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_scene(followed_scene(ctx))
+    {}
+
+    void run(std::vector<ContactNews>& news)
     {
-        const std::int32_t index = ctx.state.awake_contacts[i];
-        const News what = is_looked_at(ctx.scratch, index) ? news_of(ctx, ctx.state.contacts[index]) : update_contact(ctx, index);
-        if (what != News::Nothing)
-            news.push_back({index, what});
+        for (std::size_t i = 0; i < m_contacts.size(); ++i)
+            update(i);
+        for (int i = 0; i < m_waiting; ++i)
+            update_alone(m_places[i]);
+        news.clear();
+        for (std::size_t i = 0; i < m_contacts.size(); ++i)
+        {
+            if (m_news[i] != News::Nothing)
+                news.push_back({m_contacts[i], m_news[i]});
+        }
     }
-}
+
+private:
+    void update(std::size_t i)
+    {
+        const std::int32_t index = m_contacts[i];
+        const Contact& contact = m_ctx.state.contacts[index];
+        if (is_looked_at(m_ctx.scratch, index))
+        {
+            m_news[i] = news_of(m_ctx, contact);
+            return;
+        }
+        if (!is_followed_with_others(m_ctx.state, contact))
+        {
+            update_alone(i);
+            return;
+        }
+        m_lanes.v[m_waiting] = index;
+        m_places[m_waiting++] = i;
+        if (m_waiting == lane_count)
+            follow_together();
+    }
+
+    void update_alone(std::size_t i) { m_news[i] = update_contact(m_ctx, m_contacts[i]); }
+
+    void follow_together()
+    {
+        FollowedContacts found;
+        m_kernels.follow_contacts(m_lanes, &m_ctx.state.contacts[0], m_scene, found);
+        for (int i = 0; i < lane_count; ++i)
+        {
+            Contact& contact = m_ctx.state.contacts[m_lanes.v[i]];
+            contact.flags &= ~contact_flag::followed;
+            if ((found.sure >> i & 1u) == 0)
+                update_alone(m_places[i]);
+            else
+                m_news[m_places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
+        }
+        m_waiting = 0;
+    }
+
+    const StepContext& m_ctx;
+    std::span<const std::int32_t> m_contacts;
+    FollowedScene m_scene;
+    News m_news[contacts_per_task];
+    LaneInts m_lanes{};
+    std::size_t m_places[lane_count]{}; ///< of those that wait for others
+    int m_waiting = 0;
+    const WideKernels& m_kernels = wide_kernels();
+};
 
 } // namespace
 
@@ -217,7 +274,7 @@ void update_contacts(StepContext& ctx)
     using Some = std::vector<ContactNews>;
     const std::span<Some> parts =
         find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_per_task, ctx.scratch.news_of_task,
-                      [&](std::size_t first, std::size_t last, Some& some) { update_some(ctx, first, last, some); });
+                      [&](std::size_t first, std::size_t last, Some& some) { ContactUpdate(ctx, first, last).run(some); });
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
     for (const Some& some : parts)

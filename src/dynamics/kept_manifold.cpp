@@ -98,7 +98,7 @@ void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifo
 
 } // namespace
 
-void follow_manifold(const StepContext& ctx, int index, float reach)
+void follow_manifold(const StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
     Contact& contact = state.contacts[index];
@@ -106,9 +106,9 @@ void follow_manifold(const StepContext& ctx, int index, float reach)
     const BodySim& a = sim_of(state, contact.body_a);
     const BodySim& b = sim_of(state, contact.body_b);
     const Tolerances& t = ctx.scene.tolerances;
-    const float margin = t.speculation + reach;
     contact.flags &= ~contact_flag::followed;
     const float way = is_kept(contact) ? way_since(kept, a, b) : 3e38f;
+    const float margin = t.speculation + relative_motion(state, contact);
     // What has two points gets no third.
     if (way < t.keep && (contact.manifold.count == 2 || margin + way <= kept.margin))
     {
@@ -125,6 +125,13 @@ void follow_manifold(const StepContext& ctx, int index, float reach)
         return;
     contact.flags |= contact_flag::kept;
     keep(kept, a, b, contact.manifold, wide_margin);
+}
+
+FollowedScene followed_scene(const StepContext& ctx)
+{
+    const Tolerances& t = ctx.scene.tolerances;
+    return {ctx.state.sims.data(), &ctx.state.contacts[0], ctx.state.kept_manifolds.data(), surely * t.keep, t.slop,
+            t.speculation};
 }
 
 Manifold manifold_at_start(const SceneState& state, int index)

@@ -25,8 +25,6 @@ namespace {
 constexpr std::size_t rows_per_task = 64;
 constexpr std::size_t contacts_per_task = 512;
 constexpr std::size_t states_per_task = 2048;
-constexpr float surely =
-    0.999f; // the kernel's way is rounded otherwise than that of follow_manifold, which decides where it is close
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -35,10 +33,7 @@ class RowFollower
 {
 public:
     RowFollower(const StepContext& ctx, FollowedRows& found)
-        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_found(found),
-          m_scene{ctx.state.sims.data(),           &ctx.state.contacts[0],
-                  ctx.state.kept_manifolds.data(), surely * ctx.scene.tolerances.keep,
-                  ctx.scene.tolerances.slop,       ctx.scene.tolerances.speculation}
+        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_found(found), m_scene(followed_scene(ctx))
     {}
 
     // False where its contacts are not what they were.

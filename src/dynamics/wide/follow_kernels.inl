@@ -6,18 +6,20 @@ namespace follows {
 // Of eight contacts, their bodies and what is kept of them. Empty lanes see what the first sees.
 struct Places
 {
+    const Contact* contact[lane_count];
     const KeptManifold* kept[lane_count];
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
 
-    CAROM_INLINE Places(const WideRow& row, const FollowedScene& scene)
+    CAROM_INLINE Places(const LaneInts& contacts, const FollowedScene& scene)
     {
         for (int i = 0; i < lane_count; ++i)
         {
-            const std::int32_t contact = row.contact.v[row.contact.v[i] < 0 ? 0 : i];
-            kept[i] = scene.kept + contact;
-            a[i] = scene.sims + scene.contacts[contact].body_a;
-            b[i] = scene.sims + scene.contacts[contact].body_b;
+            const std::int32_t index = contacts.v[contacts.v[i] < 0 ? 0 : i];
+            contact[i] = scene.contacts + index;
+            kept[i] = scene.kept + index;
+            a[i] = scene.sims + contact[i]->body_a;
+            b[i] = scene.sims + contact[i]->body_b;
         }
     }
 };
@@ -91,27 +93,58 @@ CAROM_INLINE I8 lanes_of(std::uint32_t bits)
     return (I8{b, b, b, b, b, b, b, b} & I8{1, 2, 4, 8, 16, 32, 64, 128}) != I8{};
 }
 
-// The point of the other body stays where it is on it; opposite, on the edge, it slides along. Gives the separation.
-CAROM_INLINE F8 follow_point(WidePoint& p, const Places& places, std::size_t offset, const Turn& turn_a, const Turn& turn_b,
-                             const Arrow& apart, const Arrow& n, I8 edge_of_b, I8 filled)
+// How the bodies of eight contacts stand to each other, and what is kept of them.
+struct Stand
 {
-    Arrow a;
-    Arrow b;
-    gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }, a.x, a.y, b.x, b.y);
-    a = turned(turn_a, a);
-    b = turned(turn_b, b);
-    const Arrow gap = {apart.x + (b.x - a.x), apart.y + (b.y - a.y)};
-    const F8 separation = n.x * gap.x + n.y * gap.y;
-    const Arrow slid = {gap.x - separation * n.x, gap.y - separation * n.y};
-    b = {select(edge_of_b, b.x - slid.x, b.x), select(edge_of_b, b.y - slid.y, b.y)};
-    a = {select(edge_of_b, a.x, a.x + slid.x), select(edge_of_b, a.y, a.y + slid.y)};
+    Turn a, b;
+    Arrow apart;
+    Arrow n;
+    F8 way;
+    I8 edge_of_b;
+
+    CAROM_INLINE Stand(const Places& places, I8 edges_of_b)
+        : a(turns_of(places.a)), b(turns_of(places.b)), apart(centers_apart(places)), edge_of_b(edges_of_b)
+    {
+        static_assert(offsetof(KeptManifold, points) == 0 && offsetof(KeptManifold, normal) == 32 &&
+                      offsetof(KeptManifold, center) == 40);
+        Arrow normal;
+        Arrow kept_center;
+        gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + 32; }, normal.x, normal.y, kept_center.x,
+                kept_center.y);
+        way = way_since(places, a, b, apart, kept_center);
+        n = turned({select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)}, normal);
+    }
+};
+
+struct Point
+{
+    Arrow a, b; ///< anchors
+    F8 separation;
+};
+
+// The point of the other body stays where it is on it; opposite, on the edge, it slides along.
+CAROM_INLINE Point follow_point(const Places& places, std::size_t k, const Stand& s)
+{
+    Point p;
+    gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + 16 * k; }, p.a.x, p.a.y, p.b.x, p.b.y);
+    p.a = turned(s.a, p.a);
+    p.b = turned(s.b, p.b);
+    const Arrow gap = {s.apart.x + (p.b.x - p.a.x), s.apart.y + (p.b.y - p.a.y)};
+    p.separation = s.n.x * gap.x + s.n.y * gap.y;
+    const Arrow slid = {gap.x - p.separation * s.n.x, gap.y - p.separation * s.n.y};
+    p.b = {select(s.edge_of_b, p.b.x - slid.x, p.b.x), select(s.edge_of_b, p.b.y - slid.y, p.b.y)};
+    p.a = {select(s.edge_of_b, p.a.x, p.a.x + slid.x), select(s.edge_of_b, p.a.y, p.a.y + slid.y)};
+    return p;
+}
+
+CAROM_INLINE void put(WidePoint& to, const Point& p, const Arrow& n, I8 filled)
+{
     const F8 none = all(0);
-    store(p.across_a, select(filled, a.x * n.y - a.y * n.x, none));
-    store(p.along_a, select(filled, a.x * n.x + a.y * n.y, none));
-    store(p.across_b, select(filled, b.x * n.y - b.y * n.x, none));
-    store(p.along_b, select(filled, b.x * n.x + b.y * n.y, none));
-    store(p.base, select(filled, separation, none));
-    return separation;
+    store(to.across_a, select(filled, p.a.x * n.y - p.a.y * n.x, none));
+    store(to.along_a, select(filled, p.a.x * n.x + p.a.y * n.y, none));
+    store(to.across_b, select(filled, p.b.x * n.y - p.b.y * n.x, none));
+    store(to.along_b, select(filled, p.b.x * n.x + p.b.y * n.y, none));
+    store(to.base, select(filled, p.separation, none));
 }
 
 CAROM_INLINE I8 has(I8 flags, std::uint32_t flag)
@@ -126,14 +159,13 @@ struct Papers
     I8 flags;
     F8 friction, rolling_resistance, surface_speed;
 
-    CAROM_INLINE Papers(const WideRow& row, const Contact* contacts)
+    CAROM_INLINE explicit Papers(const Places& places)
     {
         static_assert(offsetof(Contact, flags) == 40 && offsetof(Contact, friction) == 44);
         static_assert(offsetof(Contact, rolling_resistance) == 48 && offsetof(Contact, surface_speed) == 52);
         F8 bits_of_flags;
-        gather4([&](int i)
-                { return reinterpret_cast<const char*>(contacts + row.contact.v[row.contact.v[i] < 0 ? 0 : i]) + 40; },
-                bits_of_flags, friction, rolling_resistance, surface_speed);
+        gather4([&](int i) { return reinterpret_cast<const char*>(places.contact[i]) + 40; }, bits_of_flags, friction,
+                rolling_resistance, surface_speed);
         std::memcpy(&flags, &bits_of_flags, sizeof flags);
     }
 };
@@ -161,29 +193,57 @@ CAROM_INLINE void tell(const WideRow& row, const Papers& papers, F8 way, F8 sepa
 
 void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
 {
-    static_assert(offsetof(KeptManifold, points) == 0 && offsetof(KeptManifold, normal) == 32 && offsetof(KeptManifold, center) == 40);
-    const Places places(row, scene);
-    const Papers papers(row, scene.contacts);
+    const Places places(row.contact, scene);
+    const Papers papers(places);
     const I8 filled = load(row.contact) >= I8{};
-    const I8 edge_of_b = lanes_of(row.edge_of_b);
-    const Turn a = turns_of(places.a);
-    const Turn b = turns_of(places.b);
-    const Arrow apart = centers_apart(places);
-    Arrow normal;
-    Arrow kept_center;
-    gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + 32; }, normal.x, normal.y, kept_center.x,
-            kept_center.y);
-    const F8 way = way_since(places, a, b, apart, kept_center);
-    const Turn edge = {select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)};
-    const Arrow n = turned(edge, normal);
-    store(row.nx, select(filled, n.x, all(0)));
-    store(row.ny, select(filled, n.y, all(0)));
+    const Stand stand(places, lanes_of(row.edge_of_b));
+    store(row.nx, select(filled, stand.n.x, all(0)));
+    store(row.ny, select(filled, stand.n.y, all(0)));
     store(row.friction, select(filled, papers.friction, all(0)));
-    F8 separation = follow_point(row.points[0], places, 0, a, b, apart, n, edge_of_b, filled);
+    const Point first = follow_point(places, 0, stand);
+    put(row.points[0], first, stand.n, filled);
+    F8 separation = first.separation;
     if (row.count == 2)
-        separation = least(separation, follow_point(row.points[1], places, 16, a, b, apart, n, edge_of_b, filled));
+    {
+        const Point second = follow_point(places, 1, stand);
+        put(row.points[1], second, stand.n, filled);
+        separation = least(separation, second.separation);
+    }
     store(found.separation, separation);
-    tell(row, papers, way, separation, filled, scene, found);
+    tell(row, papers, stand.way, separation, filled, scene, found);
+}
+
+// The same for eight contacts of two points that are in no row now: into their manifolds.
+void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found)
+{
+    static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
+    const Places places(contacts, scene);
+    const Papers papers(places);
+    std::uint32_t of_b = 0;
+    for (int i = 0; i < lane_count; ++i)
+        of_b |= (places.contact[i]->manifold.points[0].feature >> 31) << i;
+    const Stand stand(places, lanes_of(of_b));
+    const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
+    LaneFloats nx;
+    LaneFloats ny;
+    store(nx, stand.n.x);
+    store(ny, stand.n.y);
+    F8 least_separation = all(3e38f);
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+        const Point p = follow_point(places, k, stand);
+        least_separation = least(least_separation, p.separation);
+        scatter4([&](int i) { return reinterpret_cast<char*>(&manifold(i).points[k].anchor_a); }, p.a.x, p.a.y, p.b.x, p.b.y);
+        LaneFloats separation;
+        store(separation, p.separation);
+        for (int i = 0; i < lane_count; ++i)
+            manifold(i).points[k].separation = separation.v[i];
+    }
+    for (int i = 0; i < lane_count; ++i)
+        manifold(i).normal = {nx.v[i], ny.v[i]};
+    const I8 near = least_separation <= all(2 * scene.slop);
+    found.sure = bits(stand.way < all(scene.sure_way));
+    found.touch_on = bits(has(papers.flags, contact_flag::touching) & near);
 }
 
 // Impulses of a point, side by side in a row, one after the other in a contact.

@@ -61,6 +61,6 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              contacts::note_approach, joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
-                             follows::follow,        follows::take_impulses};
+                             follows::follow,        follows::follow_contacts, follows::take_impulses};
 
 } // namespace carom::internal::CAROM_ISA

@@ -6,6 +6,7 @@
 // Few bodies alone are always looked at anew: there a contact decides where a ball goes.
 
 #include "dynamics/step_context.h"
+#include "dynamics/wide_kernels.h"
 
 namespace carom::internal {
 
@@ -16,9 +17,19 @@ namespace carom::internal {
            state.sims[static_cast<std::size_t>(contact.body_b)].crowded;
 }
 
-/// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over. `reach`: how much nearer
-/// the two may come in this step.
-void follow_manifold(const StepContext& ctx, int index, float reach);
+/// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over.
+void follow_manifold(const StepContext& ctx, int index);
+
+/// The kernel's way is rounded otherwise than that of follow_manifold, which decides where it is close.
+inline constexpr float surely = 0.999f;
+[[nodiscard]] FollowedScene followed_scene(const StepContext& ctx);
+
+/// It has two points and can be followed with others: in a crowd, and nothing has been done to it.
+[[nodiscard]] inline bool is_followed_with_others(const SceneState& state, const Contact& contact)
+{
+    constexpr std::uint32_t asked = contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing;
+    return (contact.flags & asked) == contact_flag::kept && contact.manifold.count == 2 && in_crowd(state, contact);
+}
 
 /// A contact's manifold, at the poses of the start of this step, or, between steps, of the last: where its row has followed it, it is followed here now.
 [[nodiscard]] Manifold manifold_at_start(const SceneState& state, int contact);

@@ -38,6 +38,13 @@ struct FollowedRow
     std::uint32_t unnoted; ///< without contact_flag::followed
 };
 
+/// The same of eight contacts by themselves.
+struct FollowedContacts
+{
+    std::uint32_t sure;
+    std::uint32_t touch_on; ///< touched, and are as near as that
+};
+
 /// The passes over wide rows and joints, compiled for one instruction set. Every set does the same, bit for bit.
 struct WideKernels
 {
@@ -59,6 +66,8 @@ struct WideKernels
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
     /// Normal, arms and separations of a row whose contacts it held in the last step, at the poses that bodies have now.
     void (*follow)(WideRow& row, const FollowedScene& scene, FollowedRow& found);
+    /// The manifolds of eight contacts that have two points and are kept, likewise; of those that are not sure it is to be found by itself.
+    void (*follow_contacts)(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found);
     /// Impulses of all lanes, and whether they bear a load, to their contacts.
     void (*take_impulses)(const WideRow& row, Contact* contacts);
 };
