@@ -10,19 +10,19 @@
 #include "dynamics/kept_manifold.h"
 #include "dynamics/kept_units.h"
 #include "dynamics/scene_data.h"
+#include "dynamics/unit_bins.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <span>
 
 namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t rows_per_task = 64;
+constexpr std::size_t units_per_task = 4;
 constexpr std::size_t contacts_per_task = 512;
 constexpr std::size_t states_per_task = 2048;
 
@@ -32,8 +32,8 @@ std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 class RowFollower
 {
 public:
-    RowFollower(const StepContext& ctx, FollowedRows& found)
-        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_found(found), m_scene(followed_scene(ctx))
+    explicit RowFollower(const StepContext& ctx)
+        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
     {}
 
     // False where its contacts are not what they were.
@@ -84,7 +84,7 @@ private:
     bool look_at(WideRow& row, int i)
     {
         const std::int32_t index = row.contact.v[i];
-        m_found.looked_at.push_back(index);
+        m_scratch.is_looked_at[as_index(index)] = 1;
         const Contact& contact = m_state.contacts[index];
         if (update_contact(m_ctx, index) != News::Nothing || contact.manifold.count != row.count)
             return false;
@@ -120,7 +120,6 @@ private:
     const StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    FollowedRows& m_found;
     FollowedScene m_scene;
     const WideKernels& m_kernels = wide_kernels();
 };
@@ -151,35 +150,10 @@ bool are_in_place(const StepContext& ctx)
            keep_their_masses(ctx);
 }
 
-// On all threads; what they have looked at stands in the order of the tasks.
-template <class Look>
-bool look_in_parts(StepContext& ctx, std::size_t count, std::size_t part, const Look& look)
-{
-    std::vector<std::uint8_t>& is_looked_at = ctx.scratch.is_looked_at;
-    bool stay = true;
-    const std::span<FollowedRows> parts = find_in_parts(ctx.scene.def.tasks, count, part, ctx.scratch.followed_of_task,
-                                                        [&](std::size_t first, std::size_t last, FollowedRows& found)
-                                                        {
-                                                            found.looked_at.clear();
-                                                            found.stay = true;
-                                                            for (std::size_t i = first; i < last && found.stay; ++i)
-                                                                found.stay = look(i, found);
-                                                        });
-    for (const FollowedRows& some : parts)
-    {
-        stay &= some.stay;
-        if (!some.looked_at.empty())
-            is_looked_at.resize(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-        for (const std::int32_t contact : some.looked_at)
-            is_looked_at[as_index(contact)] = 1;
-    }
-    return stay;
-}
-
 // What has no lane must go on needing none.
-bool look_at_loose(const StepContext& ctx, std::int32_t index, FollowedRows& found)
+bool look_at_loose(const StepContext& ctx, std::int32_t index)
 {
-    found.looked_at.push_back(index);
+    ctx.scratch.is_looked_at[as_index(index)] = 1;
     Contact& contact = ctx.state.contacts[index];
     const int points = contact.manifold.count;
     if (update_contact(ctx, index) != News::Nothing || contact.manifold.count != points)
@@ -187,6 +161,48 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index, FollowedRows& fou
     if (points == 0)
         forget_impulses(contact);
     return true;
+}
+
+bool loose_stay(const StepContext& ctx)
+{
+    const std::vector<std::int32_t>& loose = ctx.scratch.kept_units.loose;
+    std::atomic<bool> stay{true};
+    for_each_in_parts(ctx.scene.def.tasks, loose.size(), contacts_per_task,
+                      [&](std::size_t i)
+                      {
+                          if (stay.load(std::memory_order_relaxed) && !look_at_loose(ctx, loose[i]))
+                              stay.store(false, std::memory_order_relaxed);
+                      });
+    return stay;
+}
+
+// Those of a large unit by the threads that solve them, of small ones a few units to a task.
+bool rows_stay(const StepContext& ctx)
+{
+    const std::vector<Unit>& units = ctx.scratch.units;
+    std::atomic<bool> stay{true};
+    const auto follow = [&](const Unit& unit, int first, int last)
+    {
+        RowFollower follower(ctx);
+        for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
+        {
+            if (!follower.follow(ctx.scratch.wide_rows[as_index(unit.wide_store + g)]))
+                stay.store(false, std::memory_order_relaxed);
+        }
+    };
+    for (const Unit& unit : units)
+    {
+        if (is_large(unit))
+            Crew::run(ctx.scene.def.tasks, [&](Crew& crew)
+                      { contact_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { follow(unit, first, last); }); });
+    }
+    for_each_in_parts(ctx.scene.def.tasks, units.size(), units_per_task,
+                      [&](std::size_t u)
+                      {
+                          if (!is_large(units[u]))
+                              follow(units[u], 0, units[u].wide_count);
+                      });
+    return stay;
 }
 
 bool all_are_borne(const StepContext& ctx)
@@ -220,13 +236,8 @@ bool follow_rows(StepContext& ctx)
     if (!are_in_place(ctx))
         return false;
     scratch.borne.assign(scratch.state_bodies.size(), 0);
-    const Unit& last = scratch.units.back();
-    const auto rows = as_index(last.first_wide + last.wide_count);
-    kept.rows_stay = look_in_parts(ctx, kept.loose.size(), contacts_per_task, [&](std::size_t i, FollowedRows& found)
-                                   { return look_at_loose(ctx, kept.loose[i], found); }) &&
-                     look_in_parts(ctx, rows, rows_per_task, [&](std::size_t i, FollowedRows& found)
-                                   { return RowFollower(ctx, found).follow(scratch.wide_rows[i]); }) &&
-                     (!ctx.scene.def.continuous || all_are_borne(ctx));
+    scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
+    kept.rows_stay = loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
     if (kept.rows_stay)
         scratch.is_looked_at.clear();
     return kept.rows_stay;

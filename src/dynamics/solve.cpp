@@ -7,6 +7,7 @@
 #include "dynamics/prepare.h"
 #include "dynamics/rows.h"
 #include "dynamics/stages.h"
+#include "dynamics/unit_bins.h"
 #include "dynamics/unit_rows.h"
 #include "dynamics/unit_solver.h"
 
@@ -40,8 +41,6 @@ void UnitOutput::clear()
 
 namespace {
 
-constexpr int crew_groups = 256; // from so many on a unit is worth all threads
-
 // A parabola and an even turn: in double, rounded once. Damping acts after each sub-step, as on everything else.
 void fall(const StepContext& ctx, std::int32_t index)
 {
@@ -67,8 +66,6 @@ void fall(const StepContext& ctx, std::int32_t index)
     if (angle != 0)
         s.delta_rotation = Rotation::from_angle(angle);
 }
-
-[[nodiscard]] bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= crew_groups; }
 
 void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew)
 {

@@ -288,13 +288,6 @@ struct UnitOutput
     UnitOutput& operator=(const UnitOutput&) = delete;
 };
 
-/// What following wide rows in place has found, in a task.
-struct FollowedRows
-{
-    std::vector<std::int32_t> looked_at; ///< contacts whose manifold was found anew or followed by itself
-    bool stay = true;                    ///< all are what they were
-};
-
 /// Shapes whose fat box changed, and what it is now.
 struct MovedBoxes
 {
@@ -336,7 +329,6 @@ struct Scratch
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
-    std::vector<FollowedRows> followed_of_task;
     std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
     std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
     bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake

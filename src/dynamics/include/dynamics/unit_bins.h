@@ -100,6 +100,9 @@ private:
     int m_cells;
 };
 
+/// Worth all threads.
+[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= 256; }
+
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
     return {scratch.bin_starts, unit.first_bin, unit.bin_count, unit.cells};
