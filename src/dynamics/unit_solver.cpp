@@ -21,6 +21,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace carom::internal {
 
@@ -634,15 +635,34 @@ private:
         const std::size_t kicks = m_output.kicked_shapes.size();
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
-        for (int g = 0; g < m_unit.wide_count; ++g)
-        {
-            for (unsigned lanes = m_struck[g]; lanes != 0; lanes &= lanes - 1)
-                bounce_lane(m_wide[g], (m_unit.wide_store + g) * lane_count + std::countr_zero(lanes), k);
-        }
+        for_each_struck(
+            [&](int g)
+            {
+                for (unsigned lanes = m_struck[g]; lanes != 0; lanes &= lanes - 1)
+                    bounce_lane(m_wide[g], (m_unit.wide_store + g) * lane_count + std::countr_zero(lanes), k);
+            });
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
             m_output.direct->keep_together();
         return m_output.kicked_shapes.size() != kicks;
+    }
+
+    // Most are not: eight groups are passed over at once.
+    template <class Visit>
+    void for_each_struck(const Visit& visit) const
+    {
+        constexpr int at_once = sizeof(std::uint64_t);
+        for (int first = 0; first < m_unit.wide_count; first += at_once)
+        {
+            const int last = std::min(first + at_once, m_unit.wide_count);
+            std::uint64_t any = 0;
+            std::memcpy(&any, m_struck + first, static_cast<std::size_t>(last - first));
+            for (int g = first; any != 0 && g < last; ++g)
+            {
+                if (m_struck[g] != 0)
+                    visit(g);
+            }
+        }
     }
 
     // It bears a load: told once, bounced once.
