@@ -3,6 +3,7 @@
 
 #include "dynamics/unit_solver.h"
 
+#include "core/float4.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/contact_store.h"
@@ -21,6 +22,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace carom::internal {
@@ -243,12 +245,19 @@ private:
     template <class Visit>
     void over_states(const Visit& visit)
     {
+        over_ranges(
+            [&](int first, int last)
+            {
+                for (int i = first; i < last; ++i)
+                    visit(i);
+            });
+    }
+
+    template <class Work>
+    void over_ranges(const Work& work)
+    {
         m_crew.share(m_unit.state_count, enough_states,
-                     [&](int first, int last)
-                     {
-                         for (int i = m_unit.first_state + first; i < m_unit.first_state + last; ++i)
-                             visit(i);
-                     });
+                     [&](int first, int last) { work(m_unit.first_state + first, m_unit.first_state + last); });
     }
 
     // Where points and normals keep through the step, all that the rows gave to a body in the last sub-step is given again at once: what warm
@@ -259,17 +268,12 @@ private:
             [&](int i)
             {
                 BodyState& s = m_view.states[i];
-                BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
+                float* const push = &m_scratch.pushes[static_cast<std::size_t>(i)].velocity.x;
                 if ((s.flags & body_flag::dynamic) == 0)
                     return;
-                accelerate(s, m_view.constants[i], m_ctx.h);
-                const BodyPush before{s.velocity, s.angular_velocity};
-                if (k > 0)
-                {
-                    s.velocity += push.velocity;
-                    s.angular_velocity += push.angular_velocity;
-                }
-                push = before;
+                const F4 before = accelerated(s, m_view.constants[i]);
+                set_speeds(s, k > 0 ? before + load4(push) : before);
+                store4(push, before);
             });
     }
 
@@ -278,10 +282,32 @@ private:
         over_states(
             [&](int i)
             {
-                const BodyState& s = m_view.states[i];
-                BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(i)];
-                push = {s.velocity - push.velocity, s.angular_velocity - push.angular_velocity};
+                float* const push = &m_scratch.pushes[static_cast<std::size_t>(i)].velocity.x;
+                store4(push, speeds_of(m_view.states[i]) - load4(push));
             });
+    }
+
+    static_assert(sizeof(BodyPush) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);
+
+    // Velocity, angular velocity, and 0 where the flags are.
+    [[nodiscard]] static F4 speeds_of(const BodyState& s)
+    {
+        return __builtin_shufflevector(load4(&s.velocity.x), F4{}, 0, 1, 2, 4);
+    }
+
+    static void set_speeds(BodyState& s, F4 speeds)
+    {
+        store4(&s.velocity.x, __builtin_shufflevector(speeds, load4(&s.velocity.x), 0, 1, 2, 7));
+    }
+
+    // As accelerate() does it.
+    [[nodiscard]] F4 accelerated(const BodyState& s, const StateConstants& c) const
+    {
+        static_assert(offsetof(StateConstants, angular_acceleration) == 12 && offsetof(StateConstants, acceleration) == 16);
+        const F4 rest = load4(&c.acceleration.x); // acceleration, and decays of both
+        const F4 acceleration = __builtin_shufflevector(rest, load4(&c.inverse_mass.x), 0, 1, 7, 7);
+        const F4 decay = __builtin_shufflevector(rest, rest, 2, 2, 3, 3);
+        return decay * (speeds_of(s) + m_ctx.h * acceleration);
     }
 
     void warm_start_all(int k)
@@ -388,16 +414,27 @@ private:
     // x += h v
     void integrate_positions()
     {
-        over_states(
-            [&](int i)
+        over_ranges(
+            [&](int first, int last)
             {
-                BodyState& s = m_view.states[i];
-                if ((s.flags & body_flag::flier) != 0)
-                    return;
-                s.delta_position += drift(m_view, i);
-                if (s.angular_velocity != 0)
-                    s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
+                while (first < last)
+                {
+                    first += m_kernels.move(m_view.states + first, last - first, m_ctx.h);
+                    const int next = std::min(first + lane_count, last);
+                    for (; first < next; ++first)
+                        integrate_position(first);
+                }
             });
+    }
+
+    void integrate_position(int i)
+    {
+        BodyState& s = m_view.states[i];
+        if ((s.flags & body_flag::flier) != 0)
+            return;
+        s.delta_position += drift(m_view, i);
+        if (s.angular_velocity != 0)
+            s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
     }
 
     // The last line of defence, for what something far heavier presses into what does not give way: no deeper than half of what is inside it.

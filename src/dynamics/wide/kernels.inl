@@ -55,12 +55,13 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 #include "contact_kernels.inl"
 #include "joint_kernels.inl"
 #include "follow_kernels.inl"
+#include "state_kernels.inl"
 
 } // namespace
 
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              contacts::note_approach, joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
-                             follows::follow,        follows::follow_contacts, follows::take_impulses};
+                             follows::follow,        follows::follow_contacts, follows::take_impulses, states::move};
 
 } // namespace carom::internal::CAROM_ISA

@@ -20,6 +20,8 @@ CAROM_INLINE F4 load4(const float* p)
     return v;
 }
 
+CAROM_INLINE void store4(float* p, F4 v) { std::memcpy(p, &v, sizeof v); }
+
 /// A bit for each lane of a comparison that holds.
 CAROM_INLINE unsigned bits(I4 mask)
 {

@@ -70,6 +70,8 @@ struct WideKernels
     void (*follow_contacts)(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found);
     /// Impulses of all lanes, and whether they bear a load, to their contacts.
     void (*take_impulses)(const WideRow& row, Contact* contacts);
+    /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
+    std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
 };
 
 /// The best that this machine has, or that CAROM_ISA allows (sse2, avx2, avx512); chosen once.
