@@ -1,4 +1,4 @@
-// What is walked together is kept together: every eighth step contacts move, among the slots that they have, to the order in which their lanes were
+// What is walked together is kept together: every sixteenth step contacts move, among the slots that they have, to the order in which their lanes were
 // last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
 // in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
@@ -20,7 +20,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::uint64_t steps_between = 8;
+constexpr std::uint64_t steps_between = 16;
 constexpr std::uint64_t steps_between_cells = 32;
 constexpr std::size_t few_of = 8; // less than one of so many
 constexpr std::size_t contacts_per_task = 1024;
