@@ -1,6 +1,7 @@
 #include "dynamics/body_store.h"
 
 #include "dynamics/contact_store.h"
+#include "dynamics/kept_manifold.h"
 #include "geometry/bounds.h"
 #include "geometry/mass.h"
 #include "geometry/surface.h"
@@ -42,7 +43,12 @@ void move_center(SceneState& state, int body, Vec2 local_center)
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     if (local_center == sim.local_center)
         return;
-    for_each_contact(state, body, [&](int contact) { state.contacts[contact].flags |= contact_flag::fresh; });
+    for_each_contact(state, body,
+                     [&](int contact)
+                     {
+                         settle_manifold(state, contact);
+                         state.contacts[contact].flags |= contact_flag::fresh;
+                     });
     const Pose pose = sim.pose();
     const Position center = transform(pose, local_center);
     const Vec2 shift = center - sim.center;

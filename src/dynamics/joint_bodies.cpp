@@ -123,8 +123,10 @@ bool only_holds(const JointRecord& joint)
 
 bool loses_energy(const JointRecord& joint)
 {
-    const bool has_brake = joint.enable_motor && joint.motor_speed == 0;
-    return has_brake || (joint.hertz > 0 && joint.damping_ratio > 0);
+    if (joint.kind != JointType::Revolute && joint.kind != JointType::Prismatic)
+        return false;
+    const bool brakes = joint.enable_motor && joint.motor_speed == 0 && joint.max_motor > 0;
+    return brakes || (joint.hertz > 0 && joint.damping_ratio >= 0.1f);
 }
 
 bool has_angle(const JointRecord& joint)

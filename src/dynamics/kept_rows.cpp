@@ -155,10 +155,11 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index)
 {
     ctx.scratch.is_looked_at[as_index(index)] = 1;
     Contact& contact = ctx.state.contacts[index];
-    const int points = contact.manifold.count;
-    if (update_contact(ctx, index) != News::Nothing || contact.manifold.count != points)
+    const auto gets_row = [&] { return contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0; };
+    const bool got_row = gets_row(); // or would, if what it touches moved
+    if (update_contact(ctx, index) != News::Nothing || gets_row() != got_row)
         return false;
-    if (points == 0)
+    if (!got_row)
         forget_impulses(contact);
     return true;
 }
@@ -216,13 +217,13 @@ bool all_are_borne(const StepContext& ctx)
     return true;
 }
 
-// Of two the one that does not give way is static: what is kinematic or asleep has more to say.
+// Of two the one that does not give way is static: what is kinematic or asleep has more to say, and so has what lets pass.
 bool leans_on_statics(const SceneState& state, const Link& l)
 {
     const Contact& contact = state.contacts[l.contact];
     const auto is_plain = [&](std::int32_t place, std::int32_t body)
     { return place >= 0 || state.bodies[body].type == BodyType::Static; };
-    return is_plain(l.a, contact.body_a) && is_plain(l.b, contact.body_b);
+    return (contact.flags & contact_flag::one_way) == 0 && is_plain(l.a, contact.body_a) && is_plain(l.b, contact.body_b);
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
-#include "dynamics/kept_units.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_graph.h"
 
@@ -237,13 +236,9 @@ void tidy(StepContext& ctx)
         return;
     sort_bodies(ctx.state);
     part_bodies(ctx);
-    bool& in_order = ctx.scratch.kept_units.contacts_in_order;
-    if (in_order && ctx.scratch.kept_units.rows_stay && bodies_stay(ctx))
-        return;
     ContactOrder order(ctx);
     order.find();
-    in_order = order.is_kept_already();
-    if (in_order)
+    if (order.is_kept_already())
         return;
     order.apply();
     ctx.state.rows_stamp = 0; // they name contacts

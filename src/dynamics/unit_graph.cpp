@@ -476,8 +476,9 @@ public:
     [[nodiscard]] bool is_heap(std::int32_t unit)
     {
         const UnitTally& t = tally(unit);
-        const bool lies = 4 * t.bearing >= t.joints && scratch.units[static_cast<std::size_t>(unit)].slices == 1;
-        const bool wearies = t.damped == t.joints && (t.contacts == 0 || ctx.dt * t.swing < calm_swing);
+        const bool calm = scratch.units[static_cast<std::size_t>(unit)].slices == 1;
+        const bool lies = 4 * t.bearing >= t.joints && calm;
+        const bool wearies = t.damped == t.joints && (t.contacts == 0 || (calm && ctx.dt * t.swing < calm_swing));
         return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && !t.hangs && t.fliers == 0 && (lies || wearies);
     }
 

@@ -23,7 +23,7 @@ void build_units(StepContext& ctx)
         keep_rows(ctx);
         return;
     }
-    ctx.scratch.kept_units.rows_apart = ctx.scratch.kept_units.contacts_in_order = false;
+    ctx.scratch.kept_units.rows_apart = false;
     build_unit_graph(ctx);
     lay_out_units(ctx);
     keep_units(ctx);

@@ -21,7 +21,7 @@ struct World
     std::vector<BodyId> bodies{};
 };
 
-// Boxes, rounded boxes, capsules and discs in layers that hold each other, on ground of a box, a line and a chain.
+// Pyramids, and a wall of boxes and capsules between two posts with a disc on it; on a box and on a line.
 void build(World& world)
 {
     world.ground = add_static(world.scene, box(8, 0.5f, {-9, -0.5f}), {.friction = 0.6f}).body;
@@ -53,12 +53,6 @@ void build(World& world)
     add(20, 5.2, Circle{.radius = 0.3f});
 }
 
-struct Event
-{
-    int step;
-    std::function<void(World&)> happens;
-};
-
 void expect_same_contacts(const World& a, const World& b, const std::string& when)
 {
     const std::vector<ContactInfo> of_a = a.scene.contacts();
@@ -78,70 +72,110 @@ void expect_same_contacts(const World& a, const World& b, const std::string& whe
     }
 }
 
-// How many steps were taken with rows in place.
-int expect_same_runs(bool sleeps, const std::vector<Event>& events, int steps_taken)
+// Two worlds alike, of which the second never keeps rows.
+class Pair
 {
-    World followed(sleeps);
-    World anew(sleeps);
-    build(followed);
-    build(anew);
-    int stayed = 0;
-    for (int i = 0; i < steps_taken; ++i)
+public:
+    explicit Pair(bool sleeps) : m_followed(sleeps), m_anew(sleeps)
     {
-        for (const Event& event : events)
-        {
-            if (event.step != i)
-                continue;
-            event.happens(followed);
-            event.happens(anew);
-        }
-        anew.scene.data().state.rows_stamp = 0; // what is in the rows is another state's
-        const std::string when = "step " + std::to_string(i);
-        followed.scene.step(1.0f / 60);
-        anew.scene.step(1.0f / 60);
-        stayed += followed.scene.data().scratch.kept_units.rows_stay ? 1 : 0;
-        EXPECT_FALSE(anew.scene.data().scratch.kept_units.rows_stay);
-        EXPECT_EQ(followed.scene.state_hash(), anew.scene.state_hash()) << when;
-        EXPECT_EQ(followed.scene.report().touching, anew.scene.report().touching) << when;
-        EXPECT_EQ(followed.scene.report().pairs, anew.scene.report().pairs) << when;
-        if (i % 10 == 0)
-            expect_same_contacts(followed, anew, when);
-        if (testing::Test::HasFailure())
-            break;
+        build(m_followed);
+        build(m_anew);
     }
-    return stayed;
-}
+
+    template <class Happens>
+    void both(const Happens& happens)
+    {
+        happens(m_followed);
+        happens(m_anew);
+    }
+
+    // How many of the steps were taken with rows in place.
+    int run(int steps_taken, float dt = 1.0f / 60)
+    {
+        int stayed = 0;
+        for (int i = 0; i < steps_taken && !testing::Test::HasFailure(); ++i)
+        {
+            m_anew.scene.data().state.rows_stamp = 0; // what is in the rows is another state's
+            both([dt](World& w) { w.scene.step(dt); });
+            stayed += rows_stay() ? 1 : 0;
+            const std::string when = "step " + std::to_string(m_followed.scene.step_count());
+            EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.rows_stay);
+            EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
+            EXPECT_EQ(m_followed.scene.report().touching, m_anew.scene.report().touching) << when;
+            EXPECT_EQ(m_followed.scene.report().pairs, m_anew.scene.report().pairs) << when;
+            if (i % 10 == 0)
+                expect_same_contacts(m_followed, m_anew, when);
+        }
+        return stayed;
+    }
+
+    [[nodiscard]] bool rows_stay() { return m_followed.scene.data().scratch.kept_units.rows_stay; }
+    [[nodiscard]] const World& followed() const { return m_followed; }
+    [[nodiscard]] const World& anew() const { return m_anew; }
+
+private:
+    World m_followed;
+    World m_anew;
+};
+
+struct Event
+{
+    const char* name;
+    std::function<void(World&)> happens;
+};
 
 } // namespace
 
-TEST(DynamicsKeptRows, AreThoseFilledAnew) { EXPECT_GT(expect_same_runs(false, {}, 300), 150) << "or nothing has been tested"; }
+TEST(DynamicsKeptRows, AreThoseFilledAnew)
+{
+    Pair pair(false);
+    EXPECT_GT(pair.run(300), 150) << "or nothing has been tested";
+    EXPECT_GT(pair.run(60, 1.0f / 120), 30) << "shorter steps";
+    EXPECT_GT(pair.run(30, 1.0f / 25), 0) << "longer ones";
+}
 
 TEST(DynamicsKeptRows, FallAsleepAsTheyAre)
 {
-    expect_same_runs(true, {{600, [](World& w) { w.scene.body(w.bodies[3]).apply_impulse({0, 300}); }}}, 700);
+    Pair pair(true);
+    pair.run(900);
+    EXPECT_EQ(pair.followed().scene.report().awake_bodies, 0);
+    pair.both([](World& w) { w.scene.body(w.bodies[3]).apply_impulse({0, 300}); });
+    pair.run(60);
 }
 
 TEST(DynamicsKeptRows, SeeWhatHappensBetweenSteps)
 {
     const auto body = [](World& w, std::size_t i) { return w.scene.body(w.bodies[i]); };
+    const auto shape = [&](World& w, std::size_t i) { return w.scene.shape(body(w, i).shapes()[0]); };
     const std::vector<Event> events = {
-        {100, [&](World& w) { body(w, 20).apply_impulse({5, 0}); }},
-        {120, [&](World& w) { body(w, 21).set_velocity({0.5f, 0}); }},
-        {140, [&](World& w) { body(w, 120).teleport({18, 12}, 0.3f); }},
-        {180, [&](World& w) { w.scene.set_gravity({0.5f, -9.81f}); }},
-        {205, [&](World& w) { w.scene.destroy(w.bodies[154]); }}, // from the top of a pyramid
-        {210, [&](World& w) { w.scene.destroy(w.bodies[155]); }},
-        {220, [&](World& w) { w.scene.shape(body(w, 30).shapes()[0]).set_def({.friction = 0.1f}); }},
-        {240, [&](World& w) { body(w, 31).set_mass({.mass = 900, .inertia = 200}); }},
-        {260, [&](World& w) { w.scene.shape(body(w, 32).shapes()[0]).set_def({.friction = 0.6f, .surface_speed = 1}); }},
-        {280, [&](World& w) { body(w, 33).set_enabled(false); }},
-        {300, [&](World& w) { body(w, 33).set_enabled(true); }},
-        {320, [&](World& w) { add_dynamic(w.scene, {-11, 12}, box(0.4f, 0.4f)); }},
-        {400, [&](World& w) { body(w, 34).set_type(BodyType::Kinematic); }},
-        {420, [&](World& w) { body(w, 34).set_type(BodyType::Dynamic); }},
-        {440, [&](World& w) { w.scene.create_joint(DistanceDef{.body_a = w.bodies[5], .body_b = w.bodies[6]}); }},
+        {"impulse", [&](World& w) { body(w, 20).apply_impulse({5, 0}); }},
+        {"velocity", [&](World& w) { body(w, 21).set_velocity({0.5f, 0}); }},
+        {"teleport", [&](World& w) { body(w, 120).teleport({18, 12}, 0.3f); }},
+        {"gravity", [&](World& w) { w.scene.set_gravity({0.5f, -9.81f}); }},
+        {"destroyed", [&](World& w) { w.scene.destroy(w.bodies[154]); }}, // the top of a pyramid
+        {"friction", [&](World& w) { shape(w, 30).set_def({.friction = 0.1f}); }},
+        {"filter", [&](World& w) { shape(w, 30).set_def({.friction = 0.6f, .filter = {.mask = 0}}); }},
+        {"conveyor", [&](World& w) { shape(w, 32).set_def({.friction = 0.6f, .surface_speed = 1}); }},
+        {"geometry", [&](World& w) { shape(w, 33).set_geometry(box(0.4f, 0.5f)); }},
+        {"mass", [&](World& w) { body(w, 31).set_mass({.mass = 900, .inertia = 200}); }},
+        {"center", [&](World& w) { body(w, 31).set_mass({.mass = 900, .center = {0, 0.2f}, .inertia = 200}); }},
+        {"locks", [&](World& w) { body(w, 31).set_locks({.angular = true}); }},
+        {"disabled", [&](World& w) { body(w, 33).set_enabled(false); }},
+        {"kinematic", [&](World& w) { body(w, 34).set_type(BodyType::Kinematic); }},
+        {"asleep", [&](World& w) { body(w, 3).set_awake(false); }},
+        {"new body", [&](World& w) { add_dynamic(w.scene, {-11, 13.5}, box(0.4f, 0.4f)); }},
+        {"joint", [&](World& w) { w.scene.create_joint(DistanceDef{.body_a = w.bodies[5], .body_b = w.bodies[6]}); }},
     };
-    EXPECT_GT(expect_same_runs(false, events, 500), 100) << "or nothing has been tested";
+    for (const Event& event : events)
+    {
+        SCOPED_TRACE(event.name);
+        Pair pair(false);
+        pair.run(100);
+        ASSERT_TRUE(pair.rows_stay()) << "or nothing is tested";
+        pair.both(event.happens);
+        expect_same_contacts(pair.followed(), pair.anew(), "before the step");
+        pair.run(30);
+    }
 }
 
 TEST(DynamicsKeptRows, OfAnotherPastAreNotTaken)

@@ -252,7 +252,7 @@ void take_impulses(const WideRow& row, Contact* contacts)
     static_assert(offsetof(ManifoldPoint, tangent_impulse) == offsetof(ManifoldPoint, normal_impulse) + 4 &&
                   offsetof(ManifoldPoint, total_impulse) == offsetof(ManifoldPoint, normal_impulse) + 8 &&
                   offsetof(ManifoldPoint, total_tangent) == offsetof(ManifoldPoint, normal_impulse) + 12);
-    Contact unused;
+    alignas(ManifoldPoint) char unused[lane_count * sizeof(F4)];
     I8 loaded{};
     for (int k = 0; k < row.count; ++k)
     {
@@ -261,8 +261,8 @@ void take_impulses(const WideRow& row, Contact* contacts)
         loaded |= normal_impulse > all(0);
         const auto at = [&](int i)
         {
-            Contact& contact = row.contact.v[i] < 0 ? unused : contacts[row.contact.v[i]];
-            return reinterpret_cast<char*>(&contact.manifold.points[k].normal_impulse);
+            return row.contact.v[i] < 0 ? unused + i * static_cast<int>(sizeof(F4))
+                                        : reinterpret_cast<char*>(&contacts[row.contact.v[i]].manifold.points[k].normal_impulse);
         };
         scatter4(at, normal_impulse, load(p.tangent_impulse), load(p.total_impulse), load(p.total_tangent));
     }

@@ -87,7 +87,7 @@ void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointR
 
 /// It holds and does nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);
-/// By a brake, or by the damping of its spring.
+/// A hinge or slider that moves: by a brake, or by a spring that is damped within a few swings.
 [[nodiscard]] bool loses_energy(const JointRecord& joint);
 
 /// Whether its rows ask for the angle between the bodies.

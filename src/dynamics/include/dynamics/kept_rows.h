@@ -7,7 +7,7 @@
 namespace carom::internal {
 
 /// Instead of updating contacts one by one: where units have stayed, and every contact has still what its lane was made for, normals, arms and separations
-/// are followed where they stand, eight at a time. False where something has changed: then nothing has happened, but that some contacts are up to date
+/// are followed where they stand, eight at a time. False where something has changed: then all is to be done as ever, but that some contacts are up to date
 /// (Scratch::is_looked_at).
 [[nodiscard]] bool follow_rows(StepContext& ctx);
 

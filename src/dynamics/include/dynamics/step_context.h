@@ -159,8 +159,7 @@ struct KeptUnits
     bool are_plain = false;             ///< nothing in them depends on anything else
     bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
     bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
-    bool contacts_in_order = false;     ///< in memory, when tidy() last looked
-    std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice
+    std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
     std::vector<std::int32_t> contacts; ///< the awake ones, when the rows were filled
     std::vector<std::int32_t> loose;    ///< of these, those without a lane
     int touching = 0;                   ///< of the report

@@ -45,7 +45,7 @@ struct FollowedContacts
     std::uint32_t touch_on; ///< touched, and are as near as that
 };
 
-/// The passes over wide rows and joints, compiled for one instruction set. Every set does the same, bit for bit.
+/// What is done eight at a time, to wide rows and joints, to states and contacts, compiled for one instruction set. Every set does the same, bit for bit.
 struct WideKernels
 {
     const char* name;
