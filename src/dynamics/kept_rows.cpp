@@ -255,7 +255,8 @@ void keep_rows(StepContext& ctx)
         return;
     kept.contacts = ctx.state.awake_contacts;
     kept.touching = ctx.report.touching;
-    std::vector<std::uint8_t> has_lane(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
+    std::vector<std::int32_t>& has_lane = scratch.order;
+    has_lane.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
     for (const Link& l : scratch.solved_links)
         has_lane[as_index(l.contact)] = 1;
     kept.loose.clear();

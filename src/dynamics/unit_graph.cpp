@@ -138,7 +138,7 @@ public:
         scratch.flight.assign(state.awake_bodies.size(), earthbound);
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
         scratch.has_uneven = false;
-        scratch.places.assign(static_cast<std::size_t>(state.bodies.capacity()), none);
+        forget_places();
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
                           [&](std::size_t i)
                           {
@@ -148,6 +148,15 @@ public:
                               if (ctx.scene.def.continuous)
                                   scratch.flight[i] = kind_of_flight(body);
                           });
+    }
+
+    // Of the bodies that were awake in the last step alone: what never moves costs nothing.
+    void forget_places()
+    {
+        for (const std::int32_t body : scratch.placed)
+            scratch.places[static_cast<std::size_t>(body)] = none;
+        scratch.placed.assign(state.awake_bodies.begin(), state.awake_bodies.end());
+        scratch.places.resize(std::max(scratch.places.size(), static_cast<std::size_t>(state.bodies.capacity())), none);
     }
 
     void note_place(int body, std::int32_t place) const

@@ -306,6 +306,7 @@ struct Scratch
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
     std::vector<std::uint8_t> pair_fates;
     std::vector<std::int32_t> places;   ///< by body slot, as in Link
+    std::vector<std::int32_t> placed;   ///< bodies that have one
     std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
