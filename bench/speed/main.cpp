@@ -179,21 +179,28 @@ int show_scaling(const Options& options)
         std::printf(format, values...);
         std::fflush(stdout);
     };
-    say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", options.run.threads, "bodies", "pairs", "steps", "ms/step",
-        "ns/body", "B/body");
-    truth::Series pile{
-        .name = "a stirred pile, " + std::to_string(options.run.threads) + " threads", .color = "#0072b2", .lines = {{}}};
-    for (int n = 1000; n <= options.scaling; n *= 10)
+    std::vector<truth::Series> piles;
+    for (const int threads : options.run.threads > 1 ? std::vector{1, options.run.threads} : std::vector{1})
     {
-        const speed::PileCost c = speed::pile_cost(n, options.run);
-        say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body, c.bytes_per_body);
-        pile.lines.front().push_back({std::log10(c.bodies), c.ns_per_body});
+        say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", threads, "bodies", "pairs", "steps", "ms/step",
+            "ns/body", "B/body");
+        const std::string name = std::to_string(threads) + (threads > 1 ? " threads" : " thread");
+        piles.push_back({.name = name, .color = threads > 1 ? "#d55e00" : "#0072b2", .lines = {{}}});
+        speed::RunOptions run = options.run;
+        run.threads = threads;
+        for (int n = 1000; n <= options.scaling; n *= 10)
+        {
+            const speed::PileCost c = speed::pile_cost(n, run);
+            say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body,
+                c.bytes_per_body);
+            piles.back().lines.front().push_back({std::log10(c.pairs), 1e6 * c.ms_per_step / c.pairs});
+        }
     }
     if (!options.plot.empty())
-        truth::write_svg({.title = "How cost grows with bodies",
-                          .x_label = "bodies, power of ten",
-                          .y_label = "ns a body and step",
-                          .series = {pile}},
+        truth::write_svg({.title = "A stirred pile: how cost grows",
+                          .x_label = "pairs, power of ten (bodies: a third of it)",
+                          .y_label = "ns a pair and step",
+                          .series = piles},
                          std::filesystem::path(options.plot) / "scaling.svg");
     say("\nBoxes that never move\n%10s %10s %12s %12s\n", "boxes", "built, s", "us/step", "us/move");
     for (int n = 1000; n <= options.scaling; n *= 10)
