@@ -45,11 +45,10 @@ public:
         if (now.strange != 0 || (now.begins_or_ends & ~unsure) != 0)
             return false;
         row.may_hit = now.unloaded & ~unsure;
-        for (WidePoint& p : row.points)
-            p.total_impulse = p.total_tangent = p.approach = {};
+        clear_sums(row);
         for_each_lane(now.unnoted & ~unsure, [&](int i) { m_state.contacts[row.contact.v[i]].flags |= contact_flag::followed; });
         for_each_lane(now.borne & ~unsure, [&](int i) { note_borne(row, i); });
-        for_each_lane(now.sunk & ~unsure, [&](int i) { note_sunk(row, i, now.separation.v[i]); });
+        for_each_lane(now.sunk & ~unsure, [&](int i) { note_if_loaded(row, i, now.separation.v[i]); });
         for (std::uint32_t lanes = unsure; lanes != 0; lanes &= lanes - 1)
         {
             if (!look_at(row, std::countr_zero(lanes)))
@@ -95,25 +94,20 @@ private:
         link.a = row.a.v[i];
         link.b = row.b.v[i];
         fill_lane(m_ctx, link, row, i);
-        const float separation = least_separation(contact.manifold);
-        if ((contact.flags & contact_flag::loaded) != 0 && separation <= m_scene.speculation)
-            note_borne(row, i);
-        else if (separation < -m_scene.slop)
-            note_sunk(row, i, separation);
+        note_if_loaded(row, i, least_separation(contact.manifold));
         return true;
     }
 
-    // What is not borne, as is_loaded in unit_graph.cpp has it, may fly.
+    // What is not borne may fly.
     void note_borne(const WideRow& row, int i) const
     {
         for (const std::int32_t s : {row.a.v[i], row.b.v[i]})
             std::atomic_ref(m_scratch.borne[as_index(s)]).store(1, std::memory_order_relaxed);
     }
 
-    void note_sunk(const WideRow& row, int i, float separation) const
+    void note_if_loaded(const WideRow& row, int i, float separation) const
     {
-        const Contact& contact = m_state.contacts[row.contact.v[i]];
-        if (motion_of(m_ctx, contact.body_a) + motion_of(m_ctx, contact.body_b) < -4 * separation)
+        if (is_loaded(m_ctx, m_state.contacts[row.contact.v[i]], separation))
             note_borne(row, i);
     }
 
@@ -155,11 +149,10 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index)
 {
     ctx.scratch.is_looked_at[as_index(index)] = 1;
     Contact& contact = ctx.state.contacts[index];
-    const auto gets_row = [&] { return contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0; };
-    const bool got_row = gets_row(); // or would, if what it touches moved
-    if (update_contact(ctx, index) != News::Nothing || gets_row() != got_row)
+    const bool was_solved = is_solved(contact); // or would be, if what it touches moved
+    if (update_contact(ctx, index) != News::Nothing || is_solved(contact) != was_solved)
         return false;
-    if (!got_row)
+    if (!was_solved)
         forget_impulses(contact);
     return true;
 }

@@ -81,8 +81,7 @@ void reset_parents(StepContext& ctx)
 
 bool gets_rows(const SceneState& state, const Contact& contact)
 {
-    return contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0 &&
-           (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
+    return is_solved(contact) && (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
 }
 
 // What may fly: a body without joints, or one on a single hinge to the world that nothing drives.
@@ -114,16 +113,6 @@ bool is_closed(const StepContext& ctx, int index, int body)
     { return b == none ? Position(anchor) : transform(ctx.state.sims[static_cast<std::size_t>(b)].pose(), anchor); };
     const Vec2 gap = world(joint.body_b, joint.anchor_b) - world(joint.body_a, joint.anchor_a);
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
-}
-
-// Is it borne, or does it overlap something that must be pushed out? Then it does not fly. What will be apart by itself within the step need not
-// be pushed.
-bool is_loaded(const StepContext& ctx, const Contact& contact)
-{
-    const float separation = least_separation(contact.manifold);
-    const bool loaded = separation <= ctx.scene.tolerances.speculation && (contact.flags & contact_flag::loaded) != 0;
-    return loaded || (separation < -ctx.scene.tolerances.slop &&
-                      motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) < -4 * separation);
 }
 
 // --- the graph --------------------------------------------------------------------------------------------------------------------
@@ -216,7 +205,7 @@ public:
             Contact& contact = state.contacts[index];
             contact.color = contact.wide = none;
             const bool touching = (contact.flags & contact_flag::touching) != 0;
-            const bool solved = contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
+            const bool solved = is_solved(contact);
             if (!solved)
                 forget_impulses(contact);
             if (!touching && !solved)
@@ -233,7 +222,7 @@ public:
             some.touching += touching ? 1 : 0;
             l.solved = solved;
             l.bears = (contact.flags & contact_flag::loaded) != 0;
-            if (solved && is_loaded(ctx, contact))
+            if (solved && is_loaded(ctx, contact, least_separation(contact.manifold)))
             {
                 ground(a);
                 ground(b);

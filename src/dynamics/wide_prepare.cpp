@@ -31,7 +31,7 @@ const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
 
 } // namespace
 
-void start_wide_row(WideRow& row)
+void clear_sums(WideRow& row)
 {
     for (WidePoint& p : row.points)
     {
@@ -39,6 +39,11 @@ void start_wide_row(WideRow& row)
         p.total_tangent = {};
         p.approach = {};
     }
+}
+
+void start_wide_row(WideRow& row)
+{
+    clear_sums(row);
     row.coupling = {};
     row.may_hit = row.untold = row.edge_of_b = 0;
 }

@@ -49,6 +49,21 @@ void carry_impulses(const Manifold& old, Manifold& fresh);
     return least;
 }
 
+/// It has points that are not let through.
+[[nodiscard]] inline bool is_solved(const Contact& contact)
+{
+    return contact.manifold.count > 0 && (contact.flags & contact_flag::passing) == 0;
+}
+
+/// Is it borne, or does it overlap something that must be pushed out? Then it does not fly. What will be apart by itself within the step need not
+/// be pushed. `separation`: the least of its points.
+[[nodiscard]] inline bool is_loaded(const StepContext& ctx, const Contact& contact, float separation)
+{
+    const bool loaded = separation <= ctx.scene.tolerances.speculation && (contact.flags & contact_flag::loaded) != 0;
+    return loaded || (separation < -ctx.scene.tolerances.slop &&
+                      motion_of(ctx, contact.body_a) + motion_of(ctx, contact.body_b) < -4 * separation);
+}
+
 /// On the ways that both set out on they do not meet within the step.
 [[nodiscard]] inline bool stays_apart(const StepContext& ctx, const Contact& contact)
 {

@@ -6,6 +6,9 @@
 
 namespace carom::internal {
 
+/// What a row gathers over a step.
+void clear_sums(WideRow& row);
+
 /// All lanes will be filled.
 void start_wide_row(WideRow& row);
 
