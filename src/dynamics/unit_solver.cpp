@@ -239,7 +239,7 @@ private:
             {
                 BodyState& s = m_view.states[i];
                 if ((s.flags & body_flag::dynamic) != 0 && (s.flags & body_flag::flier) == 0)
-                    accelerate(s, m_view.constants[i], m_ctx.h);
+                    set_speeds(s, accelerated(s, m_view.constants[i]));
             });
     }
 
@@ -301,7 +301,7 @@ private:
         store4(&s.velocity.x, __builtin_shufflevector(speeds, load4(&s.velocity.x), 0, 1, 2, 7));
     }
 
-    // As accelerate() does it.
+    // By a sub-step's forces and damping: v + h a, then the decay.
     [[nodiscard]] F4 accelerated(const BodyState& s, const StateConstants& c) const
     {
         static_assert(offsetof(StateConstants, angular_acceleration) == 12 && offsetof(StateConstants, acceleration) == 16);

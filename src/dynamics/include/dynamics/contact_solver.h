@@ -28,13 +28,6 @@ struct SolverView
     return straight - (0.5f * view.h * view.h) * view.constants[state].acceleration;
 }
 
-/// The velocity after a sub-step's forces and damping: v += h a, then the decay.
-inline void accelerate(BodyState& s, const StateConstants& c, float h)
-{
-    s.velocity = c.linear_decay * (s.velocity + h * c.acceleration);
-    s.angular_velocity = c.angular_decay * (s.angular_velocity + h * c.angular_acceleration);
-}
-
 void warm_start(const SolverView& view, std::span<ContactRow> rows);
 
 /// One pass of sequential impulses: rolling, friction, then the normal direction. With bias the soft constraint also removes overlap;
