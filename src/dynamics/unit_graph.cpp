@@ -203,17 +203,20 @@ public:
         {
             const std::int32_t index = state.awake_contacts[i];
             Contact& contact = state.contacts[index];
-            contact.color = contact.wide = none;
+            contact.wide = none;
             const bool touching = (contact.flags & contact_flag::touching) != 0;
             const bool solved = is_solved(contact);
             if (!solved)
-                forget_impulses(contact);
+                leave_row(contact);
             if (!touching && !solved)
                 continue;
             const std::int32_t a = place_of(contact.body_a);
             const std::int32_t b = place_of(contact.body_b);
             if (a < 0 && b < 0)
+            {
+                contact.color = none;
                 continue;
+            }
             Link& l = links.emplace_back(); // filled where it stands: a copy would wait for its bytes
             l.contact = index;
             l.a = a;
@@ -230,7 +233,14 @@ public:
             l.plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
             l.round = (contact.flags & contact_flag::round) != 0;
             l.points = static_cast<std::uint8_t>(contact.manifold.count);
+            l.color = static_cast<std::int8_t>(contact.color);
         }
+    }
+
+    static void leave_row(Contact& contact)
+    {
+        forget_impulses(contact);
+        contact.color = none;
     }
 
     // The same for joints.
@@ -690,7 +700,7 @@ public:
                 if (gets_row(l))
                     return unit_of_link(l);
                 if (l.solved)
-                    forget_impulses(state.contacts[l.contact]);
+                    leave_row(state.contacts[l.contact]);
                 return none;
             },
             [](Unit& unit, int first, int count)

@@ -370,15 +370,19 @@ private:
                (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
     }
 
-    // The least that neither moving body has yet, in the order of the links; counts what goes into each bin.
+    // What had a row in the last step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Counts what
+    // goes into each bin.
     void choose_colors(Unit& unit)
     {
         const bool wide = is_wide(unit);
         const bool uniform = wide && is_uniform(unit);
-        for (Link& l : links_of(unit))
+        const std::span<Link> links = links_of(unit);
+        for (Link& l : links)
+            l.color = keeps_color(unit, l) ? l.color : none;
+        for (Link& l : links)
         {
-            const int color = free_color(unit, l.a, l.b);
-            l.color = static_cast<std::uint8_t>(color);
+            const int color = l.color != none ? l.color : free_color(unit, l.a, l.b);
+            l.color = static_cast<std::int8_t>(color);
             l.in_lane = wide && color != color_limit && l.plain && (uniform || give_evenly(l));
             l.cell = cell_of(unit, l);
             ++place_for(unit, l);
@@ -392,6 +396,15 @@ private:
             if (m_scratch.color_masks[as_index(s)] != 0)
                 unbind(s);
         }
+    }
+
+    // Marks it as taken.
+    [[nodiscard]] bool keeps_color(const Unit& unit, const Link& l)
+    {
+        if (l.color == none || l.color == color_limit || (colors_at(unit, l.a, l.b) >> l.color & 1u) != 0)
+            return false;
+        take_color(l.a, l.b, l.color);
+        return true;
     }
 
     // All of its bodies may move along every axis, or along none.
@@ -421,16 +434,24 @@ private:
                          : m_row_bins[l.color];
     }
 
+    // Those that what moves of the two has already.
+    [[nodiscard]] std::uint64_t colors_at(const Unit& unit, std::int32_t a, std::int32_t b) const
+    {
+        return (is_dynamic(unit, a) ? m_scratch.color_masks[as_index(a)] : 0) |
+               (is_dynamic(unit, b) ? m_scratch.color_masks[as_index(b)] : 0);
+    }
+
+    void take_color(std::int32_t a, std::int32_t b, int color)
+    {
+        m_scratch.color_masks[as_index(a)] |= std::uint64_t{1} << color;
+        m_scratch.color_masks[as_index(b)] |= std::uint64_t{1} << color;
+    }
+
     int free_color(const Unit& unit, std::int32_t a, std::int32_t b)
     {
-        std::uint64_t& mask_a = m_scratch.color_masks[as_index(a)];
-        std::uint64_t& mask_b = m_scratch.color_masks[as_index(b)];
-        const bool moves_a = is_dynamic(unit, a);
-        const bool moves_b = is_dynamic(unit, b);
-        const int color = std::min(std::countr_one((moves_a ? mask_a : 0) | (moves_b ? mask_b : 0)), color_limit);
-        const std::uint64_t bit = color == color_limit ? 0 : std::uint64_t{1} << color;
-        mask_a |= bit;
-        mask_b |= bit;
+        const int color = std::min(std::countr_one(colors_at(unit, a, b)), color_limit);
+        if (color != color_limit)
+            take_color(a, b, color);
         return color;
     }
 

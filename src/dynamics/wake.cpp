@@ -27,6 +27,7 @@ void enter_awake(SceneData& scene, int body)
     for_each_contact(state, body,
                      [&](int contact)
                      {
+                         state.contacts[contact].color = none; // others may have taken it meanwhile
                          add_awake_contact(state, contact);
                          follow_again(state, contact);
                      });

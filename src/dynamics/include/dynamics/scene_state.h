@@ -169,7 +169,7 @@ struct Contact
     float friction = 0;
     float rolling_resistance = 0;
     float surface_speed = 0; ///< of b against a along perp(normal)
-    std::int32_t color = none;
+    std::int32_t color = none; ///< of its row; kept as long as it has one
     std::int32_t wide = none; ///< during a step: where its wide row is, group * lane_count + lane
     Manifold manifold{};
 };

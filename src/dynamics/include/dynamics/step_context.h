@@ -93,7 +93,7 @@ struct Link
     bool round = false;    ///< a circle takes part
     bool in_lane = false;
     std::uint8_t points = 0;
-    std::uint8_t color = 0;
+    std::int8_t color = none; ///< that it has from the last step, then of its row
     std::uint8_t cell = 0;
 };
 
