@@ -47,6 +47,7 @@ void move_center(SceneState& state, int body, Vec2 local_center)
                      [&](int contact)
                      {
                          settle_manifold(state, contact);
+                         leave_lane(state, contact);
                          state.contacts[contact].flags |= contact_flag::fresh;
                      });
     const Pose pose = sim.pose();

@@ -186,8 +186,10 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
             continue; // it bears something in the end
         const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a),
                                           pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
-        if (m.count == 0)
-            end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
+        if (m.count > 0)
+            continue;
+        end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
+        leave_lane(ctx.state, touch.contact); // which takes it for told
     }
 }
 

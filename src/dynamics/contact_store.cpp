@@ -129,6 +129,8 @@ void remove_awake_contact(SceneState& state, int index)
     Contact& contact = state.contacts[index];
     if (contact.awake_index == none)
         return;
+    contact.wide = none;
+    leave_lane(state, index);
     const bool trigger = (contact.flags & contact_flag::trigger) != 0;
     std::vector<std::int32_t>& list = trigger ? state.trigger_contacts : state.awake_contacts;
     const auto place = static_cast<std::size_t>(contact.awake_index);
@@ -204,6 +206,7 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     contact.pair = pair;
     const int index = state.contacts.create(contact);
     state.kept_manifolds.resize(static_cast<std::size_t>(state.contacts.capacity()));
+    state.lane_marks.resize(static_cast<std::size_t>(state.contacts.capacity()), LaneMark::None);
     state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
     link_contact(state, index);
     mix_materials(scene, state.contacts[index]);

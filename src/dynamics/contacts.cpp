@@ -8,6 +8,7 @@
 #include "dynamics/kept_rows.h"
 #include "dynamics/material.h"
 #include "dynamics/stages.h"
+#include "dynamics/standing_rows.h"
 #include "dynamics/wake.h"
 
 #include <span>
@@ -157,6 +158,8 @@ void wake_both(StepContext& ctx, int index)
     wake_body(ctx.scene, contact.body_b);
 }
 
+} // namespace
+
 News news_of(const StepContext& ctx, const Contact& contact)
 {
     const bool touching = (contact.flags & contact_flag::touching) != 0;
@@ -169,8 +172,6 @@ News news_of(const StepContext& ctx, const Contact& contact)
     const bool one_sleeps = sleeps(contact.body_a) || sleeps(contact.body_b);
     return one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
-
-} // namespace
 
 News update_contact(const StepContext& ctx, int index)
 {
@@ -201,7 +202,11 @@ public:
     void run(std::vector<ContactNews>& news)
     {
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
-            update(i);
+        {
+            m_news[i] = News::Nothing;
+            if (!stands(m_ctx, m_contacts[i]))
+                update(i);
+        }
         for (int i = 0; i < m_waiting; ++i)
             update_alone(m_places[i]);
         news.clear();
@@ -280,6 +285,7 @@ void update_contacts(StepContext& ctx)
     news.clear();
     for (const Some& some : parts)
         news.insert(news.end(), some.begin(), some.end());
+    add_standing_news(ctx, news);
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)
@@ -294,6 +300,7 @@ void update_contacts(StepContext& ctx)
         if (n.what == News::Ends)
             end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
     }
+    note_standing_touches(ctx);
     ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
     ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
 }

@@ -25,11 +25,6 @@ bool can_keep(const SceneState& state, const Contact& contact)
            (m.count == 0 || is_of_edge(m.points[0].feature));
 }
 
-bool is_kept(const Contact& contact)
-{
-    return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
-}
-
 const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
 
 Vec2 place_of_b(const BodySim& a, const BodySim& b) { return inverse_rotate(a.rotation, b.center - a.center); }
@@ -142,6 +137,22 @@ Manifold manifold_at_start(const SceneState& state, int index)
         follow(state.kept_manifolds[static_cast<std::size_t>(index)], sim_of(state, contact.body_a),
                sim_of(state, contact.body_b), m);
     return m;
+}
+
+void catch_up(SceneState& state, int index)
+{
+    if ((state.contacts[index].flags & contact_flag::followed) == 0)
+        return;
+    state.contacts[index].manifold = manifold_at_start(state, index);
+    state.contacts[index].flags &= ~contact_flag::followed;
+}
+
+bool stays_apart(const StepContext& ctx, int index)
+{
+    const Contact& contact = ctx.state.contacts[index];
+    return (contact.flags & contact_flag::plain) != 0 &&
+           (contact.manifold.count == 0 || least_separation(manifold_at_start(ctx.state, index)) >
+                                               relative_motion(ctx.state, contact) + 0.1f * ctx.scene.tolerances.speculation);
 }
 
 Manifold settled_manifold(const SceneState& state, int index)

@@ -9,9 +9,10 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/kept_manifold.h"
 #include "dynamics/kept_units.h"
+#include "dynamics/row_follower.h"
 #include "dynamics/scene_data.h"
+#include "dynamics/standing_rows.h"
 #include "dynamics/unit_bins.h"
-#include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
@@ -27,96 +28,6 @@ constexpr std::size_t contacts_per_task = 512;
 constexpr std::size_t states_per_task = 2048;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-// One of a task's rows after the other.
-class RowFollower
-{
-public:
-    explicit RowFollower(const StepContext& ctx)
-        : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
-    {}
-
-    // False where its contacts are not what they were.
-    bool follow(WideRow& row)
-    {
-        FollowedRow now;
-        m_kernels.follow(row, m_scene, now);
-        const std::uint32_t unsure = row.count == 2 ? now.unsure : now.unsure | beyond_margins(row, now);
-        if (now.strange != 0 || (now.begins_or_ends & ~unsure) != 0)
-            return false;
-        row.may_hit = now.unloaded & ~unsure;
-        clear_sums(row);
-        for_each_lane(now.unnoted & ~unsure, [&](int i) { m_state.contacts[row.contact.v[i]].flags |= contact_flag::followed; });
-        for_each_lane(now.borne & ~unsure, [&](int i) { note_borne(row, i); });
-        for_each_lane(now.sunk & ~unsure, [&](int i) { note_if_loaded(row, i, now.separation.v[i]); });
-        for (std::uint32_t lanes = unsure; lanes != 0; lanes &= lanes - 1)
-        {
-            if (!look_at(row, std::countr_zero(lanes)))
-                return false;
-        }
-        m_kernels.prepare(&row, 1);
-        return true;
-    }
-
-private:
-    template <class Visit>
-    static void for_each_lane(std::uint32_t lanes, const Visit& visit)
-    {
-        for (; lanes != 0; lanes &= lanes - 1)
-            visit(std::countr_zero(lanes));
-    }
-
-    // Lanes of one point that may get a second, as follow_manifold decides.
-    [[nodiscard]] std::uint32_t beyond_margins(const WideRow& row, const FollowedRow& now) const
-    {
-        std::uint32_t beyond = 0;
-        for (int i = 0; i < lane_count && row.contact.v[i] != none; ++i)
-        {
-            const float margin = m_scene.speculation + relative_motion(m_state, m_state.contacts[row.contact.v[i]]);
-            if (!(margin + now.way.v[i] < surely * m_scene.kept[row.contact.v[i]].margin))
-                beyond |= 1u << i;
-        }
-        return beyond;
-    }
-
-    // Found anew, or followed, by itself.
-    bool look_at(WideRow& row, int i)
-    {
-        const std::int32_t index = row.contact.v[i];
-        m_scratch.is_looked_at[as_index(index)] = 1;
-        const Contact& contact = m_state.contacts[index];
-        if (update_contact(m_ctx, index) != News::Nothing || contact.manifold.count != row.count)
-            return false;
-        row.untold &= ~(1u << i);
-        row.edge_of_b &= ~(1u << i);
-        Link link;
-        link.contact = index;
-        link.a = row.a.v[i];
-        link.b = row.b.v[i];
-        fill_lane(m_ctx, link, row, i);
-        note_if_loaded(row, i, least_separation(contact.manifold));
-        return true;
-    }
-
-    // What is not borne may fly.
-    void note_borne(const WideRow& row, int i) const
-    {
-        for (const std::int32_t s : {row.a.v[i], row.b.v[i]})
-            std::atomic_ref(m_scratch.borne[as_index(s)]).store(1, std::memory_order_relaxed);
-    }
-
-    void note_if_loaded(const WideRow& row, int i, float separation) const
-    {
-        if (is_loaded(m_ctx, m_state.contacts[row.contact.v[i]], separation))
-            note_borne(row, i);
-    }
-
-    const StepContext& m_ctx;
-    SceneState& m_state;
-    Scratch& m_scratch;
-    FollowedScene m_scene;
-    const WideKernels& m_kernels = wide_kernels();
-};
 
 bool keep_their_masses(const StepContext& ctx)
 {
@@ -136,12 +47,21 @@ bool keep_their_masses(const StepContext& ctx)
     return same;
 }
 
+// Where rows of the largest unit stood apart from those of others, they stand still, and nothing in them has changed.
+bool standing_rows_stay(const Scratch& scratch)
+{
+    const StandingRows& standing = scratch.standing;
+    const auto are_none = [](const std::vector<std::uint8_t>& bits)
+    { return std::ranges::all_of(bits, [](std::uint8_t lanes) { return lanes == 0; }); };
+    return scratch.kept_units.has_standing == standing.valid &&
+           (!standing.valid || (!standing.touched && are_none(standing.gone) && are_none(standing.told)));
+}
+
 bool are_in_place(const StepContext& ctx)
 {
     const KeptUnits& kept = ctx.scratch.kept_units;
-    return kept.rows_apart && kept.stamp == ctx.state.rows_stamp && !ctx.state.graph_dirty && ctx.scene.law_count == 0 &&
-           ctx.state.joints.count() == 0 && ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx) &&
-           keep_their_masses(ctx);
+    return kept.rows_apart && standing_rows_stay(ctx.scratch) && !ctx.state.graph_dirty && ctx.scene.law_count == 0 &&
+           ctx.state.joints.count() == 0 && ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx);
 }
 
 // What has no lane must go on needing none.
@@ -170,6 +90,12 @@ bool loose_stay(const StepContext& ctx)
     return stay;
 }
 
+bool are_marked(const SceneState& state, const WideRow& row)
+{
+    return std::ranges::all_of(row.contact.v, [&](std::int32_t contact)
+                               { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InRow; });
+}
+
 // Those of a large unit by the threads that solve them, of small ones a few units to a task.
 bool rows_stay(const StepContext& ctx)
 {
@@ -180,20 +106,22 @@ bool rows_stay(const StepContext& ctx)
         RowFollower follower(ctx);
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
-            if (!follower.follow(ctx.scratch.wide_rows[as_index(unit.wide_store + g)]))
+            WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
+            const FollowNews news = are_marked(ctx.state, row) ? follower.follow(row) : FollowNews{.gone = filled_lanes(row)};
+            if ((news.gone | news.told) != 0)
                 stay.store(false, std::memory_order_relaxed);
         }
     };
     for (const Unit& unit : units)
     {
-        if (is_large(unit))
+        if (!unit.stands && is_large(unit))
             Crew::run(ctx.scene.def.tasks, [&](Crew& crew)
                       { contact_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { follow(unit, first, last); }); });
     }
     for_each_in_parts(ctx.scene.def.tasks, units.size(), units_per_task,
                       [&](std::size_t u)
                       {
-                          if (!is_large(units[u]))
+                          if (!units[u].stands && !is_large(units[u]))
                               follow(units[u], 0, units[u].wide_count);
                       });
     return stay;
@@ -227,11 +155,15 @@ bool follow_rows(StepContext& ctx)
     KeptUnits& kept = scratch.kept_units;
     kept.rows_stay = false;
     scratch.is_looked_at.clear();
-    if (!are_in_place(ctx))
+    if (kept.stamp != ctx.state.rows_stamp || !keep_their_masses(ctx))
+    {
+        scratch.standing.valid = false;
         return false;
+    }
     scratch.borne.assign(scratch.state_bodies.size(), 0);
     scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    kept.rows_stay = loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
+    follow_standing_rows(ctx);
+    kept.rows_stay = are_in_place(ctx) && loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
     if (kept.rows_stay)
         scratch.is_looked_at.clear();
     return kept.rows_stay;
@@ -241,9 +173,10 @@ void keep_rows(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     KeptUnits& kept = scratch.kept_units;
+    const auto may_stay = [&](const Link& l) { return !l.solved || (l.plain && leans_on_statics(ctx.state, l)); };
     kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.units.empty() &&
-                      std::all_of(scratch.links.begin(), scratch.links.end(),
-                                  [&](const Link& l) { return !l.solved || (l.plain && leans_on_statics(ctx.state, l)); });
+                      std::ranges::all_of(scratch.links, may_stay);
+    for_each_standing(scratch.standing, [&](const Link& l, bool) { kept.rows_apart = kept.rows_apart && may_stay(l); });
     if (!kept.rows_apart)
         return;
     kept.contacts = ctx.state.awake_contacts;
@@ -254,7 +187,7 @@ void keep_rows(StepContext& ctx)
         has_lane[as_index(l.contact)] = 1;
     kept.loose.clear();
     std::copy_if(kept.contacts.begin(), kept.contacts.end(), std::back_inserter(kept.loose),
-                 [&](std::int32_t contact) { return has_lane[as_index(contact)] == 0; });
+                 [&](std::int32_t contact) { return has_lane[as_index(contact)] == 0 && !stands(ctx, contact); });
 }
 
 } // namespace carom::internal

@@ -70,9 +70,11 @@ public:
         m_scratch.order.assign(m_state.awake_contacts.size(), 0); // placed already
         for (const Unit& unit : m_scratch.units)
         {
+            if (unit.stands)
+                place_standing();
             const auto lanes = std::span(m_scratch.lane_links);
             place(lanes.subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
-                                static_cast<std::size_t>(unit.wide_count) * lane_count));
+                                unit.stands ? 0 : static_cast<std::size_t>(unit.wide_count) * lane_count));
             const auto rows = std::span(m_scratch.row_links);
             place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
         }
@@ -112,19 +114,30 @@ private:
     // Of links that are solved one colour after the other.
     void place(std::span<const std::int32_t> links)
     {
-        int color = none;
-        int points = none;
+        m_last = {};
         for (const std::int32_t i : links)
         {
-            if (i == none)
-                continue;
-            const Link& l = m_scratch.solved_links[static_cast<std::size_t>(i)];
-            if (l.color != color || l.points != points)
-                ++m_color;
-            color = l.color;
-            points = l.points;
-            place(l.contact);
+            if (i != none)
+                place(m_scratch.solved_links[static_cast<std::size_t>(i)]);
         }
+    }
+
+    void place_standing()
+    {
+        m_last = {};
+        for (const Link& l : m_scratch.standing.lanes)
+        {
+            if (l.contact != none)
+                place(l);
+        }
+    }
+
+    void place(const Link& l)
+    {
+        if (l.color != m_last.color || l.points != m_last.points)
+            ++m_color;
+        m_last = l;
+        place(l.contact);
     }
 
     void place(std::int32_t contact)
@@ -226,6 +239,7 @@ private:
     std::vector<std::int32_t>& m_moved_to;
     const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
+    Link m_last; ///< placed among those of one unit
 };
 
 } // namespace

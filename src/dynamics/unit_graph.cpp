@@ -9,6 +9,8 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
 #include "dynamics/joint_bodies.h"
+#include "dynamics/kept_manifold.h"
+#include "dynamics/standing_rows.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/wide_prepare.h"
 
@@ -202,6 +204,9 @@ public:
         for (std::size_t i = first; i < last; ++i)
         {
             const std::int32_t index = state.awake_contacts[i];
+            if (stands(ctx, index))
+                continue;
+            leave_lane(state, index);
             Contact& contact = state.contacts[index];
             contact.wide = none;
             const bool touching = (contact.flags & contact_flag::touching) != 0;
@@ -234,6 +239,18 @@ public:
             l.round = (contact.flags & contact_flag::round) != 0;
             l.points = static_cast<std::uint8_t>(contact.manifold.count);
             l.color = static_cast<std::int8_t>(contact.color);
+        }
+    }
+
+    // What stands is no link: of it only what is borne is asked.
+    void ask_standing_rows()
+    {
+        place_standing_rows(ctx);
+        for_each_standing(scratch.standing, [&](const Link&, bool touching) { ctx.report.touching += touching ? 1 : 0; });
+        for (std::size_t s = 0; scratch.standing.valid && s < scratch.borne.size(); ++s)
+        {
+            if (scratch.borne[s] != 0 && scratch.state_bodies[s] != none)
+                ground(place_of(scratch.state_bodies[s]));
         }
     }
 
@@ -330,6 +347,12 @@ public:
             if (l.touching && l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
+        for_each_standing(scratch.standing,
+                          [&](const Link& l, bool touching)
+                          {
+                              if (touching && l.a >= 0 && l.b >= 0)
+                                  link(scratch.parent, l.a, l.b);
+                          });
         for (const JointLink& j : scratch.joint_links)
         {
             if (j.a >= 0 && j.b >= 0)
@@ -391,6 +414,7 @@ public:
             ++t.bodies;
             t.fliers += scratch.flight[i] != earthbound ? 1 : 0;
         }
+        choose_standing_unit(ctx);
         if (state.joints.count() == 0) // who bears matters to heaps
             return;
         for (const Link& l : scratch.links)
@@ -535,6 +559,12 @@ public:
             if (l.solved && !l.touching && l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
+        for_each_standing(scratch.standing,
+                          [&](const Link& l, bool touching)
+                          {
+                              if (!touching && l.a >= 0 && l.b >= 0)
+                                  link(scratch.parent, l.a, l.b);
+                          });
     }
 
     // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
@@ -618,7 +648,7 @@ public:
         for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
         {
             const Contact& contact = state.contacts[edge >> 1];
-            if (gets_rows(state, contact) && !stays_apart(ctx, contact))
+            if (gets_rows(state, contact) && !stays_apart(ctx, edge >> 1))
                 return true;
         }
         return false;
@@ -761,6 +791,7 @@ void gather_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
     graph.find_fliers();
+    graph.ask_standing_rows();
     graph.gather_links();
     graph.gather_joints();
 }

@@ -28,6 +28,7 @@ void enter_awake(SceneData& scene, int body)
                      [&](int contact)
                      {
                          state.contacts[contact].color = none; // others may have taken it meanwhile
+                         leave_lane(state, contact);
                          add_awake_contact(state, contact);
                          follow_again(state, contact);
                      });

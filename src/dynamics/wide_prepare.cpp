@@ -45,7 +45,7 @@ void start_wide_row(WideRow& row)
 {
     clear_sums(row);
     row.coupling = {};
-    row.may_hit = row.untold = row.edge_of_b = 0;
+    row.may_hit = row.untold = row.edge_of_b = row.kept = row.followed = 0;
 }
 
 void empty_wide_row(std::int32_t fixed, WideRow& row)
@@ -56,7 +56,6 @@ void empty_wide_row(std::int32_t fixed, WideRow& row)
     std::fill(std::begin(row.contact.v), std::end(row.contact.v), none);
     for (WidePoint& p : row.points)
         std::fill(std::begin(p.k.v), std::end(p.k.v), 1.0f);
-    row.count = 1;
 }
 
 void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
@@ -69,6 +68,8 @@ void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
     row.a.v[i] = states.a;
     row.b.v[i] = states.b;
     row.contact.v[i] = states.contact;
+    row.body_a.v[i] = contact.body_a;
+    row.body_b.v[i] = contact.body_b;
     row.stiff.v[i] = stiff ? -1 : 0;
     row.nx.v[i] = m.normal.x;
     row.ny.v[i] = m.normal.y;
@@ -96,6 +97,8 @@ void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
         row.may_hit |= 1u << i;
     if ((contact.flags & contact_flag::touching) == 0)
         row.untold |= 1u << i;
+    if (is_kept(contact))
+        row.kept |= 1u << i;
 }
 
 ContactRow row_of_lane(const StepContext& ctx, std::int32_t index)
@@ -130,11 +133,28 @@ void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t index)
     }
 }
 
-void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
+void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
 {
-    const Lane lane(ctx.scratch, contact.wide);
-    WideRow& row = lane.row;
-    const int i = lane.i;
+    row.may_hit &= ~(1u << i);
+    row.untold &= ~(1u << i);
+    row.edge_of_b &= ~(1u << i);
+    row.kept &= ~(1u << i);
+    row.followed &= ~(1u << i);
+    for (WidePoint& p : row.points)
+        p.total_impulse.v[i] = p.total_tangent.v[i] = p.approach.v[i] = 0;
+    fill_lane(ctx, states, row, i);
+}
+
+std::uint32_t filled_lanes(const WideRow& row)
+{
+    std::uint32_t lanes = 0;
+    for (int i = 0; i < lane_count; ++i)
+        lanes |= row.contact.v[i] != none ? 1u << i : 0;
+    return lanes;
+}
+
+void clear_lane(WideRow& row, int i, std::int32_t fixed)
+{
     row.a.v[i] = row.b.v[i] = fixed;
     row.contact.v[i] = none;
     row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
@@ -148,6 +168,14 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     row.untold &= ~(1u << i);
     row.fixed_a |= 1u << i;
     row.fixed_b |= 1u << i;
+}
+
+void drop_lane(const StepContext& ctx, std::int32_t index, std::int32_t fixed)
+{
+    Contact& contact = ctx.state.contacts[index];
+    const Lane lane(ctx.scratch, contact.wide);
+    clear_lane(lane.row, lane.i, fixed);
+    catch_up(ctx.state, index);
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;
     for (ManifoldPoint& p : contact.manifold.points)

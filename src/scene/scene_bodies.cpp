@@ -327,6 +327,7 @@ void Body::teleport(Position position, float angle)
                          contact.flags |= contact_flag::fresh;
                          contact.flags &= ~(contact_flag::passing | contact_flag::loaded);
                          contact.manifold = {};
+                         leave_lane(m_data->state, index);
                      });
     refresh_boxes(*m_data, t.slot);
     t.wake();

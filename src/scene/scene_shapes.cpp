@@ -380,7 +380,12 @@ void Shape::set_def(const ShapeDef& def)
                               look_again(state, leaf);
                           }
                       });
-    for_each_contact(state, old.body, [&](int contact) { mix_materials(*m_data, state.contacts[contact]); });
+    for_each_contact(state, old.body,
+                     [&](int contact)
+                     {
+                         mix_materials(*m_data, state.contacts[contact]);
+                         leave_lane(state, contact);
+                     });
     m_data->shape_extras[static_cast<std::size_t>(slot)].user_data = def.user_data;
     if (old.density != def.density || old.trigger != def.trigger)
         update_mass(state, old.body);

@@ -1,25 +1,14 @@
 // Rows that are followed where they stand must come out as rows that are filled anew, whatever happens between steps.
 
-#include "dynamics/scene_data.h"
-#include "support/test_scene.h"
+#include "dynamics/world_pair.h"
 
 #include <functional>
-#include <string>
 #include <vector>
 
 using namespace carom;
 using namespace carom::test;
 
 namespace {
-
-struct World
-{
-    explicit World(bool sleeps) : scene(SceneDef{.sleeping = sleeps}) {}
-
-    Scene scene;
-    BodyId ground{};
-    std::vector<BodyId> bodies{};
-};
 
 // Pyramids, and a wall of boxes and capsules between two posts with a disc on it; on a box and on a line.
 void build(World& world)
@@ -53,69 +42,10 @@ void build(World& world)
     add(20, 5.2, Circle{.radius = 0.3f});
 }
 
-void expect_same_contacts(const World& a, const World& b, const std::string& when)
-{
-    const std::vector<ContactInfo> of_a = a.scene.contacts();
-    const std::vector<ContactInfo> of_b = b.scene.contacts();
-    ASSERT_EQ(of_a.size(), of_b.size()) << when;
-    for (std::size_t i = 0; i < of_a.size(); ++i)
-    {
-        ASSERT_EQ(of_a[i].normal, of_b[i].normal) << when;
-        ASSERT_EQ(of_a[i].point_count, of_b[i].point_count) << when;
-        ASSERT_EQ(of_a[i].color, of_b[i].color) << when;
-        for (int p = 0; p < of_a[i].point_count; ++p)
-        {
-            ASSERT_EQ(of_a[i].points[p].position, of_b[i].points[p].position) << when << ", contact " << i;
-            ASSERT_EQ(of_a[i].points[p].separation, of_b[i].points[p].separation) << when << ", contact " << i;
-            ASSERT_EQ(of_a[i].points[p].normal_impulse, of_b[i].points[p].normal_impulse) << when << ", contact " << i;
-        }
-    }
-}
-
-// Two worlds alike, of which the second never keeps rows.
-class Pair
+class Pair : public WorldPair
 {
 public:
-    explicit Pair(bool sleeps) : m_followed(sleeps), m_anew(sleeps)
-    {
-        build(m_followed);
-        build(m_anew);
-    }
-
-    template <class Happens>
-    void both(const Happens& happens)
-    {
-        happens(m_followed);
-        happens(m_anew);
-    }
-
-    // How many of the steps were taken with rows in place.
-    int run(int steps_taken, float dt = 1.0f / 60)
-    {
-        int stayed = 0;
-        for (int i = 0; i < steps_taken && !testing::Test::HasFailure(); ++i)
-        {
-            m_anew.scene.data().state.rows_stamp = 0; // what is in the rows is another state's
-            both([dt](World& w) { w.scene.step(dt); });
-            stayed += rows_stay() ? 1 : 0;
-            const std::string when = "step " + std::to_string(m_followed.scene.step_count());
-            EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.rows_stay);
-            EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
-            EXPECT_EQ(m_followed.scene.report().touching, m_anew.scene.report().touching) << when;
-            EXPECT_EQ(m_followed.scene.report().pairs, m_anew.scene.report().pairs) << when;
-            if (i % 10 == 0)
-                expect_same_contacts(m_followed, m_anew, when);
-        }
-        return stayed;
-    }
-
-    [[nodiscard]] bool rows_stay() { return m_followed.scene.data().scratch.kept_units.rows_stay; }
-    [[nodiscard]] const World& followed() const { return m_followed; }
-    [[nodiscard]] const World& anew() const { return m_anew; }
-
-private:
-    World m_followed;
-    World m_anew;
+    explicit Pair(bool sleeps) : WorldPair(sleeps, build) {}
 };
 
 struct Event

@@ -256,6 +256,8 @@ void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
 {
     for (WideRow* row = rows; row < rows + count; ++row)
     {
+        if (row->count == 0)
+            continue;
         Group g(*row, states);
         for (int i = 0; i < row->count; ++i)
         {
@@ -272,7 +274,7 @@ void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftn
     {
         if (row->count == 2)
             solve_group<2>(*row, states, s);
-        else
+        else if (row->count == 1)
             solve_group<1>(*row, states, s);
     }
 }
@@ -286,10 +288,14 @@ void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftn
             relax_group<2>(*row, states, s);
             *struck = struck_lanes<2>(*row, s.rest_speed);
         }
-        else
+        else if (row->count == 1)
         {
             relax_group<1>(*row, states, s);
             *struck = struck_lanes<1>(*row, s.rest_speed);
+        }
+        else
+        {
+            *struck = 0;
         }
     }
 }

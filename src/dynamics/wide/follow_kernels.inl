@@ -3,23 +3,36 @@
 
 namespace follows {
 
-// Of eight contacts, their bodies and what is kept of them. Empty lanes see what the first sees.
+// Of eight contacts, what is kept of them, and their bodies.
 struct Places
 {
-    const Contact* contact[lane_count];
     const KeptManifold* kept[lane_count];
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
+
+    // Empty lanes see what another sees.
+    CAROM_INLINE Places(const WideRow& row, const FollowedScene& scene)
+    {
+        int some = 0;
+        for (int i = 0; i < lane_count; ++i)
+            some = row.contact.v[i] < 0 ? some : i;
+        for (int i = 0; i < lane_count; ++i)
+        {
+            const int lane = row.contact.v[i] < 0 ? some : i;
+            kept[i] = scene.kept + row.contact.v[lane];
+            a[i] = scene.sims + row.body_a.v[lane];
+            b[i] = scene.sims + row.body_b.v[lane];
+        }
+    }
 
     CAROM_INLINE Places(const LaneInts& contacts, const FollowedScene& scene)
     {
         for (int i = 0; i < lane_count; ++i)
         {
-            const std::int32_t index = contacts.v[contacts.v[i] < 0 ? 0 : i];
-            contact[i] = scene.contacts + index;
-            kept[i] = scene.kept + index;
-            a[i] = scene.sims + contact[i]->body_a;
-            b[i] = scene.sims + contact[i]->body_b;
+            const Contact& contact = scene.contacts[contacts.v[i]];
+            kept[i] = scene.kept + contacts.v[i];
+            a[i] = scene.sims + contact.body_a;
+            b[i] = scene.sims + contact.body_b;
         }
     }
 };
@@ -147,59 +160,38 @@ CAROM_INLINE void put(WidePoint& to, const Point& p, const Arrow& n, I8 filled)
     store(to.base, select(filled, p.separation, none));
 }
 
-CAROM_INLINE I8 has(I8 flags, std::uint32_t flag)
+// It bore a load when the last step ended.
+CAROM_INLINE I8 bears(const WideRow& row)
 {
-    const auto f = static_cast<std::int32_t>(flag);
-    return (flags & I8{f, f, f, f, f, f, f, f}) != I8{};
+    I8 loaded = load(row.points[0].normal_impulse) > all(0);
+    if (row.count == 2)
+        loaded |= load(row.points[1].normal_impulse) > all(0);
+    return loaded;
 }
 
-// What a contact says of itself.
-struct Papers
-{
-    I8 flags;
-    F8 friction, rolling_resistance, surface_speed;
-
-    CAROM_INLINE explicit Papers(const Places& places)
-    {
-        static_assert(offsetof(Contact, flags) == 40 && offsetof(Contact, friction) == 44);
-        static_assert(offsetof(Contact, rolling_resistance) == 48 && offsetof(Contact, surface_speed) == 52);
-        F8 bits_of_flags;
-        gather4([&](int i) { return reinterpret_cast<const char*>(places.contact[i]) + 40; }, bits_of_flags, friction,
-                rolling_resistance, surface_speed);
-        std::memcpy(&flags, &bits_of_flags, sizeof flags);
-    }
-};
-
 // Lanes by what has become of their contacts.
-CAROM_INLINE void tell(const WideRow& row, const Papers& papers, F8 way, F8 separation, I8 filled, const FollowedScene& scene,
-                       FollowedRow& found)
+CAROM_INLINE void tell(const WideRow& row, F8 way, F8 separation, I8 filled, const FollowedScene& scene, FollowedRow& found)
 {
-    const I8 touching = has(papers.flags, contact_flag::touching);
-    const I8 loaded = has(papers.flags, contact_flag::loaded);
-    const I8 strange = has(papers.flags, contact_flag::trigger | contact_flag::passing | contact_flag::fresh | contact_flag::one_way) |
-                       (papers.rolling_resistance != all(0)) | (papers.surface_speed != all(0)) | (touching == lanes_of(row.untold));
-    const I8 sure = has(papers.flags, contact_flag::kept) & (way < all(scene.sure_way));
+    const I8 touching = ~lanes_of(row.untold);
+    const I8 loaded = bears(row);
+    const I8 sure = lanes_of(row.kept) & (way < all(scene.sure_way));
     const I8 near = separation <= select(touching, all(2 * scene.slop), all(scene.slop));
     const I8 borne = loaded & (separation <= all(scene.speculation));
-    found.strange = bits(filled & strange);
     found.unsure = bits(filled & ~sure);
     found.begins_or_ends = bits(filled & (near != touching));
     found.borne = bits(filled & borne);
     found.sunk = bits(filled & ~borne & (separation < all(-scene.slop)));
     found.unloaded = bits(filled & ~loaded);
-    found.unnoted = bits(filled & ~has(papers.flags, contact_flag::followed));
     store(found.way, way);
 }
 
 void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
 {
-    const Places places(row.contact, scene);
-    const Papers papers(places);
+    const Places places(row, scene);
     const I8 filled = load(row.contact) >= I8{};
     const Stand stand(places, lanes_of(row.edge_of_b));
     store(row.nx, select(filled, stand.n.x, all(0)));
     store(row.ny, select(filled, stand.n.y, all(0)));
-    store(row.friction, select(filled, papers.friction, all(0)));
     const Point first = follow_point(places, 0, stand);
     put(row.points[0], first, stand.n, filled);
     F8 separation = first.separation;
@@ -210,7 +202,7 @@ void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
         separation = least(separation, second.separation);
     }
     store(found.separation, separation);
-    tell(row, papers, stand.way, separation, filled, scene, found);
+    tell(row, stand.way, separation, filled, scene, found);
 }
 
 // The same for eight contacts of two points that are in no row now: into their manifolds.
@@ -218,10 +210,14 @@ void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScen
 {
     static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
     const Places places(contacts, scene);
-    const Papers papers(places);
     std::uint32_t of_b = 0;
+    std::uint32_t touching = 0;
     for (int i = 0; i < lane_count; ++i)
-        of_b |= (places.contact[i]->manifold.points[0].feature >> 31) << i;
+    {
+        const Contact& contact = into[contacts.v[i]];
+        of_b |= (contact.manifold.points[0].feature >> 31) << i;
+        touching |= (contact.flags & contact_flag::touching) != 0 ? 1u << i : 0;
+    }
     const Stand stand(places, lanes_of(of_b));
     const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
     LaneFloats nx;
@@ -243,7 +239,7 @@ void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScen
         manifold(i).normal = {nx.v[i], ny.v[i]};
     const I8 near = least_separation <= all(2 * scene.slop);
     found.sure = bits(stand.way < all(scene.sure_way));
-    found.touch_on = bits(has(papers.flags, contact_flag::touching) & near);
+    found.touch_on = bits(near) & touching;
 }
 
 // Impulses of a point, side by side in a row, one after the other in a contact.

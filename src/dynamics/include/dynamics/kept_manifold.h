@@ -17,6 +17,12 @@ namespace carom::internal {
            state.sims[static_cast<std::size_t>(contact.body_b)].crowded;
 }
 
+/// It was found in a crowd, and nothing has been done to it since.
+[[nodiscard]] inline bool is_kept(const Contact& contact)
+{
+    return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
+}
+
 /// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over.
 void follow_manifold(const StepContext& ctx, int index);
 
@@ -34,6 +40,12 @@ inline constexpr float surely = 0.999f;
 /// A contact's manifold, at the poses of the start of this step, or, between steps, of the last: where its row has followed it, it is followed here now.
 [[nodiscard]] Manifold manifold_at_start(const SceneState& state, int contact);
 [[nodiscard]] Manifold settled_manifold(const SceneState& state, int contact);
+
+/// Writes the manifold at the start of this step into the contact.
+void catch_up(SceneState& state, int contact);
+
+/// On the ways that both set out on they do not meet within the step.
+[[nodiscard]] bool stays_apart(const StepContext& ctx, int contact);
 
 /// Writes it into the contact: before poses are lost.
 void settle_manifold(SceneState& state, int contact);

@@ -168,9 +168,9 @@ struct Contact
     std::uint32_t flags = 0;
     float friction = 0;
     float rolling_resistance = 0;
-    float surface_speed = 0; ///< of b against a along perp(normal)
+    float surface_speed = 0;   ///< of b against a along perp(normal)
     std::int32_t color = none; ///< of its row; kept as long as it has one
-    std::int32_t wide = none; ///< during a step: where its wide row is, group * lane_count + lane
+    std::int32_t wide = none;  ///< where its wide row is, group * lane_count + lane, as far as rows_stamp holds
     Manifold manifold{};
 };
 
@@ -187,6 +187,14 @@ struct alignas(64) KeptManifold
     Vec2 center{}; ///< where b's center of mass was seen from a
     Rotation rotation{};
     float margin = 0; ///< up to this separation nothing was left out
+};
+
+/// Does a wide row of the last step still hold all that a contact is? As far as rows_stamp holds.
+enum class LaneMark : std::uint8_t
+{
+    None,
+    InRow,
+    Stands ///< in one of those that stand, see standing_rows.cpp
 };
 
 /// Two shapes whose fat boxes overlap, one of which is awake. They have a contact while they may meet in the step.
@@ -262,6 +270,7 @@ struct SceneState
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
     std::vector<KeptManifold> kept_manifolds; ///< by contact slot
+    std::vector<LaneMark> lane_marks;         ///< by contact slot
     std::vector<BoxPair> box_pairs;
     std::vector<std::uint64_t> parted_pairs; ///< of these, keys of those whose boxes do not meet, sorted
     PairSet ignored;                         ///< body pairs that never touch
@@ -277,6 +286,9 @@ struct SceneState
     std::uint64_t step_count = 0;
     double accumulator = 0;
 };
+
+/// The contact has been changed, or will be, by other than its row.
+inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static_cast<std::size_t>(contact)] = LaneMark::None; }
 
 /// Empty where the restitution is the same at all speeds.
 [[nodiscard]] inline RestitutionCurve curve_of(const SceneState& state, const ShapeRecord& shape)

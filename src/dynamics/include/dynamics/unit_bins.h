@@ -105,7 +105,8 @@ private:
 
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
-    return {scratch.bin_starts, unit.first_bin, unit.bin_count, unit.cells};
+    return unit.stands ? UnitBins(scratch.standing.bin_starts, 0, scratch.standing.bin_count(), scratch.standing.cells)
+                       : UnitBins(scratch.bin_starts, unit.first_bin, unit.bin_count, unit.cells);
 }
 
 [[nodiscard]] inline UnitBins joint_bins(const Scratch& scratch, const Unit& unit)

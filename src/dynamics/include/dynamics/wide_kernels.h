@@ -29,13 +29,11 @@ struct FollowedRow
 {
     LaneFloats way;        ///< how far any point of b has moved against a since the manifold was found
     LaneFloats separation; ///< the least of the contact's points
-    std::uint32_t strange; ///< not what the lane was made for
     std::uint32_t unsure;  ///< to be looked at one by one; what else is told of them does not hold
     std::uint32_t begins_or_ends;
     std::uint32_t borne; ///< near, and it bore a load
     std::uint32_t sunk;  ///< not borne, and deeper than the slop
     std::uint32_t unloaded;
-    std::uint32_t unnoted; ///< without contact_flag::followed
 };
 
 /// The same of eight contacts by themselves.

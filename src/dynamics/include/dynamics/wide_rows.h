@@ -35,7 +35,9 @@ struct WideRow
     LaneInts a; ///< states
     LaneInts b;
     LaneInts contact; ///< none: the lane is empty
-    LaneInts stiff;   ///< -1: against what has infinite mass
+    LaneInts body_a;
+    LaneInts body_b;
+    LaneInts stiff; ///< -1: against what has infinite mass
     LaneFloats nx;
     LaneFloats ny;
     LaneFloats friction;
@@ -45,13 +47,14 @@ struct WideRow
     LaneFloats inverse_inertia_b;
     LaneFloats coupling; ///< of two normals, J1 M^-1 J2^T
     WidePoint points[2];
-    std::int32_t count;    ///< points, the same in all lanes
+    std::int32_t count;    ///< points, the same in all lanes; 0: all lanes are empty
     std::uint32_t may_hit; ///< lanes that bore nothing when the step began and have not been struck
     std::uint32_t untold;  ///< lanes that did not touch when the step began and whose touch is not told
     std::uint32_t fixed_a; ///< lanes whose body a does not give way; what all threads read, none writes
     std::uint32_t fixed_b;
     std::uint32_t edge_of_b; ///< lanes whose normal is that of an edge of b
-    std::uint32_t padding[2];
+    std::uint32_t kept;      ///< lanes whose manifold is kept
+    std::uint32_t followed;  ///< lanes whose contact has contact_flag::followed
 };
 
 struct WideSoftness

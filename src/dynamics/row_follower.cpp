@@ -1,0 +1,98 @@
+#include "dynamics/row_follower.h"
+
+#include "dynamics/contact_update.h"
+#include "dynamics/kept_manifold.h"
+#include "dynamics/scene_data.h"
+#include "dynamics/wide_prepare.h"
+
+#include <atomic>
+#include <bit>
+
+namespace carom::internal {
+
+namespace {
+
+template <class Visit>
+void for_each_lane(std::uint32_t lanes, const Visit& visit)
+{
+    for (; lanes != 0; lanes &= lanes - 1)
+        visit(std::countr_zero(lanes));
+}
+
+} // namespace
+
+RowFollower::RowFollower(const StepContext& ctx)
+    : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
+{}
+
+FollowNews RowFollower::follow(WideRow& row, std::uint32_t watched)
+{
+    FollowedRow now;
+    m_kernels.follow(row, m_scene, now);
+    FollowNews news;
+    const std::uint32_t beyond = row.count == 2 ? 0 : beyond_margins(row, now);
+    news.looked = now.unsure | now.begins_or_ends | beyond | watched;
+    const std::uint32_t sure = filled_lanes(row) & ~news.looked;
+    row.may_hit = now.unloaded & sure;
+    clear_sums(row);
+    for_each_lane(sure & ~row.followed, [&](int i) { m_state.contacts[row.contact.v[i]].flags |= contact_flag::followed; });
+    row.followed |= sure;
+    for_each_lane(now.borne & sure, [&](int i) { note_borne(row, i); });
+    for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(row, i, now.separation.v[i]); });
+    for_each_lane(news.looked, [&](int i) { look_at(row, i, news); });
+    m_kernels.prepare(&row, 1);
+    return news;
+}
+
+// Lanes of one point that may get a second, as follow_manifold decides.
+std::uint32_t RowFollower::beyond_margins(const WideRow& row, const FollowedRow& now) const
+{
+    std::uint32_t beyond = 0;
+    for (int i = 0; i < lane_count; ++i)
+    {
+        const std::int32_t contact = row.contact.v[i];
+        if (contact == none)
+            continue;
+        const float margin = m_scene.speculation + relative_motion(m_state, m_state.contacts[contact]);
+        if (!(margin + now.way.v[i] < surely * m_scene.kept[contact].margin))
+            beyond |= 1u << i;
+    }
+    return beyond;
+}
+
+// Found anew, or followed, by itself.
+void RowFollower::look_at(WideRow& row, int i, FollowNews& news)
+{
+    const std::uint32_t bit = 1u << i;
+    const std::int32_t index = row.contact.v[i];
+    m_scratch.is_looked_at[static_cast<std::size_t>(index)] = 1;
+    const Contact& contact = m_state.contacts[index];
+    if (update_contact(m_ctx, index) != News::Nothing)
+        news.told |= bit;
+    if (!is_solved(contact) || contact.manifold.count != row.count)
+    {
+        news.gone |= bit;
+        return;
+    }
+    Link link;
+    link.contact = index;
+    link.a = row.a.v[i];
+    link.b = row.b.v[i];
+    refill_lane(m_ctx, link, row, i);
+    note_if_loaded(row, i, least_separation(contact.manifold));
+}
+
+// What is not borne may fly.
+void RowFollower::note_borne(const WideRow& row, int i) const
+{
+    for (const std::int32_t s : {row.a.v[i], row.b.v[i]})
+        std::atomic_ref(m_scratch.borne[static_cast<std::size_t>(s)]).store(1, std::memory_order_relaxed);
+}
+
+void RowFollower::note_if_loaded(const WideRow& row, int i, float separation) const
+{
+    if (is_loaded(m_ctx, m_state.contacts[row.contact.v[i]], separation))
+        note_borne(row, i);
+}
+
+} // namespace carom::internal
