@@ -9,6 +9,7 @@
 #include "collision/manifold.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::internal {
 
@@ -88,9 +89,13 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     // Keep what is near.
     const float offset = ref.hull.offset(edge);
     out.normal = ref.flipped ? -n : n;
+    const bool is_even = left && ref.other.radius(i0) == ref.other.radius(i1);
+    out.clipped = {{start, end}, {ref.other.point(i0), ref.other.point(i1)}, is_even ? ref.other.radius(i0) : -1};
     for (const ClipPoint& p : points)
     {
         const float separation = dot(n, p.core) - p.radius - offset;
+        if (separation > margin && out.count == 0)
+            std::swap(out.clipped.corners[0], out.clipped.corners[1]);
         if (separation > margin || (!left && out.count == 1))
             continue;
         const Vec2 on_other = p.core - p.radius * n;
@@ -187,7 +192,10 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     const Hull& incident = flipped ? a : b;
     const Axis axis = flipped ? axis_b : axis_a;
     if (axis.separation > margin)
+    {
+        out.reach = axis.separation;
         return;
+    }
     // Edge normals are all the separating axes of cores that overlap. Of cores that are apart, and of the ends of capsules, they are not: there
     // the nearest corner may be farther than any edge normal tells.
     const bool slender = a.count() == 2 || b.count() == 2;
@@ -208,6 +216,7 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     if (apart && nearest.separation <= margin && (out.count == 0 || least_separation(out) > nearest.separation + tolerance))
     {
         out.count = 0;
+        out.clipped.radius = -1;
         out.normal = nearest.normal;
         out.add(nearest.on_a, nearest.on_b, nearest.separation, nearest.feature);
     }

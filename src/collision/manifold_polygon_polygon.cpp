@@ -5,8 +5,10 @@
 #include "collision/manifold.h"
 #include "core/float4.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -126,13 +128,13 @@ public:
     {
         const Axis axis_a = best_axis(m_a, m_corners_b, m_radii);
         if (axis_a.separation > margin)
-            return true;
+            return are_apart(axis_a.separation, out);
         m_corners_a.count = m_a.leaf->count;
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_pose.to_b(m_a.points[i]);
         const Axis axis_b = best_axis(m_b, m_corners_a, m_radii);
         if (axis_b.separation > margin)
-            return true;
+            return are_apart(axis_b.separation, out);
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_a.points[i];
         const bool flipped = edge_is_of_b(axis_a, axis_b);
@@ -140,6 +142,12 @@ public:
     }
 
 private:
+    static bool are_apart(float separation, LocalManifold& out)
+    {
+        out.reach = separation;
+        return true;
+    }
+
     // Lengths matter between near equals alone.
     [[nodiscard]] bool edge_is_of_b(const Axis& a, const Axis& b) const
     {
@@ -186,15 +194,27 @@ private:
         if (!left)
             return false;
         out.normal = flipped ? -n : n;
+        out.clipped = {{start + reference.leaf->r0 * n, end + reference.leaf->r0 * n}, {others.at[i0], others.at[i1]}, radius};
+        out.reach = 3e38f;
         for (const ClipPoint& p : points)
         {
             const float separation = dot(n, p.core) - offset;
             if (separation > margin)
+            {
+                out.leave_out(separation);
+                if (out.count == 0)
+                    std::swap(out.clipped.corners[0], out.clipped.corners[1]);
                 continue;
+            }
             const Vec2 on_other = p.core - radius * n;
             const Vec2 on_reference = on_other - separation * n;
             out.add(flipped ? on_other : on_reference, flipped ? on_reference : on_other, separation,
                     feature_id(flipped, axis.edge, p.id));
+        }
+        for (int i = 0; i < others.count; ++i)
+        {
+            if (i != i0 && i != i1)
+                out.leave_out(std::max(margin, dot(n, others.at[i]) - offset));
         }
         return out.count > 0;
     }
@@ -222,7 +242,7 @@ private:
         if (separation >= than || !(distance > 0))
             return false;
         if (separation > margin)
-            return true;
+            return are_apart(separation, out);
         const Vec2 n = (1 / distance) * (m_corners_b.at[b] - m_corners_a.at[a]);
         out.normal = n;
         out.add(m_corners_a.at[a] + m_a.leaf->r0 * n, m_corners_b.at[b] - m_b.leaf->r0 * n, separation,

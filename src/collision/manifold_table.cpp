@@ -1,5 +1,7 @@
 #include "collision/manifold.h"
 
+#include <cstddef>
+
 namespace carom::internal {
 
 namespace {
@@ -10,10 +12,18 @@ void mirrored(const LeafView& a, const LeafView& b, const RelativePose& pose, fl
 {
     const RelativePose swapped{pose.to_b({}), inverse(pose.rotation)};
     LocalManifold m;
+    m.reach = margin;
     collide_swapped(b, a, swapped, margin, m);
+    out.reach = m.reach;
     out.normal = -rotate(pose.rotation, m.normal);
     for (int i = 0; i < m.count; ++i)
         out.add(pose.to_a(m.points[i].on_b), pose.to_a(m.points[i].on_a), m.points[i].separation, m.points[i].feature);
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+        out.clipped.edge[i] = pose.to_a(m.clipped.edge[i]);
+        out.clipped.corners[i] = pose.to_a(m.clipped.corners[i]);
+    }
+    out.clipped.radius = m.clipped.radius;
 }
 
 // Row: type of a, column: type of b, both in the order of LeafType: half-space, circle, polygon, capsule, segment, arc.
@@ -71,6 +81,7 @@ CollideFunction collide_function(LeafType a, LeafType b)
 LocalManifold collide(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin)
 {
     LocalManifold out;
+    out.reach = margin;
     if (const CollideFunction function = collide_function(a.leaf->type, b.leaf->type))
         function(a, b, pose, margin, out);
     return out;

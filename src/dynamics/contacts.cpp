@@ -15,10 +15,14 @@
 
 namespace carom::internal {
 
-Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
+LocalManifold local_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
 {
-    const LocalManifold local = collide(leaf_view(state, contact.shape_a), leaf_view(state, contact.shape_b),
-                                        relative_pose(a.frame(), b.frame()), margin);
+    return collide(leaf_view(state, contact.shape_a), leaf_view(state, contact.shape_b), relative_pose(a.frame(), b.frame()),
+                   margin);
+}
+
+Manifold in_world(const LocalManifold& local, const BodyPose& a, const BodyPose& b)
+{
     Manifold m;
     m.count = local.count;
     m.normal = rotate(a.rotation, local.normal);
@@ -32,6 +36,11 @@ Manifold world_manifold(const SceneState& state, const Contact& contact, const B
         m.points[i].feature = p.feature;
     }
     return m;
+}
+
+Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
+{
+    return in_world(local_manifold(state, contact, a, b, margin), a, b);
 }
 
 void carry_impulses(const Manifold& old, Manifold& fresh)

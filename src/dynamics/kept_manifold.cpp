@@ -1,18 +1,21 @@
 #include "dynamics/kept_manifold.h"
 
 #include "collision/edge_rules.h"
-#include "core/float4.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/scene_data.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::internal {
 
 namespace {
 
+constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is likely to be the same
+constexpr float surely_turned = 0.9801f;
+
 // An edge's normal belongs to the body of the edge; what is nearest at two corners, or round, has a normal of its own.
-bool can_keep(const SceneState& state, const Contact& contact)
+bool can_keep(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
     const auto has_edges = [&](int shape)
     {
@@ -20,75 +23,123 @@ bool can_keep(const SceneState& state, const Contact& contact)
         const bool is_line = type == LeafType::Segment && (contact.flags & contact_flag::plain) != 0;
         return type == LeafType::Polygon || type == LeafType::Capsule || is_line;
     };
-    const Manifold& m = contact.manifold;
     return (contact.flags & contact_flag::one_way) == 0 && has_edges(contact.shape_a) && has_edges(contact.shape_b) &&
-           (m.count == 0 || is_of_edge(m.points[0].feature));
+           (found.count == 0 || found.clipped.radius >= 0);
 }
 
 const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
 
 Vec2 place_of_b(const BodySim& a, const BodySim& b) { return inverse_rotate(a.rotation, b.center - a.center); }
 
-// How far any point of b has moved against a since the manifold was found.
-float way_since(const KeptManifold& kept, const BodySim& a, const BodySim& b)
+// How far any point of b has moved against a since the manifold was found, and the cosine of the angle that it has turned.
+struct Moved
+{
+    float way = 3e38f;
+    float cosine = -1;
+};
+
+Moved moved_since(const KeptManifold& kept, const BodySim& a, const BodySim& b)
 {
     const Rotation turn = inverse(a.rotation) * b.rotation * inverse(kept.rotation);
-    return turn.c > 0 ? length(place_of_b(a, b) - kept.center) + b.extent * std::fabs(turn.s) : 3e38f;
+    return {length(place_of_b(a, b) - kept.center) + b.extent * std::fabs(turn.s), turn.c};
 }
 
-void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const Manifold& m, float margin)
+void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalManifold& found)
 {
     kept.center = place_of_b(a, b);
     kept.rotation = inverse(a.rotation) * b.rotation;
-    kept.margin = margin;
-    for (int i = 0; i < m.count; ++i)
+    kept.reach = found.reach;
+    if (found.count == 0)
+        return;
+    const RelativePose pose = relative_pose(a.pose(), b.pose());
+    const bool of_b = edge_is_of_b(found.points[0].feature);
+    const auto on_a = [&](Vec2 p) { return p - a.local_center; };
+    const auto on_b = [&](Vec2 p) { return pose.to_b(p) - b.local_center; };
+    for (std::size_t i = 0; i < 2; ++i)
     {
-        kept.points[i] = {inverse_rotate(a.rotation, m.points[i].anchor_a), inverse_rotate(b.rotation, m.points[i].anchor_b)};
+        const Vec2 edge = found.clipped.edge[i];
+        const Vec2 corner = found.clipped.corners[i];
+        kept.edge[i] = of_b ? on_b(edge) : on_a(edge);
+        kept.corners[i] = of_b ? on_a(corner) : on_b(corner);
     }
-    if (m.count > 0)
-        kept.normal = inverse_rotate(edge_is_of_b(m.points[0].feature) ? b.rotation : a.rotation, m.normal);
+    kept.normal = of_b ? inverse_rotate(pose.rotation, found.normal) : found.normal;
+    kept.radius = found.clipped.radius;
 }
 
-// Of a point, both anchors at once: {a.x, a.y, b.x, b.y}.
-class AnchorTurn
+// What has none has no edge that another could take the place of; what has two points gets no third.
+bool is_true_still(int points, const Moved& moved, float margin, float reach, float longest_way)
 {
-public:
-    AnchorTurn(Rotation a, Rotation b) : m_cosines{a.c, a.c, b.c, b.c}, m_sines{-a.s, a.s, -b.s, b.s} {}
+    const bool keeps_edge = points == 0 ? moved.cosine > 0 : moved.way < longest_way && moved.cosine > least_cosine;
+    return keeps_edge && (points == 2 || margin + moved.way <= reach);
+}
 
-    [[nodiscard]] F4 operator()(const KeptManifold::Anchors& p) const
+// The two corners before the edge, from the center of the edge's body.
+struct Facing
+{
+    const KeptManifold& kept;
+    bool of_b;
+    Vec2 n;      ///< out of the edge
+    Vec2 offset; ///< from the center of the edge's body to the other's
+    Vec2 start;  ///< of the edge
+    Vec2 corners[2];
+    float along[2]; ///< how far along the edge, times its length
+    float end;      ///< as far is the edge's
+
+    Facing(const KeptManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : kept(k), of_b(edge_of_b)
     {
-        const F4 local = load4(&p.on_a.x);
-        return m_cosines * local + m_sines * __builtin_shufflevector(local, local, 1, 0, 3, 2);
+        const BodySim& own = of_b ? b : a;
+        const BodySim& other = of_b ? a : b;
+        const Vec2 apart = b.center - a.center;
+        const Vec2 normal = rotate(own.rotation, kept.normal);
+        n = of_b ? -normal : normal;
+        offset = of_b ? -apart : apart;
+        start = rotate(own.rotation, kept.edge[0]);
+        const Vec2 edge = rotate(own.rotation, kept.edge[1]) - start;
+        end = dot(edge, edge);
+        for (int i = 0; i < 2; ++i)
+        {
+            corners[i] = offset + rotate(other.rotation, kept.corners[i]);
+            along[i] = dot(edge, corners[i] - start);
+        }
     }
 
-private:
-    F4 m_cosines;
-    F4 m_sines;
+    // Does the edge between the corners lie before the edge? A single one must not have left it.
+    [[nodiscard]] bool meets(int points) const
+    {
+        const bool left = along[0] < 0 && (points == 1 || along[1] < 0);
+        const bool right = along[0] > end && (points == 1 || along[1] > end);
+        return !left && !right;
+    }
+
+    // What of the edge between the corners is before the edge ends at its ends.
+    void put(int i, ManifoldPoint& p) const
+    {
+        const float inside = std::min(std::max(along[i], 0.0f), end);
+        const float beyond = inside - along[i];
+        const float t = beyond != 0 ? beyond / (along[1 - i] - along[i]) : 0;
+        const Vec2 core = corners[i] + t * (corners[1 - i] - corners[i]);
+        p.separation = dot(n, core - start) - kept.radius;
+        const Vec2 on_other = core - kept.radius * n;
+        const Vec2 on_edge = on_other - p.separation * n;
+        p.anchor_a = of_b ? on_other - offset : on_edge;
+        p.anchor_b = of_b ? on_edge : on_other - offset;
+    }
 };
 
-// The point of the other body stays where it is on it; opposite, on the edge, it slides along.
 void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifold& m)
 {
     if (m.count == 0)
         return;
     const bool of_b = edge_is_of_b(m.points[0].feature);
-    const Vec2 apart = b.center - a.center;
-    const AnchorTurn turned(a.rotation, b.rotation);
+    const Facing facing(kept, a, b, of_b);
     m.normal = rotate(of_b ? b.rotation : a.rotation, kept.normal);
     for (int i = 0; i < m.count; ++i)
-    {
-        ManifoldPoint& p = m.points[i];
-        const F4 anchors = turned(kept.points[i]);
-        p.anchor_a = {anchors[0], anchors[1]};
-        p.anchor_b = {anchors[2], anchors[3]};
-        const Vec2 gap = apart + (p.anchor_b - p.anchor_a);
-        p.separation = dot(m.normal, gap);
-        const Vec2 slid = gap - p.separation * m.normal;
-        if (of_b)
-            p.anchor_b -= slid;
-        else
-            p.anchor_a += slid;
-    }
+        facing.put(i, m.points[i]);
+}
+
+bool faces_still(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Manifold& m)
+{
+    return m.count == 0 || Facing(kept, a, b, edge_is_of_b(m.points[0].feature)).meets(m.count);
 }
 
 } // namespace
@@ -102,30 +153,31 @@ void follow_manifold(const StepContext& ctx, int index)
     const BodySim& b = sim_of(state, contact.body_b);
     const Tolerances& t = ctx.scene.tolerances;
     contact.flags &= ~contact_flag::followed;
-    const float way = is_kept(contact) ? way_since(kept, a, b) : 3e38f;
+    const Moved moved = is_kept(contact) ? moved_since(kept, a, b) : Moved{};
     const float margin = t.speculation + relative_motion(state, contact);
-    // What has two points gets no third.
-    if (way < t.keep && (contact.manifold.count == 2 || margin + way <= kept.margin))
+    if (is_true_still(contact.manifold.count, moved, margin, kept.reach, t.keep) && faces_still(kept, a, b, contact.manifold))
     {
         follow(kept, a, b, contact.manifold);
         return;
     }
-    const float wide_margin = margin + 0.5f * t.keep;
     const Manifold old = contact.manifold;
-    contact.manifold =
-        world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), wide_margin);
+    const BodyPose pose_a = pose_at_start(state, contact.body_a);
+    const BodyPose pose_b = pose_at_start(state, contact.body_b);
+    const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
+    contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold);
     contact.flags &= ~contact_flag::kept;
-    if (!can_keep(state, contact))
+    if (!can_keep(state, contact, found))
         return;
     contact.flags |= contact_flag::kept;
-    keep(kept, a, b, contact.manifold, wide_margin);
+    keep(kept, a, b, found);
 }
 
 FollowedScene followed_scene(const StepContext& ctx)
 {
     const Tolerances& t = ctx.scene.tolerances;
-    return {ctx.state.sims.data(), &ctx.state.contacts[0], ctx.state.kept_manifolds.data(), surely * t.keep, t.slop,
+    return {ctx.state.sims.data(), &ctx.state.contacts[0], ctx.state.kept_manifolds.data(),
+            surely * t.keep,       surely_turned,          t.slop,
             t.speculation};
 }
 

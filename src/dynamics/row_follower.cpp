@@ -54,7 +54,7 @@ std::uint32_t RowFollower::beyond_margins(const WideRow& row, const FollowedRow&
         if (contact == none)
             continue;
         const float margin = m_scene.speculation + relative_motion(m_state, m_state.contacts[contact]);
-        if (!(margin + now.way.v[i] < surely * m_scene.kept[contact].margin))
+        if (!(margin + now.way.v[i] < surely * now.reach.v[i]))
             beyond |= 1u << i;
     }
     return beyond;

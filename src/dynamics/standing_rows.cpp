@@ -211,9 +211,10 @@ private:
                 m_rows.colors[as_index(place)] &= ~(std::uint64_t{1} << l.color);
         }
         leave_lane(m_state, l.contact);
-        std::int32_t& first_free = m_rows.free_of_bin[as_index(bin_of(l))];
-        m_rows.next_free[as_index(lane)] = std::exchange(first_free, lane);
+        give(m_rows.free_of_bin[as_index(bin_of(l))], lane);
         l.contact = none;
+        if (filled(g) == 0)
+            m_scratch.wide_rows[g].count = 0;
         m_rows.cores[as_index(lane)] = 0;
         for (std::vector<std::uint8_t>* bits : {&m_rows.touching, &m_rows.watched, &m_rows.changed, &m_rows.told, &m_rows.looked})
             (*bits)[g] &= static_cast<std::uint8_t>(~bit_of(lane));

@@ -176,6 +176,7 @@ private:
                           {
                               Contact& contact = m_state.contacts[slots[i]];
                               contact.awake_index = static_cast<std::int32_t>(i);
+                              contact.color = none; // chosen in the new order
                               rename_edges(contact);
                               if (contact.pair != none)
                                   m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = slots[i];

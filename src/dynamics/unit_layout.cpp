@@ -455,13 +455,26 @@ private:
     {
         StandingRows& standing = m_scratch.standing;
         const std::int32_t bin = bin_of(states);
-        if (bin >= standing.bin_count() || standing.free_of_bin[as_index(bin)] == none)
+        if (bin >= standing.bin_count() || standing.free_of_bin[as_index(bin)].empty())
+        {
+            want_more(bin);
             return false;
-        const std::int32_t lane = standing.free_of_bin[as_index(bin)];
-        standing.free_of_bin[as_index(bin)] = standing.next_free[as_index(lane)];
+        }
+        const std::int32_t lane = take_least(standing.free_of_bin[as_index(bin)]);
         put_in_lane(states, lane);
         standing.touched = true;
         return true;
+    }
+
+    void want_more(std::int32_t bin)
+    {
+        StandingRows& standing = m_scratch.standing;
+        standing.wanted.resize(std::max(standing.wanted.size(), as_index(bin) + 1), 2 * lane_count);
+        const std::int32_t lanes = bin < standing.bin_count()
+                                       ? lane_count * (standing.bin_starts[as_index((bin + 1) * standing.cells)] -
+                                                       standing.bin_starts[as_index(bin * standing.cells)])
+                                       : 0;
+        standing.wanted[as_index(bin)] = std::min(2 * standing.wanted[as_index(bin)], lanes / 2 + 4 * lane_count);
     }
 
     void put_in_lane(const Link& states, std::int32_t lane)
@@ -528,23 +541,24 @@ private:
         standing.colors.assign(m_state.awake_bodies.size(), 0);
         standing.lanes.assign(groups * lane_count, {});
         standing.cores.assign(groups * lane_count, 0);
-        standing.next_free.assign(groups * lane_count, none);
-        standing.free_of_bin.assign(as_index(unit.bin_count), none);
+        standing.free_of_bin.resize(as_index(unit.bin_count));
+        for (std::vector<std::int32_t>& free : standing.free_of_bin)
+            free.clear();
         for (std::vector<std::uint8_t>* bits :
              {&standing.touching, &standing.watched, &standing.gone, &standing.looked, &standing.told, &standing.changed})
             bits->assign(groups, 0);
         const std::size_t first_lane = as_index(unit.first_wide) * lane_count;
-        for (std::int32_t bin = unit.bin_count - 1; bin >= 0; --bin)
+        for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
         {
             const std::int32_t begin = standing.bin_starts[as_index(bin * unit.cells)] * lane_count;
             const std::int32_t end = standing.bin_starts[as_index((bin + 1) * unit.cells)] * lane_count;
-            for (std::int32_t lane = end - 1; lane >= begin; --lane)
+            for (std::int32_t lane = begin; lane < end; ++lane)
             {
                 const std::int32_t link = m_scratch.lane_links[first_lane + as_index(lane)];
                 if (link != none)
                     put_in_lane(m_scratch.solved_links[as_index(link)], lane);
                 else
-                    standing.next_free[as_index(lane)] = std::exchange(standing.free_of_bin[as_index(bin)], lane);
+                    give(standing.free_of_bin[as_index(bin)], lane);
             }
         }
         m_scratch.lane_links.resize(first_lane);
@@ -668,7 +682,8 @@ private:
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
         const auto groups = [&] { return (lane + lane_count - 1) / lane_count - unit.first_wide; };
         unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
-        unit.bin_count = 2 * unit.colors;
+        const bool will_stand = unit.stands && !m_scratch.standing.valid;
+        unit.bin_count = 2 * std::min(unit.colors + (will_stand ? 1 : 0), color_limit);
         for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
         {
             const std::int32_t first_of_bin = lane;
@@ -677,8 +692,8 @@ private:
                 m_scratch.bin_starts.push_back(groups());
                 lane += std::exchange(m_bins[bin * unit.cells + cell], lane);
             }
-            if (unit.stands && !m_scratch.standing.valid)
-                lane += lanes_to_spare(lane - first_of_bin);
+            if (will_stand)
+                lane += lanes_to_spare(bin, lane - first_of_bin);
             lane = (lane + lane_count - 1) / lane_count * lane_count;
         }
         m_scratch.bin_starts.push_back(groups());
@@ -690,8 +705,13 @@ private:
         m_scratch.row_links.resize(as_index(row));
     }
 
-    // For those that come while the rows stand.
-    [[nodiscard]] static std::int32_t lanes_to_spare(std::int32_t lanes) { return lanes / lanes_to_a_free_one + lane_count; }
+    // For those that come while the rows stand: more where there have been too few.
+    [[nodiscard]] std::int32_t lanes_to_spare(std::int32_t bin, std::int32_t lanes) const
+    {
+        const std::vector<std::int32_t>& wanted = m_scratch.standing.wanted;
+        const std::int32_t before = as_index(bin) < wanted.size() ? wanted[as_index(bin)] : 0;
+        return std::max(before, lanes / lanes_to_a_free_one + lane_count);
+    }
 
     void clear_bins(const Unit& unit)
     {

@@ -81,14 +81,10 @@ CAROM_INLINE Arrow centers_apart(const Places& places)
 
 CAROM_INLINE F8 length_of(const Arrow& v) { return root(v.x * v.x + v.y * v.y); }
 
-// How far any point of b has moved against a since the manifold was found; more where it has turned by a right angle.
-CAROM_INLINE F8 way_since(const Places& places, const Turn& a, const Turn& b, const Arrow& apart, const Arrow& kept_center)
+// How far any point of b has moved against a since the manifold was found; 3e38 where it has turned too far.
+CAROM_INLINE F8 way_since(const Places& places, const Turn& a, const Turn& b, const Arrow& apart, const Arrow& kept_center,
+                          const Turn& kept, float sure_cosine)
 {
-    Turn kept;
-    F8 margin;
-    F8 unused;
-    static_assert(offsetof(KeptManifold, rotation) == 48);
-    gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + 48; }, kept.c, kept.s, margin, unused);
     const Turn now = {a.c * b.c + a.s * b.s, a.c * b.s - a.s * b.c};
     const F8 cosine = now.c * kept.c + now.s * kept.s;
     const F8 sine = now.s * kept.c - now.c * kept.s;
@@ -97,7 +93,7 @@ CAROM_INLINE F8 way_since(const Places& places, const Turn& a, const Turn& b, co
     for (int i = 0; i < lane_count; ++i)
         extent.v[i] = places.b[i]->extent;
     const F8 way = length_of(moved) + load(extent) * greatest(sine, -sine);
-    return select(cosine > all(0), way, all(3e38f));
+    return select(cosine > all(sure_cosine), way, all(3e38f));
 }
 
 CAROM_INLINE I8 lanes_of(std::uint32_t bits)
@@ -106,26 +102,66 @@ CAROM_INLINE I8 lanes_of(std::uint32_t bits)
     return (I8{b, b, b, b, b, b, b, b} & I8{1, 2, 4, 8, 16, 32, 64, 128}) != I8{};
 }
 
-// How the bodies of eight contacts stand to each other, and what is kept of them.
+// How the bodies of eight contacts stand to each other, and what is kept of them; as Facing in kept_manifold.cpp.
 struct Stand
 {
-    Turn a, b;
-    Arrow apart;
-    Arrow n;
-    F8 way;
+    Arrow n;       ///< from a to b
+    Arrow outward; ///< of the edge
+    Arrow offset;  ///< from the center of the edge's body to the other's
+    Arrow start;
+    Arrow corners[2];
+    F8 along[2];
+    F8 end;
+    F8 way, reach, radius;
     I8 edge_of_b;
 
-    CAROM_INLINE Stand(const Places& places, I8 edges_of_b)
-        : a(turns_of(places.a)), b(turns_of(places.b)), apart(centers_apart(places)), edge_of_b(edges_of_b)
+    CAROM_INLINE Stand(const Places& places, I8 edges_of_b, const FollowedScene& scene) : edge_of_b(edges_of_b)
     {
-        static_assert(offsetof(KeptManifold, points) == 0 && offsetof(KeptManifold, normal) == 32 &&
-                      offsetof(KeptManifold, center) == 40);
+        static_assert(offsetof(KeptManifold, edge) == 0 && offsetof(KeptManifold, corners) == 16 &&
+                      offsetof(KeptManifold, normal) == 32 && offsetof(KeptManifold, center) == 40 &&
+                      offsetof(KeptManifold, rotation) == 48 && offsetof(KeptManifold, reach) == 56 &&
+                      offsetof(KeptManifold, radius) == 60);
+        const auto kept_at = [&](int offset_of)
+        { return [&places, offset_of](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset_of; }; };
+        const Turn a = turns_of(places.a);
+        const Turn b = turns_of(places.b);
+        const Arrow apart = centers_apart(places);
         Arrow normal;
         Arrow kept_center;
-        gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + 32; }, normal.x, normal.y, kept_center.x,
-                kept_center.y);
-        way = way_since(places, a, b, apart, kept_center);
-        n = turned({select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)}, normal);
+        gather4(kept_at(32), normal.x, normal.y, kept_center.x, kept_center.y);
+        Turn kept;
+        gather4(kept_at(48), kept.c, kept.s, reach, radius);
+        way = way_since(places, a, b, apart, kept_center, kept, scene.sure_cosine);
+        const Turn own = {select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)};
+        const Turn other = {select(edge_of_b, a.c, b.c), select(edge_of_b, a.s, b.s)};
+        n = turned(own, normal);
+        outward = {select(edge_of_b, -n.x, n.x), select(edge_of_b, -n.y, n.y)};
+        offset = {select(edge_of_b, -apart.x, apart.x), select(edge_of_b, -apart.y, apart.y)};
+        Arrow stop;
+        gather4(kept_at(0), start.x, start.y, stop.x, stop.y);
+        gather4(kept_at(16), corners[0].x, corners[0].y, corners[1].x, corners[1].y);
+        start = turned(own, start);
+        stop = turned(own, stop);
+        const Arrow edge = {stop.x - start.x, stop.y - start.y};
+        end = edge.x * edge.x + edge.y * edge.y;
+        for (int i = 0; i < 2; ++i)
+        {
+            const Arrow corner = turned(other, corners[i]);
+            corners[i] = {offset.x + corner.x, offset.y + corner.y};
+            along[i] = edge.x * (corners[i].x - start.x) + edge.y * (corners[i].y - start.y);
+        }
+    }
+
+    CAROM_INLINE I8 meets(int points) const
+    {
+        I8 left = along[0] < all(0);
+        I8 right = along[0] > end;
+        if (points == 2)
+        {
+            left &= along[1] < all(0);
+            right &= along[1] > end;
+        }
+        return ~(left | right);
     }
 };
 
@@ -135,18 +171,20 @@ struct Point
     F8 separation;
 };
 
-// The point of the other body stays where it is on it; opposite, on the edge, it slides along.
-CAROM_INLINE Point follow_point(const Places& places, std::size_t k, const Stand& s)
+CAROM_INLINE Point follow_point(int k, const Stand& s)
 {
+    const F8 inside = least(greatest(s.along[k], all(0)), s.end);
+    const F8 beyond = inside - s.along[k];
+    const F8 t = select(beyond != all(0), beyond / (s.along[1 - k] - s.along[k]), all(0));
+    const Arrow core = {s.corners[k].x + t * (s.corners[1 - k].x - s.corners[k].x),
+                        s.corners[k].y + t * (s.corners[1 - k].y - s.corners[k].y)};
     Point p;
-    gather4([&](int i) { return reinterpret_cast<const char*>(places.kept[i]) + 16 * k; }, p.a.x, p.a.y, p.b.x, p.b.y);
-    p.a = turned(s.a, p.a);
-    p.b = turned(s.b, p.b);
-    const Arrow gap = {s.apart.x + (p.b.x - p.a.x), s.apart.y + (p.b.y - p.a.y)};
-    p.separation = s.n.x * gap.x + s.n.y * gap.y;
-    const Arrow slid = {gap.x - p.separation * s.n.x, gap.y - p.separation * s.n.y};
-    p.b = {select(s.edge_of_b, p.b.x - slid.x, p.b.x), select(s.edge_of_b, p.b.y - slid.y, p.b.y)};
-    p.a = {select(s.edge_of_b, p.a.x, p.a.x + slid.x), select(s.edge_of_b, p.a.y, p.a.y + slid.y)};
+    p.separation = (s.outward.x * (core.x - s.start.x) + s.outward.y * (core.y - s.start.y)) - s.radius;
+    const Arrow on_other = {core.x - s.radius * s.outward.x, core.y - s.radius * s.outward.y};
+    const Arrow on_edge = {on_other.x - p.separation * s.outward.x, on_other.y - p.separation * s.outward.y};
+    const Arrow there = {on_other.x - s.offset.x, on_other.y - s.offset.y};
+    p.a = {select(s.edge_of_b, there.x, on_edge.x), select(s.edge_of_b, there.y, on_edge.y)};
+    p.b = {select(s.edge_of_b, on_edge.x, there.x), select(s.edge_of_b, on_edge.y, there.y)};
     return p;
 }
 
@@ -170,11 +208,11 @@ CAROM_INLINE I8 bears(const WideRow& row)
 }
 
 // Lanes by what has become of their contacts.
-CAROM_INLINE void tell(const WideRow& row, F8 way, F8 separation, I8 filled, const FollowedScene& scene, FollowedRow& found)
+CAROM_INLINE void tell(const WideRow& row, const Stand& stand, F8 separation, I8 filled, const FollowedScene& scene, FollowedRow& found)
 {
     const I8 touching = ~lanes_of(row.untold);
     const I8 loaded = bears(row);
-    const I8 sure = lanes_of(row.kept) & (way < all(scene.sure_way));
+    const I8 sure = lanes_of(row.kept) & (stand.way < all(scene.sure_way)) & stand.meets(row.count);
     const I8 near = separation <= select(touching, all(2 * scene.slop), all(scene.slop));
     const I8 borne = loaded & (separation <= all(scene.speculation));
     found.unsure = bits(filled & ~sure);
@@ -182,27 +220,28 @@ CAROM_INLINE void tell(const WideRow& row, F8 way, F8 separation, I8 filled, con
     found.borne = bits(filled & borne);
     found.sunk = bits(filled & ~borne & (separation < all(-scene.slop)));
     found.unloaded = bits(filled & ~loaded);
-    store(found.way, way);
+    store(found.way, stand.way);
+    store(found.reach, stand.reach);
 }
 
 void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
 {
     const Places places(row, scene);
     const I8 filled = load(row.contact) >= I8{};
-    const Stand stand(places, lanes_of(row.edge_of_b));
+    const Stand stand(places, lanes_of(row.edge_of_b), scene);
     store(row.nx, select(filled, stand.n.x, all(0)));
     store(row.ny, select(filled, stand.n.y, all(0)));
-    const Point first = follow_point(places, 0, stand);
+    const Point first = follow_point(0, stand);
     put(row.points[0], first, stand.n, filled);
     F8 separation = first.separation;
     if (row.count == 2)
     {
-        const Point second = follow_point(places, 1, stand);
+        const Point second = follow_point(1, stand);
         put(row.points[1], second, stand.n, filled);
         separation = least(separation, second.separation);
     }
     store(found.separation, separation);
-    tell(row, stand.way, separation, filled, scene, found);
+    tell(row, stand, separation, filled, scene, found);
 }
 
 // The same for eight contacts of two points that are in no row now: into their manifolds.
@@ -218,16 +257,16 @@ void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScen
         of_b |= (contact.manifold.points[0].feature >> 31) << i;
         touching |= (contact.flags & contact_flag::touching) != 0 ? 1u << i : 0;
     }
-    const Stand stand(places, lanes_of(of_b));
+    const Stand stand(places, lanes_of(of_b), scene);
     const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
     LaneFloats nx;
     LaneFloats ny;
     store(nx, stand.n.x);
     store(ny, stand.n.y);
     F8 least_separation = all(3e38f);
-    for (std::size_t k = 0; k < 2; ++k)
+    for (int k = 0; k < 2; ++k)
     {
-        const Point p = follow_point(places, k, stand);
+        const Point p = follow_point(k, stand);
         least_separation = least(least_separation, p.separation);
         scatter4([&](int i) { return reinterpret_cast<char*>(&manifold(i).points[k].anchor_a); }, p.a.x, p.a.y, p.b.x, p.b.y);
         LaneFloats separation;
@@ -238,7 +277,7 @@ void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScen
     for (int i = 0; i < lane_count; ++i)
         manifold(i).normal = {nx.v[i], ny.v[i]};
     const I8 near = least_separation <= all(2 * scene.slop);
-    found.sure = bits(stand.way < all(scene.sure_way));
+    found.sure = bits((stand.way < all(scene.sure_way)) & stand.meets(2));
     found.touch_on = bits(near) & touching;
 }
 

@@ -36,11 +36,24 @@ struct LocalPoint
 /// Cosine of the angle between the normals at two points up to which one normal serves both.
 inline constexpr float one_normal = 0.94f;
 
+/// What a manifold was clipped from, in a's frame: as long as these two face each other, its points follow from them.
+struct ClippedEdges
+{
+    Vec2 edge[2];      ///< ends of the edge whose normal it is, on the surface
+    Vec2 corners[2];   ///< of the other leaf, without their radius; the first point is of the first
+    float radius = -1; ///< of both corners; negative: of none, or they differ
+};
+
 struct LocalManifold
 {
     Vec2 normal{}; ///< from a to b, in a's frame
     LocalPoint points[2];
     int count = 0;
+    ClippedEdges clipped;
+    float reach = 0; ///< nothing nearer than this was left out; at least the margin
+
+    // With this separation.
+    void leave_out(float separation) { reach = separation < reach ? separation : reach; }
 
     void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature)
     {
@@ -48,7 +61,7 @@ struct LocalManifold
     }
 };
 
-/// Fills the manifold with points whose separation is at most margin.
+/// Fills the manifold with points whose separation is at most margin. Its reach is the margin; it may write more.
 using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin,
                                  LocalManifold& out);
 

@@ -17,7 +17,12 @@ struct BodyPose
     [[nodiscard]] Pose frame() const { return {center - rotate(rotation, local_center), rotation}; }
 };
 
-/// Anchors from the centers of mass, world axes; impulses 0.
+/// What the narrow phase finds, in a's frame.
+[[nodiscard]] LocalManifold local_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b,
+                                           float margin);
+
+/// The same with anchors from the centers of mass, in world axes; impulses 0.
+[[nodiscard]] Manifold in_world(const LocalManifold& local, const BodyPose& a, const BodyPose& b);
 [[nodiscard]] Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b,
                                       float margin);
 

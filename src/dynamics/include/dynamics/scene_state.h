@@ -174,19 +174,17 @@ struct Contact
     Manifold manifold{};
 };
 
-/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies; points and features are those of its manifold.
+/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies, from their centers of mass and in their axes: an edge of one, and
+/// two corners of the other that it faces. Features are those of the manifold.
 struct alignas(64) KeptManifold
 {
-    struct Anchors
-    {
-        Vec2 on_a; ///< from a's center of mass, in a's axes
-        Vec2 on_b;
-    };
-    Anchors points[2];
-    Vec2 normal{}; ///< from a to b, in the axes of the body whose edge it is normal to
+    Vec2 edge[2];
+    Vec2 corners[2];
+    Vec2 normal{}; ///< from a to b, in the axes of the edge's body
     Vec2 center{}; ///< where b's center of mass was seen from a
     Rotation rotation{};
-    float margin = 0; ///< up to this separation nothing was left out
+    float reach = 0;  ///< nothing nearer than this was left out
+    float radius = 0; ///< of the corners
 };
 
 /// Does a wide row of the last step still hold all that a contact is? As far as rows_stamp holds.

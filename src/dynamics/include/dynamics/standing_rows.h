@@ -4,7 +4,9 @@
 
 #include "dynamics/step_context.h"
 
+#include <algorithm>
 #include <bit>
+#include <functional>
 
 namespace carom::internal {
 
@@ -31,6 +33,21 @@ void give_up_standing_rows(StepContext& ctx);
 [[nodiscard]] inline bool stands(const StepContext& ctx, std::int32_t contact)
 {
     return ctx.scratch.standing.valid && ctx.state.lane_marks[static_cast<std::size_t>(contact)] == LaneMark::Stands;
+}
+
+/// Free lanes of a bin: the least is taken first, so that groups at the end stay empty.
+inline void give(std::vector<std::int32_t>& free, std::int32_t lane)
+{
+    free.push_back(lane);
+    std::push_heap(free.begin(), free.end(), std::greater<>());
+}
+
+[[nodiscard]] inline std::int32_t take_least(std::vector<std::int32_t>& free)
+{
+    std::pop_heap(free.begin(), free.end(), std::greater<>());
+    const std::int32_t lane = free.back();
+    free.pop_back();
+    return lane;
 }
 
 /// Calls visit(link, touching) for what stands.

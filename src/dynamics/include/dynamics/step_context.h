@@ -173,14 +173,14 @@ struct KeptUnits
 /// Wide rows of the largest unit, see standing_rows.cpp. Places are those in awake_bodies.
 struct StandingRows
 {
-    bool valid = false;                  ///< of the last step; then of this one
-    bool fresh = false;                  ///< laid out in this step: to be filled from nothing
-    bool touched = false;                ///< since the last step a lane was given or taken
-    std::int32_t body = none;            ///< place of one of the unit's, in this step
-    std::vector<Link> lanes;             ///< what stands in each; contact none: it is free
-    std::vector<std::int32_t> next_free; ///< lane of the same bin; by lane
-    std::vector<std::int32_t> free_of_bin;
-    std::vector<std::int32_t> bin_starts; ///< groups, as Scratch::bin_starts
+    bool valid = false;                                 ///< of the last step; then of this one
+    bool fresh = false;                                 ///< laid out in this step: to be filled from nothing
+    bool touched = false;                               ///< since the last step a lane was given or taken
+    std::int32_t body = none;                           ///< place of one of the unit's, in this step
+    std::vector<Link> lanes;                            ///< what stands in each; contact none: it is free
+    std::vector<std::vector<std::int32_t>> free_of_bin; ///< lanes; heaps, see take_least
+    std::vector<std::int32_t> wanted;                   ///< lanes that have been too few, by bin
+    std::vector<std::int32_t> bin_starts;               ///< groups, as Scratch::bin_starts
     std::int32_t cells = 1;
     std::vector<float> cores;          ///< by lane: depth of a ball's core against what does not give way, or 0
     std::vector<std::uint64_t> colors; ///< that a body's lanes have, by place

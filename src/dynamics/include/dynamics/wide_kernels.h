@@ -20,6 +20,7 @@ struct FollowedScene
     const Contact* contacts;
     const KeptManifold* kept; ///< by contact
     float sure_way;           ///< bodies that have moved less against each other are surely followed
+    float sure_cosine;        ///< and have turned by an angle of at least this cosine
     float slop;
     float speculation;
 };
@@ -28,6 +29,7 @@ struct FollowedScene
 struct FollowedRow
 {
     LaneFloats way;        ///< how far any point of b has moved against a since the manifold was found
+    LaneFloats reach;      ///< nothing nearer than this was left out
     LaneFloats separation; ///< the least of the contact's points
     std::uint32_t unsure;  ///< to be looked at one by one; what else is told of them does not hold
     std::uint32_t begins_or_ends;
