@@ -90,7 +90,7 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     const float offset = ref.hull.offset(edge);
     out.normal = ref.flipped ? -n : n;
     const bool is_even = left && ref.other.radius(i0) == ref.other.radius(i1);
-    out.clipped = {{start, end}, {ref.other.point(i0), ref.other.point(i1)}, is_even ? ref.other.radius(i0) : -1};
+    out.clipped = {{start, end}, {ref.other.point(i0), ref.other.point(i1)}, ref.flipped, is_even ? ref.other.radius(i0) : -1};
     for (const ClipPoint& p : points)
     {
         const float separation = dot(n, p.core) - p.radius - offset;

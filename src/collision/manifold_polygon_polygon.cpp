@@ -194,7 +194,8 @@ private:
         if (!left)
             return false;
         out.normal = flipped ? -n : n;
-        out.clipped = {{start + reference.leaf->r0 * n, end + reference.leaf->r0 * n}, {others.at[i0], others.at[i1]}, radius};
+        out.clipped = {
+            {start + reference.leaf->r0 * n, end + reference.leaf->r0 * n}, {others.at[i0], others.at[i1]}, flipped, radius};
         out.reach = 3e38f;
         for (const ClipPoint& p : points)
         {

@@ -5,16 +5,50 @@
 
 namespace carom::internal {
 
+namespace {
+
+// The edge that the feature is, its ends on the surface; false where it is none, or of a chain.
+bool find_edge(const LeafView& v, int feature, Vec2 n, Vec2 edge[2])
+{
+    const Leaf& leaf = *v.leaf;
+    if (leaf.type == LeafType::Polygon && feature < leaf.count)
+    {
+        edge[0] = v.points[feature] + leaf.r0 * n;
+        edge[1] = v.points[feature + 1 < leaf.count ? feature + 1 : 0] + leaf.r0 * n;
+        return true;
+    }
+    const bool is_side = (leaf.type == LeafType::Capsule && feature < 2) || (leaf.type == LeafType::Segment && feature == 0);
+    if (is_side)
+    {
+        edge[0] = leaf.p0 + leaf.r0 * n;
+        edge[1] = leaf.p1 + leaf.r1 * n;
+    }
+    return is_side;
+}
+
+} // namespace
+
 void collide_surface_circle(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {
     const float r = b.leaf->r0;
     const Vec2 c = pose.to_a(b.leaf->p0);
     const std::optional<Surface<float>> s = surface_at<float>(a, c.x, c.y);
-    if (!s || s->distance - r > margin)
+    if (!s)
         return;
+    if (s->distance - r > margin)
+    {
+        out.reach = s->distance - r;
+        return;
+    }
     const Vec2 n = {s->nx, s->ny};
     out.normal = n;
+    out.reach = 3e38f; // there is no other point
     out.add(c - s->distance * n, c - r * n, s->distance - r, static_cast<std::uint32_t>(s->feature));
+    if (find_edge(a, s->feature, n, out.clipped.edge))
+    {
+        out.clipped.corners[0] = out.clipped.corners[1] = c;
+        out.clipped.radius = r;
+    }
 }
 
 } // namespace carom::internal

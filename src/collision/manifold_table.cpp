@@ -23,6 +23,7 @@ void mirrored(const LeafView& a, const LeafView& b, const RelativePose& pose, fl
         out.clipped.edge[i] = pose.to_a(m.clipped.edge[i]);
         out.clipped.corners[i] = pose.to_a(m.clipped.corners[i]);
     }
+    out.clipped.of_b = !m.clipped.of_b;
     out.clipped.radius = m.clipped.radius;
 }
 

@@ -14,14 +14,14 @@ namespace {
 constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is likely to be the same
 constexpr float surely_turned = 0.9801f;
 
-// An edge's normal belongs to the body of the edge; what is nearest at two corners, or round, has a normal of its own.
+// An edge's normal belongs to the body of the edge; what is nearest at two corners, or on two circles, has a normal of its own.
 bool can_keep(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
     const auto has_edges = [&](int shape)
     {
         const LeafType type = state.shapes[shape].leaf.type;
         const bool is_line = type == LeafType::Segment && (contact.flags & contact_flag::plain) != 0;
-        return type == LeafType::Polygon || type == LeafType::Capsule || is_line;
+        return type == LeafType::Polygon || type == LeafType::Capsule || type == LeafType::Circle || is_line;
     };
     return (contact.flags & contact_flag::one_way) == 0 && has_edges(contact.shape_a) && has_edges(contact.shape_b) &&
            (found.count == 0 || found.clipped.radius >= 0);
@@ -52,7 +52,7 @@ void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalMan
     if (found.count == 0)
         return;
     const RelativePose pose = relative_pose(a.pose(), b.pose());
-    const bool of_b = edge_is_of_b(found.points[0].feature);
+    const bool of_b = found.clipped.of_b;
     const auto on_a = [&](Vec2 p) { return p - a.local_center; };
     const auto on_b = [&](Vec2 p) { return pose.to_b(p) - b.local_center; };
     for (std::size_t i = 0; i < 2; ++i)
@@ -126,20 +126,19 @@ struct Facing
     }
 };
 
-void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, Manifold& m)
+void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, bool of_b, Manifold& m)
 {
     if (m.count == 0)
         return;
-    const bool of_b = edge_is_of_b(m.points[0].feature);
     const Facing facing(kept, a, b, of_b);
     m.normal = rotate(of_b ? b.rotation : a.rotation, kept.normal);
     for (int i = 0; i < m.count; ++i)
         facing.put(i, m.points[i]);
 }
 
-bool faces_still(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Manifold& m)
+bool faces_still(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact)
 {
-    return m.count == 0 || Facing(kept, a, b, edge_is_of_b(m.points[0].feature)).meets(m.count);
+    return contact.manifold.count == 0 || Facing(kept, a, b, keeps_edge_of_b(contact)).meets(contact.manifold.count);
 }
 
 } // namespace
@@ -155,9 +154,9 @@ void follow_manifold(const StepContext& ctx, int index)
     contact.flags &= ~contact_flag::followed;
     const Moved moved = is_kept(contact) ? moved_since(kept, a, b) : Moved{};
     const float margin = t.speculation + relative_motion(state, contact);
-    if (is_true_still(contact.manifold.count, moved, margin, kept.reach, t.keep) && faces_still(kept, a, b, contact.manifold))
+    if (is_true_still(contact.manifold.count, moved, margin, kept.reach, t.keep) && faces_still(kept, a, b, contact))
     {
-        follow(kept, a, b, contact.manifold);
+        follow(kept, a, b, keeps_edge_of_b(contact), contact.manifold);
         return;
     }
     const Manifold old = contact.manifold;
@@ -166,10 +165,10 @@ void follow_manifold(const StepContext& ctx, int index)
     const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
     contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold);
-    contact.flags &= ~contact_flag::kept;
+    contact.flags &= ~(contact_flag::kept | contact_flag::edge_of_b);
     if (!can_keep(state, contact, found))
         return;
-    contact.flags |= contact_flag::kept;
+    contact.flags |= contact_flag::kept | (found.clipped.of_b ? contact_flag::edge_of_b : 0u);
     keep(kept, a, b, found);
 }
 
@@ -187,7 +186,7 @@ Manifold manifold_at_start(const SceneState& state, int index)
     Manifold m = contact.manifold;
     if ((contact.flags & contact_flag::followed) != 0)
         follow(state.kept_manifolds[static_cast<std::size_t>(index)], sim_of(state, contact.body_a),
-               sim_of(state, contact.body_b), m);
+               sim_of(state, contact.body_b), keeps_edge_of_b(contact), m);
     return m;
 }
 
@@ -223,7 +222,8 @@ Manifold settled_manifold(const SceneState& state, int index)
         }
         return sim;
     };
-    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b), m);
+    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b),
+           keeps_edge_of_b(contact), m);
     return m;
 }
 

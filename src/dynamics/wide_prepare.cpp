@@ -79,7 +79,7 @@ void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
     row.inverse_inertia_a.v[i] = a.inverse_inertia;
     row.inverse_inertia_b.v[i] = b.inverse_inertia;
     row.count = m.count;
-    if (edge_is_of_b(m.points[0].feature))
+    if (keeps_edge_of_b(contact))
         row.edge_of_b |= 1u << i;
     for (int k = 0; k < m.count; ++k)
     {

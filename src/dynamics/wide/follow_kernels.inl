@@ -254,7 +254,7 @@ void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScen
     for (int i = 0; i < lane_count; ++i)
     {
         const Contact& contact = into[contacts.v[i]];
-        of_b |= (contact.manifold.points[0].feature >> 31) << i;
+        of_b |= (contact.flags & contact_flag::edge_of_b) != 0 ? 1u << i : 0;
         touching |= (contact.flags & contact_flag::touching) != 0 ? 1u << i : 0;
     }
     const Stand stand(places, lanes_of(of_b), scene);

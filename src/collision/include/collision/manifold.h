@@ -41,6 +41,7 @@ struct ClippedEdges
 {
     Vec2 edge[2];      ///< ends of the edge whose normal it is, on the surface
     Vec2 corners[2];   ///< of the other leaf, without their radius; the first point is of the first
+    bool of_b = false; ///< the edge
     float radius = -1; ///< of both corners; negative: of none, or they differ
 };
 

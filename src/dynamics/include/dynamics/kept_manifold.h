@@ -23,6 +23,8 @@ namespace carom::internal {
     return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
 }
 
+[[nodiscard]] inline bool keeps_edge_of_b(const Contact& contact) { return (contact.flags & contact_flag::edge_of_b) != 0; }
+
 /// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over.
 void follow_manifold(const StepContext& ctx, int index);
 

@@ -141,16 +141,17 @@ struct Manifold
 };
 
 namespace contact_flag {
-inline constexpr std::uint32_t trigger = 1;   ///< b visits trigger a
-inline constexpr std::uint32_t touching = 2;  ///< begun and not ended; for triggers: inside
-inline constexpr std::uint32_t passing = 4;   ///< one-way: went through from behind, until it is free
-inline constexpr std::uint32_t fresh = 8;     ///< never updated
-inline constexpr std::uint32_t round = 16;    ///< a circle takes part
-inline constexpr std::uint32_t loaded = 32;   ///< had an impulse at the end of the last step
-inline constexpr std::uint32_t begun = 64;    ///< began to touch while the units were solved, and this is not yet told
-inline constexpr std::uint32_t one_way = 128; ///< a one-way shape takes part
-inline constexpr std::uint32_t plain = 512;   ///< no points means apart; pieces of chains and arcs may also face elsewhere
-inline constexpr std::uint32_t kept = 256;    ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
+inline constexpr std::uint32_t trigger = 1;      ///< b visits trigger a
+inline constexpr std::uint32_t touching = 2;     ///< begun and not ended; for triggers: inside
+inline constexpr std::uint32_t passing = 4;      ///< one-way: went through from behind, until it is free
+inline constexpr std::uint32_t fresh = 8;        ///< never updated
+inline constexpr std::uint32_t round = 16;       ///< a circle takes part
+inline constexpr std::uint32_t loaded = 32;      ///< had an impulse at the end of the last step
+inline constexpr std::uint32_t begun = 64;       ///< began to touch while the units were solved, and this is not yet told
+inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
+inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
+inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
+inline constexpr std::uint32_t edge_of_b = 2048; ///< of what is kept
 inline constexpr std::uint32_t followed =
     1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
 } // namespace contact_flag
