@@ -177,6 +177,7 @@ void solve_units(StepContext& ctx)
         scratch.outputs[i].clear();
     mark_traced(ctx);
     scratch.pushes.resize(scratch.states.size());
+    scratch.speeds.resize(scratch.states.size());
     ctx.state.rows_stamp = ++scratch.kept_units.stamp;
     form_batches(scratch);
     solve_large(ctx);

@@ -216,7 +216,6 @@ private:
     {
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             note_approach(m_view, impact_row(i));
-        m_bins.all(m_crew, [&](int first, int last) { m_kernels.note_approach(m_wide + first, last - first, m_view.states); });
         note_limit_approach(m_view, m_ctx.state, m_joints);
     }
 
@@ -238,6 +237,7 @@ private:
             [&](int i)
             {
                 BodyState& s = m_view.states[i];
+                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, speeds_of(s));
                 if ((s.flags & body_flag::dynamic) != 0 && (s.flags & body_flag::flier) == 0)
                     set_speeds(s, accelerated(s, m_view.constants[i]));
             });
@@ -270,6 +270,7 @@ private:
             {
                 BodyState& s = m_view.states[i];
                 float* const push = &m_scratch.pushes[static_cast<std::size_t>(i)].velocity.x;
+                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, speeds_of(s));
                 if ((s.flags & body_flag::dynamic) == 0)
                     return;
                 const F4 before = accelerated(s, m_view.constants[i]);
@@ -288,7 +289,7 @@ private:
             });
     }
 
-    static_assert(sizeof(BodyPush) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);
+    static_assert(sizeof(BodySpeeds) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);
 
     // Velocity, angular velocity, and 0 where the flags are.
     [[nodiscard]] static F4 speeds_of(const BodyState& s)
@@ -368,7 +369,8 @@ private:
                                 if (use_bias)
                                     m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness);
                                 else
-                                    m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_struck + first);
+                                    m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness,
+                                                    m_scratch.speeds.data(), m_struck + first);
                             });
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
@@ -748,7 +750,7 @@ private:
     void take_push(std::int32_t state, Vec2 arm, Vec2 impulse)
     {
         const StateConstants& c = m_view.constants[state];
-        BodyPush& push = m_scratch.pushes[static_cast<std::size_t>(state)];
+        BodySpeeds& push = m_scratch.pushes[static_cast<std::size_t>(state)];
         push.velocity.x -= c.inverse_mass.x * impulse.x;
         push.velocity.y -= c.inverse_mass.y * impulse.y;
         push.angular_velocity -= c.inverse_inertia * cross(arm, impulse);

@@ -184,21 +184,36 @@ CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftnes
     g.finish(row, states);
 }
 
+// How fast the points of a group came together when the sub-step began.
+template <int points>
+CAROM_INLINE void note_approach(WideRow& row, const BodySpeeds* before)
+{
+    const Speeds a = speeds_of(before, row.a);
+    const Speeds b = speeds_of(before, row.b);
+    const F8 vn = (b.x - a.x) * load(row.nx) + (b.y - a.y) * load(row.ny);
+    for (int i = 0; i < points; ++i)
+    {
+        WidePoint& p = row.points[i];
+        store(p.approach, -(vn + load(p.across_b) * b.w - load(p.across_a) * a.w));
+    }
+}
+
 // Lanes that bear a load: struck harder than rest, or touching for the first time.
 template <int points>
-CAROM_INLINE std::uint8_t struck_lanes(const WideRow& row, float rest_speed)
+CAROM_INLINE std::uint8_t struck_lanes(WideRow& row, const BodySpeeds* before, float rest_speed)
 {
     if ((row.may_hit | row.untold) == 0)
         return 0;
-    I8 loaded = load(row.points[0].normal_impulse) > all(0);
-    I8 struck = loaded & (load(row.points[0].approach) > all(rest_speed));
+    const I8 first = load(row.points[0].normal_impulse) > all(0);
+    const I8 second = points == 2 ? load(row.points[1].normal_impulse) > all(0) : I8{};
+    const unsigned loaded = bits(first | second);
+    if ((loaded & row.may_hit) == 0)
+        return static_cast<std::uint8_t>(loaded & row.untold);
+    note_approach<points>(row, before);
+    I8 struck = first & (load(row.points[0].approach) > all(rest_speed));
     if (points == 2)
-    {
-        const I8 other = load(row.points[1].normal_impulse) > all(0);
-        loaded |= other;
-        struck |= other & (load(row.points[1].approach) > all(rest_speed));
-    }
-    return static_cast<std::uint8_t>((bits(loaded) & row.untold) | (bits(struck) & row.may_hit));
+        struck |= second & (load(row.points[1].approach) > all(rest_speed));
+    return static_cast<std::uint8_t>((loaded & row.untold) | (bits(struck) & row.may_hit));
 }
 
 template <int points>
@@ -279,36 +294,25 @@ void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftn
     }
 }
 
-void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, std::uint8_t* struck)
+void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
+           std::uint8_t* struck)
 {
     for (WideRow* row = rows; row < rows + count; ++row, ++struck)
     {
         if (row->count == 2)
         {
             relax_group<2>(*row, states, s);
-            *struck = struck_lanes<2>(*row, s.rest_speed);
+            *struck = struck_lanes<2>(*row, before, s.rest_speed);
         }
         else if (row->count == 1)
         {
             relax_group<1>(*row, states, s);
-            *struck = struck_lanes<1>(*row, s.rest_speed);
+            *struck = struck_lanes<1>(*row, before, s.rest_speed);
         }
         else
         {
             *struck = 0;
         }
-    }
-}
-
-void note_approach(WideRow* rows, std::int32_t count, const BodyState* states)
-{
-    for (WideRow* row = rows; row < rows + count; ++row)
-    {
-        if (row->may_hit == 0)
-            continue;
-        const Group g(*row, states);
-        for (int i = 0; i < row->count; ++i)
-            store(row->points[i].approach, -g.normal_speed(row->points[i]));
     }
 }
 

@@ -32,6 +32,13 @@ CAROM_INLINE Speeds speeds_of(const BodyState* states, const LaneInts& index)
     return v;
 }
 
+CAROM_INLINE Speeds speeds_of(const BodySpeeds* bodies, const LaneInts& index)
+{
+    Speeds v;
+    gather4([&](int i) { return reinterpret_cast<const char*>(bodies + index.v[i]); }, v.x, v.y, v.w, v.flags);
+    return v;
+}
+
 CAROM_INLINE Poses poses_of(const BodyState* states, const LaneInts& index)
 {
     Poses p;
@@ -61,7 +68,7 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
-                             contacts::note_approach, joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
+                             joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
                              follows::follow,        follows::follow_contacts, follows::take_impulses, states::move};
 
 } // namespace carom::internal::CAROM_ISA

@@ -30,6 +30,14 @@ struct Softness
     return {omega / a1, a2 * a3, a3};
 }
 
+/// Of a body, at another time than now; or how much they have changed.
+struct BodySpeeds
+{
+    Vec2 velocity{};
+    float angular_velocity = 0;
+    float padding = 0;
+};
+
 struct StateConstants
 {
     Vec2 inverse_mass{};

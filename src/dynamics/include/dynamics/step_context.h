@@ -223,14 +223,6 @@ struct FlierSeed
     bool landed;
 };
 
-/// What constraints gave to a body in the last sub-step: warm starting of the next.
-struct BodyPush
-{
-    Vec2 velocity{};
-    float angular_velocity = 0;
-    float padding = 0;
-};
-
 /// A ball in a wide row against what does not give way.
 struct WideCore
 {
@@ -382,7 +374,8 @@ struct Scratch
     std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
-    std::vector<BodyPush> pushes; ///< by state; of units that warm start by body
+    std::vector<BodySpeeds> speeds; ///< by state: when the sub-step began
+    std::vector<BodySpeeds> pushes; ///< by state, of units that warm start by body: what constraints gave in the last sub-step
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else

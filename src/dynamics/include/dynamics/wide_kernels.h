@@ -55,9 +55,9 @@ struct WideKernels
     /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
     void (*solve)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
     /// Also notes of each group which lanes have been struck, or have begun to touch and this is not yet told.
-    void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, std::uint8_t* struck);
-    /// Approach speeds of groups that may be struck.
-    void (*note_approach)(WideRow* rows, std::int32_t count, const BodyState* states);
+    /// A blow is told by the speeds that bodies had before.
+    void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
+                  std::uint8_t* struck);
     /// Once all lanes are filled.
     void (*prepare_joints)(WideJoint* joints, std::int32_t count);
     void (*warm_start_joints)(WideJoint* joints, std::int32_t count, BodyState* states);

@@ -27,7 +27,7 @@ struct WidePoint
     LaneFloats tangent_impulse;
     LaneFloats total_impulse; ///< over the step
     LaneFloats total_tangent;
-    LaneFloats approach; ///< speed at the start of the sub-step, of groups that may be struck
+    LaneFloats approach; ///< speed at the start of the sub-step, of groups in which a lane may have been struck
 };
 
 struct WideRow
