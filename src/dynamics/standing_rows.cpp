@@ -211,7 +211,7 @@ private:
                 m_rows.colors[as_index(place)] &= ~(std::uint64_t{1} << l.color);
         }
         leave_lane(m_state, l.contact);
-        give(m_rows.free_of_bin[as_index(bin_of(l))], lane);
+        give(m_rows.free_at(bin_of(l), lane), lane);
         l.contact = none;
         if (filled(g) == 0)
             m_scratch.wide_rows[g].count = 0;

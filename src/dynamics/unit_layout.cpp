@@ -28,6 +28,7 @@ constexpr int color_limit = 63; // the mask's last bit stands for "no colour lef
 constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
 constexpr int most_cells = plane_cells;
+constexpr int cells_to_a_thread = 4;
 constexpr int links_worth_cells = 1024;
 constexpr int links_worth_standing = 1024;
 constexpr int lanes_to_a_free_one = 8;
@@ -407,9 +408,16 @@ private:
         unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - unit.first_impact_row;
     }
 
+    // Each takes some; where lanes stand within a colour changes no result.
+    [[nodiscard]] int cells_for_threads() const
+    {
+        const int threads = m_ctx.scene.def.tasks.worker_count;
+        return threads > 1 ? std::min(cells_to_a_thread * threads, most_cells) : 1;
+    }
+
     void place_rows_anew(Unit& unit)
     {
-        unit.cells = unit.link_count >= links_worth_cells ? most_cells : 1;
+        unit.cells = unit.link_count >= links_worth_cells ? cells_for_threads() : 1;
         choose_colors(unit);
         give_out_places(unit);
         place_links(unit);
@@ -455,12 +463,13 @@ private:
     {
         StandingRows& standing = m_scratch.standing;
         const std::int32_t bin = bin_of(states);
-        if (bin >= standing.bin_count() || standing.free_of_bin[as_index(bin)].empty())
+        std::vector<std::int32_t>* free = bin < standing.bin_count() ? standing.free_near(bin, states.cell) : nullptr;
+        if (free == nullptr)
         {
             want_more(bin);
             return false;
         }
-        const std::int32_t lane = take_least(standing.free_of_bin[as_index(bin)]);
+        const std::int32_t lane = take_least(*free);
         put_in_lane(states, lane);
         standing.touched = true;
         return true;
@@ -541,8 +550,8 @@ private:
         standing.colors.assign(m_state.awake_bodies.size(), 0);
         standing.lanes.assign(groups * lane_count, {});
         standing.cores.assign(groups * lane_count, 0);
-        standing.free_of_bin.resize(as_index(unit.bin_count));
-        for (std::vector<std::int32_t>& free : standing.free_of_bin)
+        standing.free.resize(as_index(unit.bin_count * unit.cells));
+        for (std::vector<std::int32_t>& free : standing.free)
             free.clear();
         for (std::vector<std::uint8_t>* bits :
              {&standing.touching, &standing.watched, &standing.gone, &standing.looked, &standing.told, &standing.changed})
@@ -558,7 +567,7 @@ private:
                 if (link != none)
                     put_in_lane(m_scratch.solved_links[as_index(link)], lane);
                 else
-                    give(standing.free_of_bin[as_index(bin)], lane);
+                    give(standing.free_at(bin, lane), lane);
             }
         }
         m_scratch.lane_links.resize(first_lane);
@@ -686,15 +695,13 @@ private:
         unit.bin_count = 2 * std::min(unit.colors + (will_stand ? 1 : 0), color_limit);
         for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
         {
-            const std::int32_t first_of_bin = lane;
             for (std::int32_t cell = 0; cell < unit.cells; ++cell)
             {
                 m_scratch.bin_starts.push_back(groups());
-                lane += std::exchange(m_bins[bin * unit.cells + cell], lane);
+                const std::int32_t lanes = std::exchange(m_bins[bin * unit.cells + cell], lane);
+                lane += lanes + (will_stand ? lanes_to_spare(unit, bin, lanes) : 0);
             }
-            if (will_stand)
-                lane += lanes_to_spare(bin, lane - first_of_bin);
-            lane = (lane + lane_count - 1) / lane_count * lane_count;
+            lane = (lane + (will_stand ? lane_count : 0) + lane_count - 1) / lane_count * lane_count;
         }
         m_scratch.bin_starts.push_back(groups());
         auto row = unit.first_row;
@@ -705,12 +712,12 @@ private:
         m_scratch.row_links.resize(as_index(row));
     }
 
-    // For those that come while the rows stand: more where there have been too few.
-    [[nodiscard]] std::int32_t lanes_to_spare(std::int32_t bin, std::int32_t lanes) const
+    // Of a cell, for those that come while the rows stand: more where there have been too few.
+    [[nodiscard]] std::int32_t lanes_to_spare(const Unit& unit, std::int32_t bin, std::int32_t lanes) const
     {
         const std::vector<std::int32_t>& wanted = m_scratch.standing.wanted;
-        const std::int32_t before = as_index(bin) < wanted.size() ? wanted[as_index(bin)] : 0;
-        return std::max(before, lanes / lanes_to_a_free_one + lane_count);
+        const std::int32_t before = as_index(bin) < wanted.size() ? wanted[as_index(bin)] / unit.cells : 0;
+        return std::max(before, lanes / lanes_to_a_free_one);
     }
 
     void clear_bins(const Unit& unit)

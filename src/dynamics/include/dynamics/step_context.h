@@ -11,6 +11,7 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -173,14 +174,14 @@ struct KeptUnits
 /// Wide rows of the largest unit, see standing_rows.cpp. Places are those in awake_bodies.
 struct StandingRows
 {
-    bool valid = false;                                 ///< of the last step; then of this one
-    bool fresh = false;                                 ///< laid out in this step: to be filled from nothing
-    bool touched = false;                               ///< since the last step a lane was given or taken
-    std::int32_t body = none;                           ///< place of one of the unit's, in this step
-    std::vector<Link> lanes;                            ///< what stands in each; contact none: it is free
-    std::vector<std::vector<std::int32_t>> free_of_bin; ///< lanes; heaps, see take_least
-    std::vector<std::int32_t> wanted;                   ///< lanes that have been too few, by bin
-    std::vector<std::int32_t> bin_starts;               ///< groups, as Scratch::bin_starts
+    bool valid = false;                          ///< of the last step; then of this one
+    bool fresh = false;                          ///< laid out in this step: to be filled from nothing
+    bool touched = false;                        ///< since the last step a lane was given or taken
+    std::int32_t body = none;                    ///< place of one of the unit's, in this step
+    std::vector<Link> lanes;                     ///< what stands in each; contact none: it is free
+    std::vector<std::vector<std::int32_t>> free; ///< lanes of each cell of each bin; heaps, see take_least
+    std::vector<std::int32_t> wanted;            ///< lanes that have been too few, by bin
+    std::vector<std::int32_t> bin_starts;        ///< groups, as Scratch::bin_starts
     std::int32_t cells = 1;
     std::vector<float> cores;          ///< by lane: depth of a ball's core against what does not give way, or 0
     std::vector<std::uint64_t> colors; ///< that a body's lanes have, by place
@@ -194,7 +195,29 @@ struct StandingRows
     std::vector<std::uint8_t> changed; ///< to be filled
 
     [[nodiscard]] std::int32_t group_count() const { return static_cast<std::int32_t>(touching.size()); }
-    [[nodiscard]] std::int32_t bin_count() const { return static_cast<std::int32_t>(free_of_bin.size()); }
+    [[nodiscard]] std::int32_t bin_count() const { return static_cast<std::int32_t>(free.size()) / cells; }
+
+    /// Of the cell that the lane is in.
+    [[nodiscard]] std::vector<std::int32_t>& free_at(std::int32_t bin, std::int32_t lane)
+    {
+        const auto first = bin_starts.begin() + bin * cells;
+        const auto beyond = std::upper_bound(first + 1, first + cells, lane / lane_count);
+        return free[static_cast<std::size_t>(beyond - 1 - bin_starts.begin())];
+    }
+
+    /// Of the cell, or the nearest one in which a lane is free; null where none is.
+    [[nodiscard]] std::vector<std::int32_t>* free_near(std::int32_t bin, std::int32_t cell)
+    {
+        for (std::int32_t away = 0; away < cells; ++away)
+        {
+            for (const std::int32_t c : {cell - away, cell + away})
+            {
+                if (c >= 0 && c < cells && !free[static_cast<std::size_t>(bin * cells + c)].empty())
+                    return &free[static_cast<std::size_t>(bin * cells + c)];
+            }
+        }
+        return nullptr;
+    }
 };
 
 /// A joint and the states of its bodies.
