@@ -103,6 +103,15 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
         out.add(ref.flipped ? on_other : on_reference, ref.flipped ? on_reference : on_other, separation,
                 feature_id(ref.flipped, edge, p.id));
     }
+    if (out.count < 2)
+        return;
+    float third = 3e38f;
+    for (int i = 0; i < ref.other.count(); ++i)
+    {
+        if (i != i0 && i != i1)
+            third = std::min(third, dot(n, ref.other.point(i)) - ref.other.radius(i) - offset);
+    }
+    out.reach = 0.5f * (third - std::max(out.points[0].separation, out.points[1].separation));
 }
 
 // Shapes that are apart are nearest at a corner circle of one and the surface of the other.

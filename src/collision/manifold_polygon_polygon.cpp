@@ -212,11 +212,16 @@ private:
             out.add(flipped ? on_other : on_reference, flipped ? on_reference : on_other, separation,
                     feature_id(flipped, axis.edge, p.id));
         }
+        float third = 3e38f;
         for (int i = 0; i < others.count; ++i)
         {
             if (i != i0 && i != i1)
-                out.leave_out(std::max(margin, dot(n, others.at[i]) - offset));
+                third = std::min(third, dot(n, others.at[i]) - offset);
         }
+        if (out.count == 2)
+            out.reach = 0.5f * (third - std::max(out.points[0].separation, out.points[1].separation));
+        else
+            out.leave_out(std::max(margin, third));
         return out.count > 0;
     }
 

@@ -41,7 +41,8 @@ struct Moved
 Moved moved_since(const KeptManifold& kept, const BodySim& a, const BodySim& b)
 {
     const Rotation turn = inverse(a.rotation) * b.rotation * inverse(kept.rotation);
-    return {length(place_of_b(a, b) - kept.center) + b.extent * std::fabs(turn.s), turn.c};
+    const float chord = std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c));
+    return {length(place_of_b(a, b) - kept.center) + b.extent * chord, turn.c};
 }
 
 void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalManifold& found)
@@ -66,11 +67,11 @@ void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalMan
     kept.radius = found.clipped.radius;
 }
 
-// What has none has no edge that another could take the place of; what has two points gets no third.
+// What has no point has no edge that another could take the place of.
 bool is_true_still(int points, const Moved& moved, float margin, float reach, float longest_way)
 {
     const bool keeps_edge = points == 0 ? moved.cosine > 0 : moved.way < longest_way && moved.cosine > least_cosine;
-    return keeps_edge && (points == 2 || margin + moved.way <= reach);
+    return keeps_edge && (points == 2 ? moved.way <= reach : margin + moved.way <= reach);
 }
 
 // The two corners before the edge, from the center of the edge's body.
@@ -175,8 +176,13 @@ void follow_manifold(const StepContext& ctx, int index)
 FollowedScene followed_scene(const StepContext& ctx)
 {
     const Tolerances& t = ctx.scene.tolerances;
-    return {ctx.state.sims.data(), &ctx.state.contacts[0], ctx.state.kept_manifolds.data(),
-            surely * t.keep,       surely_turned,          t.slop,
+    return {ctx.state.sims.data(),
+            &ctx.state.contacts[0],
+            ctx.state.kept_manifolds.data(),
+            surely * t.keep,
+            surely,
+            surely_turned,
+            t.slop,
             t.speculation};
 }
 

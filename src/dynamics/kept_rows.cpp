@@ -1,6 +1,6 @@
 // A wide row holds all that its contacts are: in a crowd at rest, from step to step, the same contacts with the same number of points, in the same lanes.
-// Then the bodies' poses say the rest. As in kept_units.cpp it is compared, not assumed: of each contact the flags, the materials and what is kept of its
-// manifold are looked at; what cannot be followed is found anew by itself, and its lane filled with that.
+// Then the bodies' poses say the rest. That bodies and contacts are the same is compared; that nothing else has been done to a contact is said by its mark
+// (SceneState::lane_marks); what cannot be followed is found anew by itself, and its lane filled with that.
 
 #include "dynamics/kept_rows.h"
 
@@ -155,9 +155,12 @@ bool follow_rows(StepContext& ctx)
     KeptUnits& kept = scratch.kept_units;
     kept.rows_stay = false;
     scratch.is_looked_at.clear();
-    if (kept.stamp != ctx.state.rows_stamp || !keep_their_masses(ctx))
+    const bool are_of_this_state = ctx.state.rows_stamp != 0 && kept.stamp == ctx.state.rows_stamp;
+    ctx.state.rows_stamp = 0; // until they have been solved
+    if (!are_of_this_state || !keep_their_masses(ctx))
     {
         scratch.standing.valid = false;
+        kept.are_plain = kept.are_plain && are_of_this_state;
         return false;
     }
     scratch.borne.assign(scratch.state_bodies.size(), 0);

@@ -31,7 +31,7 @@ bool is_plain(const Unit& unit)
 bool is_same(const Link& a, const Link& b)
 {
     return a.contact == b.contact && a.a == b.a && a.b == b.b && a.touching == b.touching && a.solved == b.solved &&
-           a.plain == b.plain && a.round == b.round && a.points == b.points;
+           a.plain == b.plain && a.round == b.round && a.points == b.points && a.color == b.color;
 }
 
 bool are_same(const std::vector<Link>& a, const std::vector<Link>& b)

@@ -92,8 +92,7 @@ void solve_large(StepContext& ctx)
 constexpr int batch_bodies = 512;
 
 // What stands comes first. The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
-// next step. Fills
-// Scratch::order with where batches begin.
+// next step. Fills Scratch::order with where batches begin.
 void form_batches(Scratch& scratch)
 {
     std::vector<std::int32_t>& starts = scratch.order;
@@ -178,11 +177,11 @@ void solve_units(StepContext& ctx)
     mark_traced(ctx);
     scratch.pushes.resize(scratch.states.size());
     scratch.speeds.resize(scratch.states.size());
-    ctx.state.rows_stamp = ++scratch.kept_units.stamp;
     form_batches(scratch);
     solve_large(ctx);
     solve_small(ctx);
     scratch.standing.fresh = false;
+    ctx.state.rows_stamp = ++scratch.kept_units.stamp;
 }
 
 } // namespace carom::internal

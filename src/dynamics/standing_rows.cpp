@@ -168,7 +168,6 @@ private:
         for_each_bit(news.gone, [&](int i) { clear_lane(row, i, row.a.v[i]); });
         gone |= news.gone;
         m_rows.gone[as_index(g)] = static_cast<std::uint8_t>(gone);
-        m_rows.looked[as_index(g)] = static_cast<std::uint8_t>(news.looked & ~gone);
         m_rows.told[as_index(g)] = static_cast<std::uint8_t>(news.told & ~gone);
         m_rows.touching[as_index(g)] = static_cast<std::uint8_t>(filled(as_index(g)) & ~gone & ~row.untold);
     }
@@ -216,7 +215,7 @@ private:
         if (filled(g) == 0)
             m_scratch.wide_rows[g].count = 0;
         m_rows.cores[as_index(lane)] = 0;
-        for (std::vector<std::uint8_t>* bits : {&m_rows.touching, &m_rows.watched, &m_rows.changed, &m_rows.told, &m_rows.looked})
+        for (std::vector<std::uint8_t>* bits : {&m_rows.touching, &m_rows.watched, &m_rows.changed, &m_rows.told})
             (*bits)[g] &= static_cast<std::uint8_t>(~bit_of(lane));
         m_rows.touched = true;
     }

@@ -83,6 +83,7 @@ public:
             place(contact);
         sort_by(m_state.awake_bodies.size(), [](const ContactPlace& p) { return p.body; });
         sort_by(m_color + 1, [](const ContactPlace& p) { return p.color; });
+        order_equals();
     }
 
     [[nodiscard]] bool is_kept_already() const
@@ -165,6 +166,18 @@ private:
         for (const ContactPlace& p : m_order)
             m_sorted[static_cast<std::size_t>(starts[key(p)]++)] = p;
         m_order.swap(m_sorted);
+    }
+
+    // Bodies that have just fallen asleep have no place: whatever lanes their contacts had, they go by their slots.
+    void order_equals()
+    {
+        for (auto first = m_order.begin(); first != m_order.end();)
+        {
+            const auto last = std::find_if(first, m_order.end(), [&](const ContactPlace& p)
+                                           { return p.color != first->color || p.body != first->body; });
+            std::sort(first, last, [](const ContactPlace& a, const ContactPlace& b) { return a.contact < b.contact; });
+            first = last;
+        }
     }
 
     // With what they name renamed.

@@ -405,6 +405,8 @@ private:
             place_rows_anew(unit);
         unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - unit.first_row;
         unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - unit.first_core;
+        // Those of one body are of different colours: in this order wherever in a bin their lanes are.
+        std::ranges::sort(m_scratch.cores.begin() + unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
         unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - unit.first_impact_row;
     }
 
@@ -529,11 +531,19 @@ private:
                               catch_up(m_state, lane.contact);
                               Link& l = m_scratch.solved_links.emplace_back(lane);
                               l.touching = touching;
-                              l.a = state_at(unit, l.a);
-                              l.b = state_at(unit, l.b);
+                              l.a = own_state(unit, l.a);
+                              l.b = own_state(unit, l.b);
                           });
         unit.first_link = first;
         unit.link_count = static_cast<std::int32_t>(m_scratch.solved_links.size()) - first;
+    }
+
+    // Once other units may have got their own copy of a kinematic body.
+    [[nodiscard]] std::int32_t own_state(const Unit& unit, std::int32_t place) const
+    {
+        return place < none    ? state_for_rows(m_ctx, unit, m_state.awake_bodies[as_index(-2 - place)])
+               : place == none ? unit.first_state
+                               : m_scratch.state_of[as_index(place)];
     }
 
     // The unit's lanes, as they have been laid out, stand from now on.
@@ -554,7 +564,7 @@ private:
         for (std::vector<std::int32_t>& free : standing.free)
             free.clear();
         for (std::vector<std::uint8_t>* bits :
-             {&standing.touching, &standing.watched, &standing.gone, &standing.looked, &standing.told, &standing.changed})
+             {&standing.touching, &standing.watched, &standing.gone, &standing.told, &standing.changed})
             bits->assign(groups, 0);
         const std::size_t first_lane = as_index(unit.first_wide) * lane_count;
         for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)

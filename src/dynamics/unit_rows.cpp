@@ -61,7 +61,11 @@ void fill_standing(const StepContext& ctx, const Unit& unit, std::int32_t g)
     if (standing.fresh)
         empty_wide_row(unit.first_state, row);
     const auto state_of = [&](std::int32_t place)
-    { return place == none ? unit.first_state : scratch.state_of[as_index(place >= 0 ? place : -2 - place)]; };
+    {
+        if (place < none) // each unit has its own copy of a kinematic body
+            return state_for_rows(ctx, unit, ctx.state.awake_bodies[as_index(-2 - place)]);
+        return place == none ? unit.first_state : scratch.state_of[as_index(place)];
+    };
     const std::uint32_t changed = standing.changed[as_index(g)];
     for (int i = 0; i < lane_count; ++i)
     {

@@ -3,6 +3,7 @@
 
 #include "dynamics/world_pair.h"
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -56,6 +57,33 @@ TEST(DynamicsStandingRows, AreThoseFilledAnew)
         pair.run(160);
         EXPECT_GT(pair.steps_stood(), 100) << "or nothing has been tested";
     }
+}
+
+TEST(DynamicsStandingRows, NameStatesOfTheirOwnUnit)
+{
+    World world(false);
+    build(world, false);
+    add_dynamic(world.scene, {0, 9}, Circle{.radius = 0.3f}, {.restitution = 0.9f}); // bounces on the drum, from outside
+    int stood = 0;
+    for (int i = 0; i < 150; ++i)
+    {
+        world.scene.step(1.0f / 60);
+        const internal::Scratch& scratch = world.scene.data().scratch;
+        for (const internal::Unit& unit : scratch.units)
+        {
+            for (std::int32_t g = 0; unit.stands && g < unit.wide_count; ++g)
+            {
+                const internal::WideRow& row = scratch.wide_rows[static_cast<std::size_t>(g)];
+                for (int lane = 0; lane < internal::lane_count; ++lane)
+                {
+                    ASSERT_GE(std::min(row.a.v[lane], row.b.v[lane]), unit.first_state) << "step " << i;
+                    ASSERT_LT(std::max(row.a.v[lane], row.b.v[lane]), unit.first_state + unit.state_count) << "step " << i;
+                }
+            }
+            stood += unit.stands ? 1 : 0;
+        }
+    }
+    EXPECT_GT(stood, 60);
 }
 
 TEST(DynamicsStandingRows, SeeWhatHappensBetweenSteps)

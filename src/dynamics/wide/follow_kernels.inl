@@ -92,7 +92,7 @@ CAROM_INLINE F8 way_since(const Places& places, const Turn& a, const Turn& b, co
     LaneFloats extent;
     for (int i = 0; i < lane_count; ++i)
         extent.v[i] = places.b[i]->extent;
-    const F8 way = length_of(moved) + load(extent) * greatest(sine, -sine);
+    const F8 way = length_of(moved) + load(extent) * length_of({sine, 1 - cosine});
     return select(cosine > all(sure_cosine), way, all(3e38f));
 }
 
@@ -212,7 +212,9 @@ CAROM_INLINE void tell(const WideRow& row, const Stand& stand, F8 separation, I8
 {
     const I8 touching = ~lanes_of(row.untold);
     const I8 loaded = bears(row);
-    const I8 sure = lanes_of(row.kept) & (stand.way < all(scene.sure_way)) & stand.meets(row.count);
+    I8 sure = lanes_of(row.kept) & (stand.way < all(scene.sure_way)) & stand.meets(row.count);
+    if (row.count == 2)
+        sure &= stand.way < stand.reach * scene.surely;
     const I8 near = separation <= select(touching, all(2 * scene.slop), all(scene.slop));
     const I8 borne = loaded & (separation <= all(scene.speculation));
     found.unsure = bits(filled & ~sure);
@@ -277,7 +279,7 @@ void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScen
     for (int i = 0; i < lane_count; ++i)
         manifold(i).normal = {nx.v[i], ny.v[i]};
     const I8 near = least_separation <= all(2 * scene.slop);
-    found.sure = bits((stand.way < all(scene.sure_way)) & stand.meets(2));
+    found.sure = bits((stand.way < all(scene.sure_way)) & (stand.way < stand.reach * scene.surely) & stand.meets(2));
     found.touch_on = bits(near) & touching;
 }
 

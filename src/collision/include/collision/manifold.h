@@ -51,7 +51,9 @@ struct LocalManifold
     LocalPoint points[2];
     int count = 0;
     ClippedEdges clipped;
-    float reach = 0; ///< nothing nearer than this was left out; at least the margin
+    /// With less than two points: nothing nearer than this could have been left out, were the margin as wide. With two: how far the leaves may move before
+    /// another corner could be one of them.
+    float reach = 0;
 
     // With this separation.
     void leave_out(float separation) { reach = separation < reach ? separation : reach; }

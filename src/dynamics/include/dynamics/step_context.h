@@ -190,7 +190,6 @@ struct StandingRows
     std::vector<std::uint8_t> touching;
     std::vector<std::uint8_t> watched; ///< a body sleeps
     std::vector<std::uint8_t> gone;
-    std::vector<std::uint8_t> looked; ///< updated one by one, in this step
     std::vector<std::uint8_t> told;
     std::vector<std::uint8_t> changed; ///< to be filled
 

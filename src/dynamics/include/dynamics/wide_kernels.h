@@ -20,6 +20,7 @@ struct FollowedScene
     const Contact* contacts;
     const KeptManifold* kept; ///< by contact
     float sure_way;           ///< bodies that have moved less against each other are surely followed
+    float surely;             ///< of a bound on the way: how far it is surely kept
     float sure_cosine;        ///< and have turned by an angle of at least this cosine
     float slop;
     float speculation;
