@@ -8,7 +8,6 @@
 #include "dynamics/kept_rows.h"
 #include "dynamics/material.h"
 #include "dynamics/stages.h"
-#include "dynamics/standing_rows.h"
 #include "dynamics/wake.h"
 
 #include <span>
@@ -211,11 +210,7 @@ public:
     void run(std::vector<ContactNews>& news)
     {
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
-        {
-            m_news[i] = News::Nothing;
-            if (!stands(m_ctx, m_contacts[i]))
-                update(i);
-        }
+            update(i);
         for (int i = 0; i < m_waiting; ++i)
             update_alone(m_places[i]);
         news.clear();
@@ -294,7 +289,6 @@ void update_contacts(StepContext& ctx)
     news.clear();
     for (const Some& some : parts)
         news.insert(news.end(), some.begin(), some.end());
-    add_standing_news(ctx, news);
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)
@@ -309,7 +303,6 @@ void update_contacts(StepContext& ctx)
         if (n.what == News::Ends)
             end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
     }
-    note_standing_touches(ctx);
     ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
     ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
 }

@@ -11,7 +11,6 @@
 #include "dynamics/kept_units.h"
 #include "dynamics/row_follower.h"
 #include "dynamics/scene_data.h"
-#include "dynamics/standing_rows.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/wide_prepare.h"
 
@@ -47,21 +46,11 @@ bool keep_their_masses(const StepContext& ctx)
     return same;
 }
 
-// Where rows of the largest unit stood apart from those of others, they stand still, and nothing in them has changed.
-bool standing_rows_stay(const Scratch& scratch)
-{
-    const StandingRows& standing = scratch.standing;
-    const auto are_none = [](const std::vector<std::uint8_t>& bits)
-    { return std::ranges::all_of(bits, [](std::uint8_t lanes) { return lanes == 0; }); };
-    return scratch.kept_units.has_standing == standing.valid &&
-           (!standing.valid || (!standing.touched && are_none(standing.gone) && are_none(standing.told)));
-}
-
 bool are_in_place(const StepContext& ctx)
 {
     const KeptUnits& kept = ctx.scratch.kept_units;
-    return kept.rows_apart && standing_rows_stay(ctx.scratch) && !ctx.state.graph_dirty && ctx.scene.law_count == 0 &&
-           ctx.state.joints.count() == 0 && ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx);
+    return kept.rows_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
+           ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx);
 }
 
 // What has no lane must go on needing none.
@@ -114,14 +103,14 @@ bool rows_stay(const StepContext& ctx)
     };
     for (const Unit& unit : units)
     {
-        if (!unit.stands && is_large(unit))
+        if (is_large(unit))
             Crew::run(ctx.scene.def.tasks, [&](Crew& crew)
                       { contact_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { follow(unit, first, last); }); });
     }
     for_each_in_parts(ctx.scene.def.tasks, units.size(), units_per_task,
                       [&](std::size_t u)
                       {
-                          if (!units[u].stands && !is_large(units[u]))
+                          if (!is_large(units[u]))
                               follow(units[u], 0, units[u].wide_count);
                       });
     return stay;
@@ -159,13 +148,11 @@ bool follow_rows(StepContext& ctx)
     ctx.state.rows_stamp = 0; // until they have been solved
     if (!are_of_this_state || !keep_their_masses(ctx))
     {
-        scratch.standing.valid = false;
         kept.are_plain = kept.are_plain && are_of_this_state;
         return false;
     }
     scratch.borne.assign(scratch.state_bodies.size(), 0);
     scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    follow_standing_rows(ctx);
     kept.rows_stay = are_in_place(ctx) && loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
     if (kept.rows_stay)
         scratch.is_looked_at.clear();
@@ -179,7 +166,6 @@ void keep_rows(StepContext& ctx)
     const auto may_stay = [&](const Link& l) { return !l.solved || (l.plain && leans_on_statics(ctx.state, l)); };
     kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.units.empty() &&
                       std::ranges::all_of(scratch.links, may_stay);
-    for_each_standing(scratch.standing, [&](const Link& l, bool) { kept.rows_apart = kept.rows_apart && may_stay(l); });
     if (!kept.rows_apart)
         return;
     kept.contacts = ctx.state.awake_contacts;
@@ -190,7 +176,7 @@ void keep_rows(StepContext& ctx)
         has_lane[as_index(l.contact)] = 1;
     kept.loose.clear();
     std::copy_if(kept.contacts.begin(), kept.contacts.end(), std::back_inserter(kept.loose),
-                 [&](std::int32_t contact) { return has_lane[as_index(contact)] == 0 && !stands(ctx, contact); });
+                 [&](std::int32_t contact) { return has_lane[as_index(contact)] == 0; });
 }
 
 } // namespace carom::internal

@@ -53,9 +53,7 @@ bool units_stay(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
     const KeptUnits& kept = scratch.kept_units;
-    const StandingRows& standing = scratch.standing;
-    return kept.are_plain && kept.has_standing == standing.valid && !(standing.valid && standing.touched) &&
-           !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven && all_grounded(scratch) &&
+    return kept.are_plain && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven && all_grounded(scratch) &&
            bodies_stay(ctx) && are_same(kept.links, scratch.links) && kept.joints == scratch.joint_links;
 }
 
@@ -63,7 +61,6 @@ void keep_units(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     KeptUnits& kept = scratch.kept_units;
-    kept.has_standing = scratch.standing.valid;
     kept.are_plain = ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flier_seeds.empty() &&
                      std::all_of(scratch.units.begin(), scratch.units.end(), is_plain);
     if (!kept.are_plain)

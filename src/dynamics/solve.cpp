@@ -91,7 +91,7 @@ void solve_large(StepContext& ctx)
 // Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
 constexpr int batch_bodies = 512;
 
-// What stands comes first. The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
+// The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
 // next step. Fills Scratch::order with where batches begin.
 void form_batches(Scratch& scratch)
 {
@@ -99,18 +99,13 @@ void form_batches(Scratch& scratch)
     starts.assign(1, 0);
     std::int32_t store = 0;
     std::int32_t large = 0;
-    std::int32_t standing = 0;
     std::int32_t most = 0; // groups of a unit of the batch
     int bodies = 0;
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
     {
         Unit& unit = scratch.units[i];
         unit.wide_store = store;
-        if (unit.stands)
-        {
-            standing = unit.wide_count;
-        }
-        else if (is_large(unit))
+        if (is_large(unit))
         {
             unit.wide_store = large;
             large += unit.wide_count;
@@ -127,15 +122,14 @@ void form_batches(Scratch& scratch)
         most = 0;
         bodies = 0;
     }
-    std::int32_t groups = standing + store + large;
+    std::int32_t groups = store + large;
     for (Unit& unit : scratch.units)
     {
-        unit.wide_store =
-            unit.stands ? 0 : standing + unit.wide_store + (is_large(unit) ? store : 0); // the large ones come behind
-        if (scratch.kept_units.rows_apart && !unit.stands)
+        unit.wide_store += is_large(unit) ? store : 0; // the large ones come behind
+        if (scratch.kept_units.rows_apart)
         {
-            unit.wide_store = standing + unit.first_wide;
-            groups = std::max(groups, unit.wide_store + unit.wide_count);
+            unit.wide_store = unit.first_wide;
+            groups = unit.first_wide + unit.wide_count;
         }
     }
     if (scratch.wide_rows.size() < static_cast<std::size_t>(groups))
@@ -180,7 +174,6 @@ void solve_units(StepContext& ctx)
     form_batches(scratch);
     solve_large(ctx);
     solve_small(ctx);
-    scratch.standing.fresh = false;
     ctx.state.rows_stamp = ++scratch.kept_units.stamp;
 }
 

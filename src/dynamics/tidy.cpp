@@ -70,11 +70,9 @@ public:
         m_scratch.order.assign(m_state.awake_contacts.size(), 0); // placed already
         for (const Unit& unit : m_scratch.units)
         {
-            if (unit.stands)
-                place_standing();
             const auto lanes = std::span(m_scratch.lane_links);
             place(lanes.subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
-                                unit.stands ? 0 : static_cast<std::size_t>(unit.wide_count) * lane_count));
+                                static_cast<std::size_t>(unit.wide_count) * lane_count));
             const auto rows = std::span(m_scratch.row_links);
             place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
         }
@@ -120,16 +118,6 @@ private:
         {
             if (i != none)
                 place(m_scratch.solved_links[static_cast<std::size_t>(i)]);
-        }
-    }
-
-    void place_standing()
-    {
-        m_last = {};
-        for (const Link& l : m_scratch.standing.lanes)
-        {
-            if (l.contact != none)
-                place(l);
         }
     }
 

@@ -10,7 +10,6 @@
 #include "dynamics/force_laws.h"
 #include "dynamics/joint_bodies.h"
 #include "dynamics/kept_manifold.h"
-#include "dynamics/standing_rows.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/wide_prepare.h"
 
@@ -204,8 +203,6 @@ public:
         for (std::size_t i = first; i < last; ++i)
         {
             const std::int32_t index = state.awake_contacts[i];
-            if (stands(ctx, index))
-                continue;
             leave_lane(state, index);
             Contact& contact = state.contacts[index];
             contact.wide = none;
@@ -239,18 +236,6 @@ public:
             l.round = (contact.flags & contact_flag::round) != 0;
             l.points = static_cast<std::uint8_t>(contact.manifold.count);
             l.color = static_cast<std::int8_t>(contact.color);
-        }
-    }
-
-    // What stands is no link: of it only what is borne is asked.
-    void ask_standing_rows()
-    {
-        place_standing_rows(ctx);
-        for_each_standing(scratch.standing, [&](const Link&, bool touching) { ctx.report.touching += touching ? 1 : 0; });
-        for (std::size_t s = 0; scratch.standing.valid && s < scratch.borne.size(); ++s)
-        {
-            if (scratch.borne[s] != 0 && scratch.state_bodies[s] != none)
-                ground(place_of(scratch.state_bodies[s]));
         }
     }
 
@@ -347,12 +332,6 @@ public:
             if (l.touching && l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
-        for_each_standing(scratch.standing,
-                          [&](const Link& l, bool touching)
-                          {
-                              if (touching && l.a >= 0 && l.b >= 0)
-                                  link(scratch.parent, l.a, l.b);
-                          });
         for (const JointLink& j : scratch.joint_links)
         {
             if (j.a >= 0 && j.b >= 0)
@@ -414,7 +393,6 @@ public:
             ++t.bodies;
             t.fliers += scratch.flight[i] != earthbound ? 1 : 0;
         }
-        choose_standing_unit(ctx);
         if (state.joints.count() == 0) // who bears matters to heaps
             return;
         for (const Link& l : scratch.links)
@@ -559,12 +537,6 @@ public:
             if (l.solved && !l.touching && l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
-        for_each_standing(scratch.standing,
-                          [&](const Link& l, bool touching)
-                          {
-                              if (!touching && l.a >= 0 && l.b >= 0)
-                                  link(scratch.parent, l.a, l.b);
-                          });
     }
 
     // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
@@ -791,7 +763,6 @@ void gather_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
     graph.find_fliers();
-    graph.ask_standing_rows();
     graph.gather_links();
     graph.gather_joints();
 }

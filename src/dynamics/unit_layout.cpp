@@ -8,9 +8,7 @@
 #include "dynamics/force_laws.h"
 #include "dynamics/joint_direct.h"
 #include "dynamics/joint_solver.h"
-#include "dynamics/kept_manifold.h"
 #include "dynamics/prepare.h"
-#include "dynamics/standing_rows.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_graph.h"
 #include "dynamics/wide_prepare.h"
@@ -30,8 +28,6 @@ constexpr std::size_t links_per_task = 2048;
 constexpr int most_cells = plane_cells;
 constexpr int cells_to_a_thread = 4;
 constexpr int links_worth_cells = 1024;
-constexpr int links_worth_standing = 1024;
-constexpr int lanes_to_a_free_one = 8;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -101,13 +97,8 @@ public:
         m_scratch.impact_rows.clear();
         m_scratch.cores.clear();
         m_scratch.bin_starts.clear();
-        const std::int32_t standing = standing_unit();
-        for (std::size_t u = 0; u < m_scratch.units.size(); ++u)
-        {
-            Unit& unit = m_scratch.units[u];
-            unit.stands = static_cast<std::int32_t>(u) == standing;
+        for (Unit& unit : m_scratch.units)
             place_rows_of(unit);
-        }
     }
 
     // --- joints -----------------------------------------------------------------------------------------------------------------------
@@ -297,7 +288,7 @@ private:
             copy_those_near(unit, m_scratch.state_bodies[as_index(unit.first_state + s)]);
     }
 
-    // In the order of their places, whatever that of links and lanes.
+    // In the order of their places, whatever that of links.
     void add_kinematic_states(const Unit& unit)
     {
         std::vector<std::int32_t>& met = m_scratch.order;
@@ -311,9 +302,6 @@ private:
             }
         };
         std::ranges::for_each(links_of(unit), note);
-        const StandingRows& standing = m_scratch.standing;
-        if (standing.valid && &unit == &m_scratch.units[as_index(m_scratch.unit_of[as_index(standing.body)])])
-            for_each_standing(standing, [&](const Link& l, bool) { note(l); });
         std::ranges::sort(met);
         for (const std::int32_t place : met)
             static_cast<void>(state_at(unit, -2 - place));
@@ -379,30 +367,18 @@ private:
             m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
     }
 
-    // That whose rows stand, or will.
-    [[nodiscard]] std::int32_t standing_unit() const
-    {
-        const StandingRows& standing = m_scratch.standing;
-        if (standing.valid)
-            return m_scratch.unit_of[as_index(standing.body)];
-        const std::vector<Unit>& units = m_scratch.units;
-        const auto most = std::max_element(units.begin(), units.end(),
-                                           [](const Unit& a, const Unit& b) { return a.link_count < b.link_count; });
-        const bool worth_it = most != units.end() && most->link_count >= links_worth_standing && is_wide(*most) && !most->heap &&
-                              !m_scratch.has_uneven;
-        return worth_it ? static_cast<std::int32_t>(most - units.begin()) : none;
-    }
-
     void place_rows_of(Unit& unit)
     {
         unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
         unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
         unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
         unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
-        if (unit.stands && m_scratch.standing.valid)
-            add_to_standing(unit);
-        else
-            place_rows_anew(unit);
+        unit.cells = unit.link_count >= links_worth_cells ? cells_for_threads() : 1;
+        choose_colors(unit);
+        give_out_places(unit);
+        place_links(unit);
+        clear_bins(unit);
+        unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - unit.first_wide;
         unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - unit.first_row;
         unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - unit.first_core;
         // Those of one body are of different colours: in this order wherever in a bin their lanes are.
@@ -416,185 +392,6 @@ private:
         const int threads = m_ctx.scene.def.tasks.worker_count;
         return threads > 1 ? std::min(cells_to_a_thread * threads, most_cells) : 1;
     }
-
-    void place_rows_anew(Unit& unit)
-    {
-        unit.cells = unit.link_count >= links_worth_cells ? cells_for_threads() : 1;
-        choose_colors(unit);
-        give_out_places(unit);
-        place_links(unit);
-        clear_bins(unit);
-        unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - unit.first_wide;
-        if (unit.stands)
-            stand(unit);
-    }
-
-    // --- rows that stand --------------------------------------------------------------------------------------------------------------
-
-    // Links that are new go in free lanes; where there are too few, all are laid out anew.
-    void add_to_standing(Unit& unit)
-    {
-        StandingRows& standing = m_scratch.standing;
-        for (std::int32_t s = first_dynamic(unit); s < last_dynamic(unit); ++s)
-            m_scratch.color_masks[as_index(s)] = standing.colors[as_index(place_of_state(s))];
-        unit.cells = standing.cells;
-        choose_colors(unit);
-        const bool all_fit = std::ranges::all_of(links_of(unit), [&](Link& l) { return !l.in_lane || put_in_free_lane(l); });
-        if (!all_fit)
-        {
-            clear_bins(unit);
-            take_links_back(unit);
-            std::fill_n(m_scratch.color_masks.begin() + unit.first_state, unit.state_count, 0);
-            standing.valid = false;
-            place_rows_anew(unit);
-            return;
-        }
-        give_out_places(unit);
-        place_links(unit);
-        clear_bins(unit);
-        unit.wide_count = standing.group_count();
-        for (std::size_t lane = 0; lane < standing.cores.size(); ++lane)
-        {
-            if (standing.cores[lane] > 0)
-                m_scratch.cores.push_back({static_cast<std::int32_t>(lane), standing.cores[lane]});
-        }
-    }
-
-    // False where none is free.
-    bool put_in_free_lane(const Link& states)
-    {
-        StandingRows& standing = m_scratch.standing;
-        const std::int32_t bin = bin_of(states);
-        std::vector<std::int32_t>* free = bin < standing.bin_count() ? standing.free_near(bin, states.cell) : nullptr;
-        if (free == nullptr)
-        {
-            want_more(bin);
-            return false;
-        }
-        const std::int32_t lane = take_least(*free);
-        put_in_lane(states, lane);
-        standing.touched = true;
-        return true;
-    }
-
-    void want_more(std::int32_t bin)
-    {
-        StandingRows& standing = m_scratch.standing;
-        standing.wanted.resize(std::max(standing.wanted.size(), as_index(bin) + 1), 2 * lane_count);
-        const std::int32_t lanes = bin < standing.bin_count()
-                                       ? lane_count * (standing.bin_starts[as_index((bin + 1) * standing.cells)] -
-                                                       standing.bin_starts[as_index(bin * standing.cells)])
-                                       : 0;
-        standing.wanted[as_index(bin)] = std::min(2 * standing.wanted[as_index(bin)], lanes / 2 + 4 * lane_count);
-    }
-
-    void put_in_lane(const Link& states, std::int32_t lane)
-    {
-        StandingRows& standing = m_scratch.standing;
-        Link& l = standing.lanes[as_index(lane)];
-        l = states;
-        l.a = place_of_state(states.a);
-        l.b = place_of_state(states.b);
-        const auto bit = static_cast<std::uint8_t>(1u << lane % lane_count);
-        const std::size_t g = as_index(lane / lane_count);
-        standing.changed[g] |= bit;
-        if (l.touching)
-            standing.touching[g] |= bit;
-        const Contact& contact = m_state.contacts[l.contact];
-        const auto sleeps = [&](std::int32_t place, int body)
-        { return place == none && m_state.bodies[body].type != BodyType::Static; };
-        if (sleeps(l.a, contact.body_a) || sleeps(l.b, contact.body_b))
-            standing.watched[g] |= bit;
-        for (const std::int32_t place : {l.a, l.b})
-        {
-            if (place >= 0)
-                standing.colors[as_index(place)] |= std::uint64_t{1} << l.color;
-        }
-        standing.cores[as_index(lane)] = core_of(l);
-        m_state.lane_marks[as_index(l.contact)] = LaneMark::Stands;
-    }
-
-    // What stands, and what was to be added, becomes the unit's links.
-    void take_links_back(Unit& unit)
-    {
-        StandingRows& standing = m_scratch.standing;
-        const auto first = static_cast<std::int32_t>(m_scratch.solved_links.size());
-        for (std::int32_t i = unit.first_link; i < unit.first_link + unit.link_count; ++i)
-        {
-            const Link l = m_scratch.solved_links[as_index(i)];
-            if (!stands(m_ctx, l.contact))
-                m_scratch.solved_links.push_back(l);
-        }
-        for_each_standing(standing,
-                          [&](const Link& lane, bool touching)
-                          {
-                              catch_up(m_state, lane.contact);
-                              Link& l = m_scratch.solved_links.emplace_back(lane);
-                              l.touching = touching;
-                              l.a = own_state(unit, l.a);
-                              l.b = own_state(unit, l.b);
-                          });
-        unit.first_link = first;
-        unit.link_count = static_cast<std::int32_t>(m_scratch.solved_links.size()) - first;
-    }
-
-    // Once other units may have got their own copy of a kinematic body.
-    [[nodiscard]] std::int32_t own_state(const Unit& unit, std::int32_t place) const
-    {
-        return place < none    ? state_for_rows(m_ctx, unit, m_state.awake_bodies[as_index(-2 - place)])
-               : place == none ? unit.first_state
-                               : m_scratch.state_of[as_index(place)];
-    }
-
-    // The unit's lanes, as they have been laid out, stand from now on.
-    void stand(const Unit& unit)
-    {
-        StandingRows& standing = m_scratch.standing;
-        const auto groups = as_index(unit.wide_count);
-        standing.valid = standing.fresh = standing.touched = true;
-        standing.cells = unit.cells;
-        const auto first_bin = m_scratch.bin_starts.begin() + unit.first_bin;
-        standing.bin_starts.assign(first_bin, first_bin + unit.bin_count * unit.cells + 1);
-        standing.bodies = m_state.awake_bodies;
-        standing.body = place_of_state(first_dynamic(unit));
-        standing.colors.assign(m_state.awake_bodies.size(), 0);
-        standing.lanes.assign(groups * lane_count, {});
-        standing.cores.assign(groups * lane_count, 0);
-        standing.free.resize(as_index(unit.bin_count * unit.cells));
-        for (std::vector<std::int32_t>& free : standing.free)
-            free.clear();
-        for (std::vector<std::uint8_t>* bits :
-             {&standing.touching, &standing.watched, &standing.gone, &standing.told, &standing.changed})
-            bits->assign(groups, 0);
-        const std::size_t first_lane = as_index(unit.first_wide) * lane_count;
-        for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
-        {
-            const std::int32_t begin = standing.bin_starts[as_index(bin * unit.cells)] * lane_count;
-            const std::int32_t end = standing.bin_starts[as_index((bin + 1) * unit.cells)] * lane_count;
-            for (std::int32_t lane = begin; lane < end; ++lane)
-            {
-                const std::int32_t link = m_scratch.lane_links[first_lane + as_index(lane)];
-                if (link != none)
-                    put_in_lane(m_scratch.solved_links[as_index(link)], lane);
-                else
-                    give(standing.free_at(bin, lane), lane);
-            }
-        }
-        m_scratch.lane_links.resize(first_lane);
-    }
-
-    // As in Link, before links named states.
-    [[nodiscard]] std::int32_t place_of_state(std::int32_t s) const
-    {
-        const int body = m_scratch.state_bodies[as_index(s)];
-        if (body == none)
-            return none;
-        const BodyRecord& record = m_state.bodies[body];
-        return record.type == BodyType::Dynamic ? record.awake_index : -2 - record.awake_index;
-    }
-
-    [[nodiscard]] static std::int32_t first_dynamic(const Unit& unit) { return unit.first_state + 1; }
-    [[nodiscard]] static std::int32_t last_dynamic(const Unit& unit) { return unit.first_state + 1 + unit.dynamic_count; }
 
     // Not what is looked at anew within the step, sliced, or watched for its energy.
     [[nodiscard]] static bool is_wide(const Unit& unit)
@@ -618,8 +415,7 @@ private:
             l.color = static_cast<std::int8_t>(color);
             l.in_lane = wide && color != color_limit && l.plain && (uniform || give_evenly(l));
             l.cell = cell_of(unit, l);
-            if (!(l.in_lane && stands_already(unit)))
-                ++place_for(unit, l);
+            ++place_for(unit, l);
             if (color == color_limit)
                 m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
         }
@@ -633,8 +429,6 @@ private:
         }
         unit.colors = static_cast<std::int32_t>(std::bit_width(colors));
     }
-
-    [[nodiscard]] bool stands_already(const Unit& unit) const { return unit.stands && m_scratch.standing.valid; }
 
     // Marks it as taken.
     [[nodiscard]] bool keeps_color(const Unit& unit, const Link& l)
@@ -701,17 +495,15 @@ private:
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
         const auto groups = [&] { return (lane + lane_count - 1) / lane_count - unit.first_wide; };
         unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
-        const bool will_stand = unit.stands && !m_scratch.standing.valid;
-        unit.bin_count = 2 * std::min(unit.colors + (will_stand ? 1 : 0), color_limit);
+        unit.bin_count = 2 * unit.colors;
         for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
         {
             for (std::int32_t cell = 0; cell < unit.cells; ++cell)
             {
                 m_scratch.bin_starts.push_back(groups());
-                const std::int32_t lanes = std::exchange(m_bins[bin * unit.cells + cell], lane);
-                lane += lanes + (will_stand ? lanes_to_spare(unit, bin, lanes) : 0);
+                lane += std::exchange(m_bins[bin * unit.cells + cell], lane);
             }
-            lane = (lane + (will_stand ? lane_count : 0) + lane_count - 1) / lane_count * lane_count;
+            lane = (lane + lane_count - 1) / lane_count * lane_count;
         }
         m_scratch.bin_starts.push_back(groups());
         auto row = unit.first_row;
@@ -720,14 +512,6 @@ private:
         row += std::exchange(m_row_bins[color_limit], row);
         m_scratch.lane_links.resize(as_index(lane), none);
         m_scratch.row_links.resize(as_index(row));
-    }
-
-    // Of a cell, for those that come while the rows stand: more where there have been too few.
-    [[nodiscard]] std::int32_t lanes_to_spare(const Unit& unit, std::int32_t bin, std::int32_t lanes) const
-    {
-        const std::vector<std::int32_t>& wanted = m_scratch.standing.wanted;
-        const std::int32_t before = as_index(bin) < wanted.size() ? wanted[as_index(bin)] / unit.cells : 0;
-        return std::max(before, lanes / lanes_to_a_free_one);
     }
 
     void clear_bins(const Unit& unit)
@@ -742,8 +526,6 @@ private:
         for (std::int32_t i = unit.first_link; i < unit.first_link + unit.link_count; ++i)
         {
             const Link& l = m_scratch.solved_links[as_index(i)];
-            if (l.in_lane && stands_already(unit))
-                continue;
             const std::int32_t place = place_for(unit, l)++;
             (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(place)] = i;
             if (l.in_lane && l.round && l.points == 1)
@@ -771,13 +553,6 @@ private:
         const Contact& contact = m_state.contacts[l.contact];
         const Leaf& leaf = m_state.shapes[a_moves ? contact.shape_a : contact.shape_b].leaf;
         return leaf.type == LeafType::Circle ? 0.5f * leaf.r0 : 0;
-    }
-
-    // Of a link between places.
-    [[nodiscard]] float core_of(const Link& l) const
-    {
-        const bool may_have_one = l.round && l.points == 1 && (l.a < 0 || l.b < 0);
-        return may_have_one ? core_depth(l, l.a >= 0) : 0;
     }
 
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.

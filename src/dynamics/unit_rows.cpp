@@ -52,42 +52,6 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
     wide_kernels().prepare(&row, 1);
 }
 
-// The states of what stands, and the lanes that have come.
-void fill_standing(const StepContext& ctx, const Unit& unit, std::int32_t g)
-{
-    const Scratch& scratch = ctx.scratch;
-    StandingRows& standing = ctx.scratch.standing;
-    WideRow& row = ctx.scratch.wide_rows[as_index(g)];
-    if (standing.fresh)
-        empty_wide_row(unit.first_state, row);
-    const auto state_of = [&](std::int32_t place)
-    {
-        if (place < none) // each unit has its own copy of a kinematic body
-            return state_for_rows(ctx, unit, ctx.state.awake_bodies[as_index(-2 - place)]);
-        return place == none ? unit.first_state : scratch.state_of[as_index(place)];
-    };
-    const std::uint32_t changed = standing.changed[as_index(g)];
-    for (int i = 0; i < lane_count; ++i)
-    {
-        const std::int32_t lane = g * lane_count + i;
-        const Link& l = standing.lanes[as_index(lane)];
-        row.a.v[i] = l.contact == none ? unit.first_state : state_of(l.a);
-        row.b.v[i] = l.contact == none ? unit.first_state : state_of(l.b);
-        if ((changed >> i & 1u) == 0)
-            continue;
-        Link states = l;
-        states.a = row.a.v[i];
-        states.b = row.b.v[i];
-        Contact& contact = ctx.state.contacts[l.contact];
-        contact.color = l.color;
-        contact.wide = lane;
-        refill_lane(ctx, states, row, i);
-    }
-    standing.changed[as_index(g)] = 0;
-    if (changed != 0)
-        wide_kernels().prepare(&row, 1);
-}
-
 void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
 {
     const Link& l = ctx.scratch.solved_links[as_index(ctx.scratch.row_links[as_index(i)])];
@@ -127,8 +91,7 @@ void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
     if (!ctx.scratch.kept_units.rows_stay)
-        contact_bins(ctx.scratch, unit)
-            .for_each(crew, [&](int g) { unit.stands ? fill_standing(unit_ctx, unit, g) : fill_group(unit_ctx, unit, g); });
+        contact_bins(ctx.scratch, unit).for_each(crew, [&](int g) { fill_group(unit_ctx, unit, g); });
     for_each_place(crew, unit.first_row, unit.row_count, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
     for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i)

@@ -64,7 +64,6 @@ public:
             m_anew.scene.data().state.rows_stamp = 0; // what is in the rows is another state's
             both([dt](World& w) { w.scene.step(dt); });
             stayed += rows_stay() ? 1 : 0;
-            m_stood += rows_stand() ? 1 : 0;
             const std::string when = "step " + std::to_string(m_followed.scene.step_count());
             EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.rows_stay);
             EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
@@ -77,9 +76,6 @@ public:
         return stayed;
     }
 
-    [[nodiscard]] bool rows_stand() { return m_followed.scene.data().scratch.standing.valid; }
-    /// In how many steps so far.
-    [[nodiscard]] int steps_stood() const { return m_stood; }
     [[nodiscard]] bool rows_stay() { return m_followed.scene.data().scratch.kept_units.rows_stay; }
     [[nodiscard]] const World& followed() const { return m_followed; }
     [[nodiscard]] const World& anew() const { return m_anew; }
@@ -87,7 +83,6 @@ public:
 private:
     World m_followed;
     World m_anew;
-    int m_stood = 0;
 };
 
 } // namespace carom::test

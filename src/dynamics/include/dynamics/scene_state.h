@@ -192,8 +192,7 @@ struct alignas(64) KeptManifold
 enum class LaneMark : std::uint8_t
 {
     None,
-    InRow,
-    Stands ///< in one of those that stand, see standing_rows.cpp
+    InRow
 };
 
 /// Two shapes whose fat boxes overlap, one of which is awake. They have a contact while they may meet in the step.

@@ -64,7 +64,6 @@ struct Unit
     bool alone = false;               ///< one body with nothing near: it falls
     bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
     bool heap = false;                ///< figures that are held softly, of several islands
-    bool stands = false;              ///< its wide rows are Scratch::standing
     bool traced = false;              ///< paths of some of its bodies are recorded
 };
 
@@ -158,7 +157,6 @@ struct KeptUnits
     std::vector<Link> links;
     std::vector<JointLink> joints;
     std::vector<std::uint8_t> bound;    ///< of each state: rows, limits or motors hold it
-    bool has_standing = false;          ///< the largest has rows that stand
     bool are_plain = false;             ///< nothing in them depends on anything else
     bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
     bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
@@ -166,57 +164,6 @@ struct KeptUnits
     std::vector<std::int32_t> contacts; ///< the awake ones, when the rows were filled
     std::vector<std::int32_t> loose;    ///< of these, those without a lane
     int touching = 0;                   ///< of the report
-};
-
-/// Two to a color.
-[[nodiscard]] inline std::int32_t bin_of(const Link& l) { return 2 * l.color + (l.points == 2 ? 0 : 1); }
-
-/// Wide rows of the largest unit, see standing_rows.cpp. Places are those in awake_bodies.
-struct StandingRows
-{
-    bool valid = false;                          ///< of the last step; then of this one
-    bool fresh = false;                          ///< laid out in this step: to be filled from nothing
-    bool touched = false;                        ///< since the last step a lane was given or taken
-    std::int32_t body = none;                    ///< place of one of the unit's, in this step
-    std::vector<Link> lanes;                     ///< what stands in each; contact none: it is free
-    std::vector<std::vector<std::int32_t>> free; ///< lanes of each cell of each bin; heaps, see take_least
-    std::vector<std::int32_t> wanted;            ///< lanes that have been too few, by bin
-    std::vector<std::int32_t> bin_starts;        ///< groups, as Scratch::bin_starts
-    std::int32_t cells = 1;
-    std::vector<float> cores;          ///< by lane: depth of a ball's core against what does not give way, or 0
-    std::vector<std::uint64_t> colors; ///< that a body's lanes have, by place
-    std::vector<std::int32_t> bodies;  ///< the awake ones that places are of
-    // Lanes of each group, as bits.
-    std::vector<std::uint8_t> touching;
-    std::vector<std::uint8_t> watched; ///< a body sleeps
-    std::vector<std::uint8_t> gone;
-    std::vector<std::uint8_t> told;
-    std::vector<std::uint8_t> changed; ///< to be filled
-
-    [[nodiscard]] std::int32_t group_count() const { return static_cast<std::int32_t>(touching.size()); }
-    [[nodiscard]] std::int32_t bin_count() const { return static_cast<std::int32_t>(free.size()) / cells; }
-
-    /// Of the cell that the lane is in.
-    [[nodiscard]] std::vector<std::int32_t>& free_at(std::int32_t bin, std::int32_t lane)
-    {
-        const auto first = bin_starts.begin() + bin * cells;
-        const auto beyond = std::upper_bound(first + 1, first + cells, lane / lane_count);
-        return free[static_cast<std::size_t>(beyond - 1 - bin_starts.begin())];
-    }
-
-    /// Of the cell, or the nearest one in which a lane is free; null where none is.
-    [[nodiscard]] std::vector<std::int32_t>* free_near(std::int32_t bin, std::int32_t cell)
-    {
-        for (std::int32_t away = 0; away < cells; ++away)
-        {
-            for (const std::int32_t c : {cell - away, cell + away})
-            {
-                if (c >= 0 && c < cells && !free[static_cast<std::size_t>(bin * cells + c)].empty())
-                    return &free[static_cast<std::size_t>(bin * cells + c)];
-            }
-        }
-        return nullptr;
-    }
 };
 
 /// A joint and the states of its bodies.
@@ -375,7 +322,6 @@ struct Scratch
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
-    StandingRows standing;
     std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
     std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
     bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake

@@ -105,8 +105,7 @@ private:
 
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
-    return unit.stands ? UnitBins(scratch.standing.bin_starts, 0, scratch.standing.bin_count(), scratch.standing.cells)
-                       : UnitBins(scratch.bin_starts, unit.first_bin, unit.bin_count, unit.cells);
+    return {scratch.bin_starts, unit.first_bin, unit.bin_count, unit.cells};
 }
 
 [[nodiscard]] inline UnitBins joint_bins(const Scratch& scratch, const Unit& unit)
