@@ -111,7 +111,7 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
         if (i != i0 && i != i1)
             third = std::min(third, dot(n, ref.other.point(i)) - ref.other.radius(i) - offset);
     }
-    out.reach = 0.5f * (third - std::max(out.points[0].separation, out.points[1].separation));
+    out.bound_by_third(third);
 }
 
 // Shapes that are apart are nearest at a corner circle of one and the surface of the other.

@@ -219,7 +219,7 @@ private:
                 third = std::min(third, dot(n, others.at[i]) - offset);
         }
         if (out.count == 2)
-            out.reach = 0.5f * (third - std::max(out.points[0].separation, out.points[1].separation));
+            out.bound_by_third(third);
         else
             out.leave_out(std::max(margin, third));
         return out.count > 0;

@@ -129,7 +129,6 @@ void remove_awake_contact(SceneState& state, int index)
     Contact& contact = state.contacts[index];
     if (contact.awake_index == none)
         return;
-    contact.wide = none;
     leave_lane(state, index);
     const bool trigger = (contact.flags & contact_flag::trigger) != 0;
     std::vector<std::int32_t>& list = trigger ? state.trigger_contacts : state.awake_contacts;

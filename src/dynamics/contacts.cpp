@@ -166,8 +166,6 @@ void wake_both(StepContext& ctx, int index)
     wake_body(ctx.scene, contact.body_b);
 }
 
-} // namespace
-
 News news_of(const StepContext& ctx, const Contact& contact)
 {
     const bool touching = (contact.flags & contact_flag::touching) != 0;
@@ -180,6 +178,8 @@ News news_of(const StepContext& ctx, const Contact& contact)
     const bool one_sleeps = sleeps(contact.body_a) || sleeps(contact.body_b);
     return one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
+
+} // namespace
 
 News update_contact(const StepContext& ctx, int index)
 {

@@ -196,22 +196,6 @@ Manifold manifold_at_start(const SceneState& state, int index)
     return m;
 }
 
-void catch_up(SceneState& state, int index)
-{
-    if ((state.contacts[index].flags & contact_flag::followed) == 0)
-        return;
-    state.contacts[index].manifold = manifold_at_start(state, index);
-    state.contacts[index].flags &= ~contact_flag::followed;
-}
-
-bool stays_apart(const StepContext& ctx, int index)
-{
-    const Contact& contact = ctx.state.contacts[index];
-    return (contact.flags & contact_flag::plain) != 0 &&
-           (contact.manifold.count == 0 || least_separation(manifold_at_start(ctx.state, index)) >
-                                               relative_motion(ctx.state, contact) + 0.1f * ctx.scene.tolerances.speculation);
-}
-
 Manifold settled_manifold(const SceneState& state, int index)
 {
     const Contact& contact = state.contacts[index];

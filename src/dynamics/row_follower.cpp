@@ -25,21 +25,21 @@ RowFollower::RowFollower(const StepContext& ctx)
     : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
 {}
 
-FollowNews RowFollower::follow(WideRow& row, std::uint32_t watched)
+FollowNews RowFollower::follow(WideRow& row)
 {
     FollowedRow now;
     m_kernels.follow(row, m_scene, now);
     FollowNews news;
     const std::uint32_t beyond = row.count == 2 ? 0 : beyond_margins(row, now);
-    news.looked = now.unsure | now.begins_or_ends | beyond | watched;
-    const std::uint32_t sure = filled_lanes(row) & ~news.looked;
+    const std::uint32_t looked = now.unsure | now.begins_or_ends | beyond;
+    const std::uint32_t sure = filled_lanes(row) & ~looked;
     row.may_hit = now.unloaded & sure;
     clear_sums(row);
     for_each_lane(sure & ~row.followed, [&](int i) { m_state.contacts[row.contact.v[i]].flags |= contact_flag::followed; });
     row.followed |= sure;
     for_each_lane(now.borne & sure, [&](int i) { note_borne(row, i); });
     for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(row, i, now.separation.v[i]); });
-    for_each_lane(news.looked, [&](int i) { look_at(row, i, news); });
+    for_each_lane(looked, [&](int i) { look_at(row, i, news); });
     m_kernels.prepare(&row, 1);
     return news;
 }

@@ -9,7 +9,6 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
 #include "dynamics/joint_bodies.h"
-#include "dynamics/kept_manifold.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/wide_prepare.h"
 
@@ -620,7 +619,7 @@ public:
         for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
         {
             const Contact& contact = state.contacts[edge >> 1];
-            if (gets_rows(state, contact) && !stays_apart(ctx, edge >> 1))
+            if (gets_rows(state, contact) && !stays_apart(ctx, contact))
                 return true;
         }
         return false;

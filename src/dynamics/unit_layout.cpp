@@ -256,8 +256,7 @@ private:
     {
         const std::span<Link> links = links_of(unit);
         if (m_scratch.has_kinematic)
-        { // first, one after the other: they get a state here
-            add_kinematic_states(unit);
+        { // first, one after the other: they may get a state here
             for (Link& l : links)
             {
                 l.a = l.a < none ? -2 - state_at(unit, l.a) : l.a;
@@ -286,25 +285,6 @@ private:
             copy_those_near(unit, m_scratch.flier_seeds[as_index(i)].body);
         for (std::int32_t s = 1; unit.precise && s <= unit.dynamic_count; ++s)
             copy_those_near(unit, m_scratch.state_bodies[as_index(unit.first_state + s)]);
-    }
-
-    // In the order of their places, whatever that of links.
-    void add_kinematic_states(const Unit& unit)
-    {
-        std::vector<std::int32_t>& met = m_scratch.order;
-        met.clear();
-        const auto note = [&](const Link& l)
-        {
-            for (const std::int32_t place : {l.a, l.b})
-            {
-                if (place < none && (met.empty() || met.back() != -2 - place))
-                    met.push_back(-2 - place);
-            }
-        };
-        std::ranges::for_each(links_of(unit), note);
-        std::ranges::sort(met);
-        for (const std::int32_t place : met)
-            static_cast<void>(state_at(unit, -2 - place));
     }
 
     void copy_those_near(const Unit& unit, int body)
@@ -538,21 +518,15 @@ private:
         }
     }
 
+    // A ball against what does not give way.
     void add_core(const Unit& unit, const Link& l, std::int32_t lane)
     {
         if (is_dynamic(unit, l.a) && is_dynamic(unit, l.b))
             return;
-        const float depth = core_depth(l, is_dynamic(unit, l.a));
-        if (depth > 0)
-            m_scratch.cores.push_back({lane - unit.first_wide * lane_count, depth});
-    }
-
-    // A ball against what does not give way: half its radius.
-    [[nodiscard]] float core_depth(const Link& l, bool a_moves) const
-    {
         const Contact& contact = m_state.contacts[l.contact];
-        const Leaf& leaf = m_state.shapes[a_moves ? contact.shape_a : contact.shape_b].leaf;
-        return leaf.type == LeafType::Circle ? 0.5f * leaf.r0 : 0;
+        const Leaf& leaf = m_state.shapes[is_dynamic(unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
+        if (leaf.type == LeafType::Circle)
+            m_scratch.cores.push_back({lane - unit.first_wide * lane_count, 0.5f * leaf.r0});
     }
 
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.

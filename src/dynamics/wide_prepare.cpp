@@ -56,6 +56,7 @@ void empty_wide_row(std::int32_t fixed, WideRow& row)
     std::fill(std::begin(row.contact.v), std::end(row.contact.v), none);
     for (WidePoint& p : row.points)
         std::fill(std::begin(p.k.v), std::end(p.k.v), 1.0f);
+    row.count = 1;
 }
 
 void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
@@ -140,8 +141,6 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
     row.edge_of_b &= ~(1u << i);
     row.kept &= ~(1u << i);
     row.followed &= ~(1u << i);
-    for (WidePoint& p : row.points)
-        p.total_impulse.v[i] = p.total_tangent.v[i] = p.approach.v[i] = 0;
     fill_lane(ctx, states, row, i);
 }
 
@@ -153,8 +152,11 @@ std::uint32_t filled_lanes(const WideRow& row)
     return lanes;
 }
 
-void clear_lane(WideRow& row, int i, std::int32_t fixed)
+void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
 {
+    const Lane lane(ctx.scratch, contact.wide);
+    WideRow& row = lane.row;
+    const int i = lane.i;
     row.a.v[i] = row.b.v[i] = fixed;
     row.contact.v[i] = none;
     row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
@@ -168,14 +170,6 @@ void clear_lane(WideRow& row, int i, std::int32_t fixed)
     row.untold &= ~(1u << i);
     row.fixed_a |= 1u << i;
     row.fixed_b |= 1u << i;
-}
-
-void drop_lane(const StepContext& ctx, std::int32_t index, std::int32_t fixed)
-{
-    Contact& contact = ctx.state.contacts[index];
-    const Lane lane(ctx.scratch, contact.wide);
-    clear_lane(lane.row, lane.i, fixed);
-    catch_up(ctx.state, index);
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;
     for (ManifoldPoint& p : contact.manifold.points)

@@ -366,8 +366,8 @@ void take_off(const FlightSpan& span, Flier& f, double time)
     drop_rows(span.output.late_rows);
     for (int edge = span.state.bodies[f.body].first_contact; edge != none; edge = span.state.contacts[edge >> 1].next[edge & 1])
     {
-        if (span.state.contacts[edge >> 1].wide != none)
-            drop_lane(span.ctx, edge >> 1, span.unit.first_state);
+        if (Contact& contact = span.state.contacts[edge >> 1]; contact.wide != none)
+            drop_lane(span.ctx, contact, span.unit.first_state);
     }
     if (f.joint != none)
         forget_impulses(span.state.joints[f.joint]);

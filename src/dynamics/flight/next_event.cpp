@@ -1,5 +1,4 @@
 #include "dynamics/flight/next_event.h"
-#include "dynamics/kept_manifold.h"
 
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
@@ -206,7 +205,7 @@ private:
             return false;
         if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->landed || other->deflected))
             return false;
-        return stays_apart(m_span.ctx, contact);
+        return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
     }
 
     // A look at every corner is dear: most pairs are told by the line of their centers, or by the normal at the start of the step.
@@ -223,8 +222,7 @@ private:
             return {};
         const Contact& c = m_span.state.contacts[contact];
         const double sign = c.shape_a == shape ? 1 : -1;
-        const Vec2 normal = manifold_at_start(m_span.state, contact).normal;
-        return {sign * static_cast<double>(normal.x), sign * static_cast<double>(normal.y)};
+        return {sign * static_cast<double>(c.manifold.normal.x), sign * static_cast<double>(c.manifold.normal.y)};
     }
 
     // Two moving bodies that stay apart whatever they turn: most of a crowd.

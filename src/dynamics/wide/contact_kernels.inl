@@ -271,8 +271,6 @@ void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
 {
     for (WideRow* row = rows; row < rows + count; ++row)
     {
-        if (row->count == 0)
-            continue;
         Group g(*row, states);
         for (int i = 0; i < row->count; ++i)
         {
@@ -289,7 +287,7 @@ void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftn
     {
         if (row->count == 2)
             solve_group<2>(*row, states, s);
-        else if (row->count == 1)
+        else
             solve_group<1>(*row, states, s);
     }
 }
@@ -304,14 +302,10 @@ void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftn
             relax_group<2>(*row, states, s);
             *struck = struck_lanes<2>(*row, before, s.rest_speed);
         }
-        else if (row->count == 1)
+        else
         {
             relax_group<1>(*row, states, s);
             *struck = struck_lanes<1>(*row, before, s.rest_speed);
-        }
-        else
-        {
-            *struck = 0;
         }
     }
 }

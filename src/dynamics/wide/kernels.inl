@@ -25,15 +25,11 @@ struct Poses
 
 static_assert(sizeof(BodyState) == 32 && offsetof(BodyState, delta_position) == 16);
 
-CAROM_INLINE Speeds speeds_of(const BodyState* states, const LaneInts& index)
+// Of BodyState or BodySpeeds: both begin with them.
+template <class Body>
+CAROM_INLINE Speeds speeds_of(const Body* bodies, const LaneInts& index)
 {
-    Speeds v;
-    gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]); }, v.x, v.y, v.w, v.flags);
-    return v;
-}
-
-CAROM_INLINE Speeds speeds_of(const BodySpeeds* bodies, const LaneInts& index)
-{
+    static_assert(offsetof(Body, velocity) == 0 && offsetof(Body, angular_velocity) == 8);
     Speeds v;
     gather4([&](int i) { return reinterpret_cast<const char*>(bodies + index.v[i]); }, v.x, v.y, v.w, v.flags);
     return v;

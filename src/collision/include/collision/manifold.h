@@ -58,6 +58,13 @@ struct LocalManifold
     // With this separation.
     void leave_out(float separation) { reach = separation < reach ? separation : reach; }
 
+    // Of two points: another corner has this separation.
+    void bound_by_third(float separation)
+    {
+        const float farther = points[0].separation < points[1].separation ? points[1].separation : points[0].separation;
+        reach = 0.5f * (separation - farther);
+    }
+
     void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature)
     {
         points[count++] = {on_a, on_b, separation, feature};

@@ -46,15 +46,20 @@ void carry_impulses(const Manifold& old, Manifold& fresh);
 /// Its manifold at the start of the step, and what others must hear of. Writes to this contact alone.
 [[nodiscard]] News update_contact(const StepContext& ctx, int index);
 
-/// What others must hear of a contact that is up to date.
-[[nodiscard]] News news_of(const StepContext& ctx, const Contact& contact);
-
 [[nodiscard]] inline float least_separation(const Manifold& m)
 {
     float least = 3e38f;
     for (int i = 0; i < m.count; ++i)
         least = m.points[i].separation < least ? m.points[i].separation : least;
     return least;
+}
+
+/// On the ways that both set out on they do not meet within the step.
+[[nodiscard]] inline bool stays_apart(const StepContext& ctx, const Contact& contact)
+{
+    return (contact.flags & contact_flag::plain) != 0 &&
+           (contact.manifold.count == 0 ||
+            least_separation(contact.manifold) > relative_motion(ctx.state, contact) + 0.1f * ctx.scene.tolerances.speculation);
 }
 
 /// It has points that are not let through.

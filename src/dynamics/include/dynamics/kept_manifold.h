@@ -43,12 +43,6 @@ inline constexpr float surely = 0.999f;
 [[nodiscard]] Manifold manifold_at_start(const SceneState& state, int contact);
 [[nodiscard]] Manifold settled_manifold(const SceneState& state, int contact);
 
-/// Writes the manifold at the start of this step into the contact.
-void catch_up(SceneState& state, int contact);
-
-/// On the ways that both set out on they do not meet within the step.
-[[nodiscard]] bool stays_apart(const StepContext& ctx, int contact);
-
 /// Writes it into the contact: before poses are lost.
 void settle_manifold(SceneState& state, int contact);
 

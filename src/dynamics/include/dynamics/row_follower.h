@@ -10,9 +10,8 @@ namespace carom::internal {
 /// Lanes of a row, as bits.
 struct FollowNews
 {
-    std::uint32_t gone = 0;   ///< their contacts are not what the lanes were made for
-    std::uint32_t looked = 0; ///< their contacts were updated one by one; of these some are gone
-    std::uint32_t told = 0;   ///< of those, which begin to touch or end, or may hit a sleeper
+    std::uint32_t gone = 0; ///< their contacts are not what the lanes were made for
+    std::uint32_t told = 0; ///< their contacts begin to touch or end, or may hit a sleeper
 };
 
 /// One of a task's rows after the other.
@@ -21,9 +20,9 @@ class RowFollower
 public:
     explicit RowFollower(const StepContext& ctx);
 
-    /// Lanes that cannot be followed, or whose touch may begin or end, and those to be watched, are updated by themselves and filled again. Those that are
-    /// gone are left as they come. All contacts must have their lane marks.
-    [[nodiscard]] FollowNews follow(WideRow& row, std::uint32_t watched = 0);
+    /// Lanes that cannot be followed, or whose touch may begin or end, are updated by themselves and filled again. Those that are gone are left as they come.
+    /// All contacts must have their lane marks.
+    [[nodiscard]] FollowNews follow(WideRow& row);
 
 private:
     [[nodiscard]] std::uint32_t beyond_margins(const WideRow& row, const FollowedRow& now) const;

@@ -171,7 +171,7 @@ struct Contact
     float rolling_resistance = 0;
     float surface_speed = 0;   ///< of b against a along perp(normal)
     std::int32_t color = none; ///< of its row; kept as long as it has one
-    std::int32_t wide = none;  ///< where its wide row is, group * lane_count + lane, as far as rows_stamp holds
+    std::int32_t wide = none;  ///< during a step: where its wide row is, group * lane_count + lane
     Manifold manifold{};
 };
 

@@ -18,14 +18,11 @@ void empty_wide_row(std::int32_t fixed, WideRow& row);
 /// Writes the contact of a link between states into a lane; WideKernels::prepare does the rest.
 void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int lane);
 
-/// The same where another contact stood, or the same one before.
+/// The same where the contact stood before; sums are cleared already.
 void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int lane);
 
 /// As bits.
 [[nodiscard]] std::uint32_t filled_lanes(const WideRow& row);
-
-/// It pushes nothing from now on.
-void clear_lane(WideRow& row, int lane, std::int32_t fixed);
 
 /// The lane as a row of its own, at the start of the step.
 [[nodiscard]] ContactRow row_of_lane(const StepContext& ctx, std::int32_t lane);
@@ -34,7 +31,7 @@ void clear_lane(WideRow& row, int lane, std::int32_t fixed);
 void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t lane);
 
 /// Its body has taken off: the lane pushes no more.
-void drop_lane(const StepContext& ctx, std::int32_t contact, std::int32_t fixed);
+void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
 
 /// A hinge that bounces off no limit; its bodies must be able to move along every axis.
 [[nodiscard]] bool fits_joint_lane(const JointRecord& joint);

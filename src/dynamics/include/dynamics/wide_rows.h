@@ -47,7 +47,7 @@ struct WideRow
     LaneFloats inverse_inertia_b;
     LaneFloats coupling; ///< of two normals, J1 M^-1 J2^T
     WidePoint points[2];
-    std::int32_t count;    ///< points, the same in all lanes; 0: all lanes are empty
+    std::int32_t count;    ///< points, the same in all lanes
     std::uint32_t may_hit; ///< lanes that bore nothing when the step began and have not been struck
     std::uint32_t untold;  ///< lanes that did not touch when the step began and whose touch is not told
     std::uint32_t fixed_a; ///< lanes whose body a does not give way; what all threads read, none writes
