@@ -48,9 +48,15 @@ CAROM_INLINE F8 root(F8 x)
 /// A bit for each lane of a comparison that holds.
 CAROM_INLINE unsigned bits(I8 mask)
 {
+#if defined(__AVX__)
+    F8 signs;
+    std::memcpy(&signs, &mask, sizeof signs);
+    return static_cast<unsigned>(__builtin_ia32_movmskps256(signs));
+#else
     const I4 low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
     const I4 high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
     return bits(low) | bits(high) << 4;
+#endif
 }
 
 /// Eight records of four floats become four vectors of eight lanes. Lane i is what `at(i)` points to.
