@@ -561,10 +561,12 @@ public:
                 static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
             reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), static_cast<std::int32_t>(i)});
         }
-        scratch.may_be_struck.assign(state.awake_bodies.size(), 0);
+        scratch.may_be_struck = scratch.is_deflected;
         if (reaches.empty())
             return false;
         scratch.reach_tree.build(reaches);
+        const auto keeps_its_way = [&](std::int32_t shape) { return scratch.is_deflected[place_of_shape(shape)] == 0; };
+        state.broad_phase.choose_items(Layer::Moving, keeps_its_way, scratch.keeps_its_way);
         using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
         const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
         const std::span<Meetings> parts =
@@ -594,22 +596,28 @@ public:
         {
             const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
             state.broad_phase.for_each_overlap(
-                tree, k, lanes, Layer::Moving,
+                tree, k, lanes, Layer::Moving, scratch.keeps_its_way,
                 [&](std::int32_t place, int shape)
                 {
-                    const std::int32_t other = state.bodies[state.shapes[shape].body].awake_index;
-                    std::atomic_ref(scratch.may_be_struck[static_cast<std::size_t>(other)]).store(1, std::memory_order_relaxed);
-                    if (scratch.is_deflected[static_cast<std::size_t>(other)] == 0)
-                        note(place, other);
+                    const std::size_t other = place_of_shape(shape);
+                    std::atomic_ref(scratch.may_be_struck[other]).store(1, std::memory_order_relaxed);
+                    note(place, static_cast<std::int32_t>(other));
                 });
             // of two that are both deflected the first finds the second
-            tree.for_each_overlap(k, lanes, tree,
-                                  [&](int own, int other)
-                                  {
-                                      if (own < other)
-                                          note(tree.item(own), tree.item(other));
-                                  });
+            tree.for_each_overlap(
+                k, lanes, tree, [&](int other) { return other < k ? 0 : BoxTree::all_lanes; },
+                [&](int own, int other)
+                {
+                    if (own < other)
+                        note(tree.item(own), tree.item(other));
+                });
         }
+    }
+
+    // In awake_bodies.
+    [[nodiscard]] std::size_t place_of_shape(int shape) const
+    {
+        return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
     }
 
     [[nodiscard]] bool may_be_deflected(int body) const

@@ -63,6 +63,7 @@ class BoxTree
 {
 public:
     static constexpr int arity = BoxBlock::size;
+    static constexpr unsigned all_lanes = (1u << arity) - 1;
     static constexpr std::size_t blocks_per_task = 64;
     static constexpr int max_levels = 12; // 8^11 leaves
 
@@ -155,17 +156,18 @@ public:
                             });
     }
 
-    /// Calls visit(own leaf, other leaf) where leaves of block k overlap those of another tree.
-    template <class Visit>
-    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const Visit& visit) const
+    /// Calls visit(own leaf, other leaf) where leaves of block k, a bit for each, overlap those of another tree: of its block o those in lanes_of(o).
+    template <class LanesOf, class Visit>
+    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const LanesOf& lanes_of, const Visit& visit) const
     {
         for_each_block_overlap(k, lanes, others,
                                [&](int other, unsigned near)
                                {
-                                   for (; near != 0; near &= near - 1)
+                                   const unsigned asked = lanes_of(other);
+                                   for (; asked != 0 && near != 0; near &= near - 1)
                                    {
                                        const int i = std::countr_zero(near);
-                                       for (unsigned hits = others.block(other).overlapping(block(k).box(i)); hits != 0;
+                                       for (unsigned hits = asked & others.block(other).overlapping(block(k).box(i)); hits != 0;
                                             hits &= hits - 1)
                                            visit(k * arity + i, other * arity + std::countr_zero(hits));
                                    }

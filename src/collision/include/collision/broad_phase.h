@@ -8,6 +8,7 @@
 #include "collision/box_tree.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace carom::internal {
@@ -119,18 +120,38 @@ public:
         return true;
     }
 
-    /// Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those of a layer.
+    /// Of the blocks of a layer's trees, one tree after the other, a bit for each item that is chosen.
+    template <class Choose>
+    void choose_items(Layer layer, const Choose& choose, std::vector<std::uint8_t>& chosen) const
+    {
+        chosen.clear();
+        for (const BoxTree& tree : m_forests[static_cast<std::size_t>(layer)].trees)
+        {
+            for (int leaf = 0; leaf < tree.leaf_count(); ++leaf)
+            {
+                if (leaf % BoxTree::arity == 0)
+                    chosen.push_back(0);
+                if (tree.item(leaf) >= 0 && choose(tree.item(leaf)))
+                    chosen.back() |= static_cast<std::uint8_t>(1u << (leaf % BoxTree::arity));
+            }
+        }
+    }
+
+    /// Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those of a layer: of its trees what was chosen, and what is in
+    /// none of them yet.
     template <class Visit>
-    void for_each_overlap(const BoxTree& tree, int k, unsigned lanes, Layer layer, const Visit& visit) const
+    void for_each_overlap(const BoxTree& tree, int k, unsigned lanes, Layer layer, std::span<const std::uint8_t> chosen,
+                          const Visit& visit) const
     {
         const Forest& forest = m_forests[static_cast<std::size_t>(layer)];
         for (const BoxTree& others : forest.trees)
-            tree.for_each_overlap(k, lanes, others, [&](int own, int other) { visit(tree.item(own), others.item(other)); });
-        for (const std::int32_t other : forest.recent)
         {
-            for (unsigned hits = lanes & tree.block(k).overlapping(box(other)); hits != 0; hits &= hits - 1)
-                visit(tree.item(k * BoxTree::arity + std::countr_zero(hits)), other);
+            tree.for_each_overlap(
+                k, lanes, others, [&](int o) { return unsigned{chosen[static_cast<std::size_t>(o)]}; },
+                [&](int own, int other) { visit(tree.item(own), others.item(other)); });
+            chosen = chosen.subspan(static_cast<std::size_t>(others.block_count()));
         }
+        for_each_recent(tree, k, lanes, forest, visit);
     }
 
     /// Where update_moving has fitted all boxes: blocks of eight neighbours of the moving layer.
@@ -158,12 +179,16 @@ public:
                                                       tree.item(o * BoxTree::arity + std::countr_zero(hits)));
                                         }
                                     });
-        for_each_overlap(tree, k, own.changed, Layer::Resting,
-                         [&](std::int32_t item, std::int32_t other)
-                         {
-                             if (!overlaps(box_before(item), box_before(other)))
-                                 visit(item, other);
-                         });
+        const auto if_new = [&](std::int32_t item, std::int32_t other)
+        {
+            if (!overlaps(box_before(item), box_before(other)))
+                visit(item, other);
+        };
+        for (const BoxTree& others : m_forests[1].trees)
+            tree.for_each_overlap(
+                k, own.changed, others, [](int) { return BoxTree::all_lanes; },
+                [&](int own_leaf, int other) { if_new(tree.item(own_leaf), others.item(other)); });
+        for_each_recent(tree, k, own.changed, m_forests[1], if_new);
     }
 
     template <class Test, class Visit>
@@ -227,6 +252,17 @@ private:
         const unsigned mine = (later | ~past.changed) & (o == k ? ~(1u << i) : ~0u);
         const unsigned hits = mine & tree.block(o).overlapping(tree.block(k).box(i));
         return hits == 0 ? 0 : hits & ~past.before.overlapping(m_past[static_cast<std::size_t>(k)].before.box(i));
+    }
+
+    // Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those that no tree holds yet.
+    template <class Visit>
+    void for_each_recent(const BoxTree& tree, int k, unsigned lanes, const Forest& forest, const Visit& visit) const
+    {
+        for (const std::int32_t other : forest.recent)
+        {
+            for (unsigned hits = lanes & tree.block(k).overlapping(box(other)); hits != 0; hits &= hits - 1)
+                visit(tree.item(k * BoxTree::arity + std::countr_zero(hits)), other);
+        }
     }
 
     void stand_still(int item);

@@ -314,6 +314,7 @@ struct Scratch
     std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
     std::vector<TreeLeaf> reaches;          ///< of these
     BoxTree reach_tree;
+    std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
