@@ -91,9 +91,12 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     out.normal = ref.flipped ? -n : n;
     const bool is_even = left && ref.other.radius(i0) == ref.other.radius(i1);
     out.clipped = {{start, end}, {ref.other.point(i0), ref.other.point(i1)}, ref.flipped, is_even ? ref.other.radius(i0) : -1};
+    float left_out = 3e38f;
     for (const ClipPoint& p : points)
     {
         const float separation = dot(n, p.core) - p.radius - offset;
+        if (separation > margin)
+            left_out = std::min(left_out, separation);
         if (separation > margin && out.count == 0)
             std::swap(out.clipped.corners[0], out.clipped.corners[1]);
         if (separation > margin || (!left && out.count == 1))
@@ -103,15 +106,13 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
         out.add(ref.flipped ? on_other : on_reference, ref.flipped ? on_reference : on_other, separation,
                 feature_id(ref.flipped, edge, p.id));
     }
-    if (out.count < 2)
-        return;
     float third = 3e38f;
     for (int i = 0; i < ref.other.count(); ++i)
     {
         if (i != i0 && i != i1)
             third = std::min(third, dot(n, ref.other.point(i)) - ref.other.radius(i) - offset);
     }
-    out.bound_by_third(third);
+    out.bound_by_third(third, margin, left_out);
 }
 
 // Shapes that are apart are nearest at a corner circle of one and the surface of the other.
@@ -122,6 +123,9 @@ struct Nearest
     Vec2 on_a{};
     Vec2 on_b{};
     std::uint32_t feature = 0;
+    int corner = 0;   ///< of the hull whose corners were offered
+    int opposite = 0; ///< feature of the other's surface
+    bool corner_of_a = false;
 };
 
 // False where a corner lies inside the other core: then nearest corners mean nothing.
@@ -141,10 +145,20 @@ bool offer_corners(const Hull& surface, const Hull& corners, bool corners_are_a,
         const Vec2 on_corner = c - corners.radius(i) * n;
         const std::uint32_t feature = (0x4000u << 16) | (corners_are_a ? 0x8000u : 0u) |
                                       (static_cast<std::uint32_t>(s.feature & 0x7f) << 8) | static_cast<std::uint32_t>(i & 0xff);
-        nearest = corners_are_a ? Nearest{separation, -n, on_corner, on_surface, feature}
-                                : Nearest{separation, n, on_surface, on_corner, feature};
+        nearest = corners_are_a ? Nearest{separation, -n, on_corner, on_surface, feature, i, s.feature, true}
+                                : Nearest{separation, n, on_surface, on_corner, feature, i, s.feature, false};
     }
     return true;
+}
+
+void note_corners(const Hull& a, const Hull& b, const Nearest& nearest, LocalManifold& out)
+{
+    const int opposite = nearest.opposite - (nearest.corner_of_a ? b : a).count();
+    if (opposite < 0)
+        return;
+    const int of_a = nearest.corner_of_a ? nearest.corner : opposite;
+    const int of_b = nearest.corner_of_a ? opposite : nearest.corner;
+    out.nearest = {{a.point(of_a), b.point(of_b)}, {a.cone(of_a), b.cone(of_b)}, {a.radius(of_a), b.radius(of_b)}};
 }
 
 bool lines_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d)
@@ -228,6 +242,7 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
         out.clipped.radius = -1;
         out.normal = nearest.normal;
         out.add(nearest.on_a, nearest.on_b, nearest.separation, nearest.feature);
+        note_corners(a, b, nearest, out);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "collision/edge_rules.h"
 #include "collision/manifold.h"
 #include "core/float4.h"
+#include "geometry/surface.h"
 
 #include <algorithm>
 #include <bit>
@@ -196,13 +197,13 @@ private:
         out.normal = flipped ? -n : n;
         out.clipped = {
             {start + reference.leaf->r0 * n, end + reference.leaf->r0 * n}, {others.at[i0], others.at[i1]}, flipped, radius};
-        out.reach = 3e38f;
+        float left_out = 3e38f;
         for (const ClipPoint& p : points)
         {
             const float separation = dot(n, p.core) - offset;
             if (separation > margin)
             {
-                out.leave_out(separation);
+                left_out = std::min(left_out, separation);
                 if (out.count == 0)
                     std::swap(out.clipped.corners[0], out.clipped.corners[1]);
                 continue;
@@ -218,10 +219,7 @@ private:
             if (i != i0 && i != i1)
                 third = std::min(third, dot(n, others.at[i]) - offset);
         }
-        if (out.count == 2)
-            out.bound_by_third(third);
-        else
-            out.leave_out(std::max(margin, third));
+        out.bound_by_third(third, margin, left_out);
         return out.count > 0;
     }
 
@@ -253,6 +251,10 @@ private:
         out.normal = n;
         out.add(m_corners_a.at[a] + m_a.leaf->r0 * n, m_corners_b.at[b] - m_b.leaf->r0 * n, separation,
                 (0x4000u << 16) | (static_cast<std::uint32_t>(a) << 8) | static_cast<std::uint32_t>(b));
+        out.nearest = {
+            {m_corners_a.at[a], m_corners_b.at[b]},
+            {corner_cone(m_a.normals, m_a.leaf->count, a), rotate(m_pose.rotation, corner_cone(m_b.normals, m_b.leaf->count, b))},
+            {m_a.leaf->r0, m_b.leaf->r0}};
         return true;
     }
 

@@ -26,6 +26,31 @@ bool find_edge(const LeafView& v, int feature, Vec2 n, Vec2 edge[2])
     return is_side;
 }
 
+// The corner that the feature is, or the center of a circle; none of a chain.
+NearestCorners find_corner(const LeafView& v, int feature, Vec2 center, float radius)
+{
+    const Leaf& leaf = *v.leaf;
+    const auto at = [&](Vec2 corner, Vec2 cone, float r) -> NearestCorners
+    { return {{corner, center}, {cone, {}}, {r, radius}}; };
+    const auto end = [&](int i)
+    {
+        return i == 0 ? at(leaf.p0, end_cone(leaf.p1, leaf.p0, leaf.r1, leaf.r0), leaf.r0)
+                      : at(leaf.p1, end_cone(leaf.p0, leaf.p1, leaf.r0, leaf.r1), leaf.r1);
+    };
+    switch (leaf.type)
+    {
+    case LeafType::Circle: return at(leaf.p0, {}, leaf.r0);
+    case LeafType::Polygon:
+    {
+        const int corner = feature - leaf.count;
+        return at(v.points[corner], corner_cone(v.normals, leaf.count, corner), leaf.r0);
+    }
+    case LeafType::Capsule: return end(feature - 2);
+    case LeafType::Segment: return end(feature - 1);
+    default: return {};
+    }
+}
+
 } // namespace
 
 void collide_surface_circle(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
@@ -48,6 +73,10 @@ void collide_surface_circle(const LeafView& a, const LeafView& b, const Relative
     {
         out.clipped.corners[0] = out.clipped.corners[1] = c;
         out.clipped.radius = r;
+    }
+    else
+    {
+        out.nearest = find_corner(a, s->feature, c, r);
     }
 }
 

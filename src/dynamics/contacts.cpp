@@ -211,8 +211,11 @@ public:
     {
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
             update(i);
-        for (int i = 0; i < m_waiting; ++i)
-            update_alone(m_places[i]);
+        for (const Waiting& w : m_waiting)
+        {
+            for (int i = 0; i < w.count; ++i)
+                update_alone(w.places[i]);
+        }
         news.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
@@ -236,37 +239,45 @@ private:
             update_alone(i);
             return;
         }
-        m_lanes.v[m_waiting] = index;
-        m_places[m_waiting++] = i;
-        if (m_waiting == lane_count)
-            follow_together();
+        Waiting& w = m_waiting[contact.manifold.count - 1];
+        w.contacts.v[w.count] = index;
+        w.places[w.count++] = i;
+        if (w.count == lane_count)
+            follow_together(contact.manifold.count, w);
     }
 
     void update_alone(std::size_t i) { m_news[i] = update_contact(m_ctx, m_contacts[i]); }
 
-    void follow_together()
+    // For others with as many points.
+    struct Waiting
+    {
+        LaneInts contacts{};
+        std::size_t places[lane_count]{};
+        int count = 0;
+    };
+
+    void follow_together(int points, Waiting& w)
     {
         FollowedContacts found;
-        m_kernels.follow_contacts(m_lanes, &m_ctx.state.contacts[0], m_scene, found);
+        m_kernels.follow_contacts(w.contacts, points, &m_ctx.state.contacts[0], m_scene, found);
         for (int i = 0; i < lane_count; ++i)
         {
-            Contact& contact = m_ctx.state.contacts[m_lanes.v[i]];
+            Contact& contact = m_ctx.state.contacts[w.contacts.v[i]];
             contact.flags &= ~contact_flag::followed;
-            if ((found.sure >> i & 1u) == 0)
-                update_alone(m_places[i]);
+            const bool sure = (found.sure >> i & 1u) != 0 && (points == 2 || is_within_margin(m_ctx, contact, found.one, i));
+            if (!sure)
+                update_alone(w.places[i]);
             else
-                m_news[m_places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
+                m_news[w.places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
         }
-        m_waiting = 0;
+        w.count = 0;
     }
 
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
     FollowedScene m_scene;
     News m_news[contacts_per_task];
-    LaneInts m_lanes{};
-    std::size_t m_places[lane_count]{}; ///< of those that wait for others
-    int m_waiting = 0;
+    Waiting m_waiting[2]; ///< with one point, with two
     const WideKernels& m_kernels = wide_kernels();
 };
 

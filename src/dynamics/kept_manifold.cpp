@@ -14,7 +14,7 @@ namespace {
 constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is likely to be the same
 constexpr float surely_turned = 0.9801f;
 
-// An edge's normal belongs to the body of the edge; what is nearest at two corners, or on two circles, has a normal of its own.
+// An edge's normal belongs to the body of the edge, that of two corners or circles to none.
 bool can_keep(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
     const auto has_edges = [&](int shape)
@@ -24,35 +24,29 @@ bool can_keep(const SceneState& state, const Contact& contact, const LocalManifo
         return type == LeafType::Polygon || type == LeafType::Capsule || type == LeafType::Circle || is_line;
     };
     return (contact.flags & contact_flag::one_way) == 0 && has_edges(contact.shape_a) && has_edges(contact.shape_b) &&
-           (found.count == 0 || found.clipped.radius >= 0);
+           (found.count == 0 || found.clipped.radius >= 0 || found.nearest.radii[0] >= 0);
 }
 
 const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
 
-Vec2 place_of_b(const BodySim& a, const BodySim& b) { return inverse_rotate(a.rotation, b.center - a.center); }
+Vec2 place_of(const BodySim& other, const BodySim& own) { return inverse_rotate(own.rotation, other.center - own.center); }
 
-// How far any point of b has moved against a since the manifold was found, and the cosine of the angle that it has turned.
+// How far any point of the other has moved against the edge's body since the manifold was found, and the cosine of the angle that it has turned.
 struct Moved
 {
-    float way = 3e38f;
-    float cosine = -1;
+    float way;
+    float cosine;
 };
 
-Moved moved_since(const KeptManifold& kept, const BodySim& a, const BodySim& b)
+Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
 {
-    const Rotation turn = inverse(a.rotation) * b.rotation * inverse(kept.rotation);
+    const Rotation turn = inverse(own.rotation) * other.rotation * inverse(kept.rotation);
     const float chord = std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c));
-    return {length(place_of_b(a, b) - kept.center) + b.extent * chord, turn.c};
+    return {length(place_of(other, own) - kept.center) + other.extent * chord, turn.c};
 }
 
-void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalManifold& found)
+void keep_edge(KeptEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
 {
-    kept.center = place_of_b(a, b);
-    kept.rotation = inverse(a.rotation) * b.rotation;
-    kept.reach = found.reach;
-    if (found.count == 0)
-        return;
-    const RelativePose pose = relative_pose(a.pose(), b.pose());
     const bool of_b = found.clipped.of_b;
     const auto on_a = [&](Vec2 p) { return p - a.local_center; };
     const auto on_b = [&](Vec2 p) { return pose.to_b(p) - b.local_center; };
@@ -64,20 +58,45 @@ void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalMan
         kept.corners[i] = of_b ? on_a(corner) : on_b(corner);
     }
     kept.normal = of_b ? inverse_rotate(pose.rotation, found.normal) : found.normal;
-    kept.radius = found.clipped.radius;
 }
 
-// What has no point has no edge that another could take the place of.
-bool is_true_still(int points, const Moved& moved, float margin, float reach, float longest_way)
+void keep_corners(KeptCorners& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const NearestCorners& found)
 {
-    const bool keeps_edge = points == 0 ? moved.cosine > 0 : moved.way < longest_way && moved.cosine > least_cosine;
-    return keeps_edge && (points == 2 ? moved.way <= reach : margin + moved.way <= reach);
+    kept.corners[0] = found.at[0] - a.local_center;
+    kept.corners[1] = pose.to_b(found.at[1]) - b.local_center;
+    kept.cones[0] = found.cones[0];
+    kept.cones[1] = inverse_rotate(pose.rotation, found.cones[1]);
+    kept.radii[0] = found.radii[0];
+    kept.radii[1] = found.radii[1];
+}
+
+void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalManifold& found)
+{
+    const BodySim& own = found.clipped.of_b ? b : a;
+    const BodySim& other = found.clipped.of_b ? a : b;
+    kept.center = place_of(other, own);
+    kept.rotation = inverse(own.rotation) * other.rotation;
+    kept.reach = found.reach;
+    kept.radius = found.clipped.radius;
+    if (found.count == 0)
+        return;
+    const RelativePose pose = relative_pose(a.pose(), b.pose());
+    if (found.clipped.radius >= 0)
+        keep_edge(kept.found.edge, a, b, pose, found);
+    else
+        keep_corners(kept.found.nearest, a, b, pose, found.nearest);
+}
+
+// Within which there are points.
+float margin_of(const StepContext& ctx, const Contact& contact)
+{
+    return ctx.scene.tolerances.speculation + relative_motion(ctx.state, contact);
 }
 
 // The two corners before the edge, from the center of the edge's body.
 struct Facing
 {
-    const KeptManifold& kept;
+    float radius;
     bool of_b;
     Vec2 n;      ///< out of the edge
     Vec2 offset; ///< from the center of the edge's body to the other's
@@ -86,8 +105,9 @@ struct Facing
     float along[2]; ///< how far along the edge, times its length
     float end;      ///< as far is the edge's
 
-    Facing(const KeptManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : kept(k), of_b(edge_of_b)
+    Facing(const KeptManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : radius(k.radius), of_b(edge_of_b)
     {
+        const KeptEdge& kept = k.found.edge;
         const BodySim& own = of_b ? b : a;
         const BodySim& other = of_b ? a : b;
         const Vec2 apart = b.center - a.center;
@@ -104,42 +124,133 @@ struct Facing
         }
     }
 
-    // Does the edge between the corners lie before the edge? A single one must not have left it.
-    [[nodiscard]] bool meets(int points) const
-    {
-        const bool left = along[0] < 0 && (points == 1 || along[1] < 0);
-        const bool right = along[0] > end && (points == 1 || along[1] > end);
-        return !left && !right;
-    }
-
     // What of the edge between the corners is before the edge ends at its ends.
-    void put(int i, ManifoldPoint& p) const
+    struct Foot
     {
-        const float inside = std::min(std::max(along[i], 0.0f), end);
-        const float beyond = inside - along[i];
+        Vec2 on_edge;
+        Vec2 on_other;
+        float separation;
+        bool inside; ///< it is the corner itself
+    };
+
+    [[nodiscard]] Foot foot(int i) const
+    {
+        const float nearest = std::min(std::max(along[i], 0.0f), end);
+        const float beyond = nearest - along[i];
         const float t = beyond != 0 ? beyond / (along[1 - i] - along[i]) : 0;
         const Vec2 core = corners[i] + t * (corners[1 - i] - corners[i]);
-        p.separation = dot(n, core - start) - kept.radius;
-        const Vec2 on_other = core - kept.radius * n;
-        const Vec2 on_edge = on_other - p.separation * n;
-        p.anchor_a = of_b ? on_other - offset : on_edge;
-        p.anchor_b = of_b ? on_edge : on_other - offset;
+        Foot f;
+        f.separation = dot(n, core - start) - radius;
+        f.on_other = core - radius * n;
+        f.on_edge = f.on_other - f.separation * n;
+        f.inside = beyond == 0;
+        return f;
+    }
+
+    // Does any of the edge between the corners lie before the edge?
+    [[nodiscard]] bool meets() const { return !(along[0] < 0 && along[1] < 0) && !(along[0] > end && along[1] > end); }
+
+    [[nodiscard]] bool is_round() const { return corners[0].x == corners[1].x && corners[0].y == corners[1].y; }
+
+    void put(int i, ManifoldPoint& p) const
+    {
+        const Foot f = foot(i);
+        p.separation = f.separation;
+        p.anchor_a = of_b ? f.on_other - offset : f.on_edge;
+        p.anchor_b = of_b ? f.on_edge : f.on_other - offset;
     }
 };
 
-void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, bool of_b, Manifold& m)
+// Is the edge the one still that faces best? Surely where the lowest corner is outside and before it, and else for a while.
+bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved& moved, float longest_way)
+{
+    const bool is_outside = lowest.inside && lowest.separation + facing.radius > 0;
+    return is_outside || (moved.way < longest_way && moved.cosine > least_cosine);
+}
+
+// One corner before the edge, the other too far away to be a second point.
+bool has_one_point(const KeptManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_way)
+{
+    const Facing::Foot near = facing.foot(0);
+    const bool is_alone = facing.is_round() || facing.foot(1).separation > margin;
+    return near.inside && near.separation <= margin && is_alone && margin + moved.way <= kept.reach &&
+           is_best_still(facing, near, moved, longest_way);
+}
+
+bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
+{
+    const Facing::Foot first = facing.foot(0);
+    const Facing::Foot second = facing.foot(1);
+    const Facing::Foot& lowest = second.separation < first.separation ? second : first;
+    return facing.meets() && moved.way <= kept.reach && is_best_still(facing, lowest, moved, longest_way);
+}
+
+// The way from one corner to the other that is nearest to it.
+struct Nearest
+{
+    const KeptCorners& kept;
+    Vec2 from; ///< the center of a, and to that of b
+    Vec2 to;
+    Vec2 n;
+    float separation;
+    bool leads_out; ///< of both cones: nothing is nearer
+
+    Nearest(const KeptCorners& k, const BodySim& a, const BodySim& b) : kept(k)
+    {
+        from = rotate(a.rotation, kept.corners[0]);
+        to = rotate(b.rotation, kept.corners[1]);
+        const Vec2 gap = (b.center - a.center) + to - from;
+        const float distance = std::sqrt(dot(gap, gap));
+        n = {gap.x / distance, gap.y / distance};
+        separation = distance - (kept.radii[0] + kept.radii[1]);
+        leads_out = distance > KeptCorners::least_distance &&
+                    dot(n, rotate(a.rotation, kept.cones[0])) >= dot(kept.cones[0], kept.cones[0]) &&
+                    dot(-n, rotate(b.rotation, kept.cones[1])) >= dot(kept.cones[1], kept.cones[1]);
+    }
+
+    void put(Manifold& m) const
+    {
+        m.normal = n;
+        m.points[0].separation = separation;
+        m.points[0].anchor_a = from + kept.radii[0] * n;
+        m.points[0].anchor_b = to - kept.radii[1] * n;
+    }
+};
+
+void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, Manifold& m)
 {
     if (m.count == 0)
         return;
+    if (keeps_nearest(contact))
+    {
+        Nearest(kept.found.nearest, a, b).put(m);
+        return;
+    }
+    const bool of_b = keeps_edge_of_b(contact);
     const Facing facing(kept, a, b, of_b);
-    m.normal = rotate(of_b ? b.rotation : a.rotation, kept.normal);
+    m.normal = rotate(of_b ? b.rotation : a.rotation, kept.found.edge.normal);
     for (int i = 0; i < m.count; ++i)
         facing.put(i, m.points[i]);
 }
 
-bool faces_still(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact)
+// Is what it found still what would be found?
+bool can_follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
+                float longest_way)
 {
-    return contact.manifold.count == 0 || Facing(kept, a, b, keeps_edge_of_b(contact)).meets(contact.manifold.count);
+    if (!is_kept(contact))
+        return false;
+    if (contact.manifold.count == 0)
+        return margin + moved_since(kept, a, b).way <= kept.reach;
+    if (keeps_nearest(contact))
+    {
+        const Nearest nearest(kept.found.nearest, a, b);
+        return nearest.leads_out && nearest.separation <= margin;
+    }
+    const bool of_b = keeps_edge_of_b(contact);
+    const Moved moved = of_b ? moved_since(kept, b, a) : moved_since(kept, a, b);
+    const Facing facing(kept, a, b, of_b);
+    return contact.manifold.count == 1 ? has_one_point(kept, facing, moved, margin, longest_way)
+                                       : has_two_points(kept, facing, moved, longest_way);
 }
 
 } // namespace
@@ -153,11 +264,10 @@ void follow_manifold(const StepContext& ctx, int index)
     const BodySim& b = sim_of(state, contact.body_b);
     const Tolerances& t = ctx.scene.tolerances;
     contact.flags &= ~contact_flag::followed;
-    const Moved moved = is_kept(contact) ? moved_since(kept, a, b) : Moved{};
-    const float margin = t.speculation + relative_motion(state, contact);
-    if (is_true_still(contact.manifold.count, moved, margin, kept.reach, t.keep) && faces_still(kept, a, b, contact))
+    const float margin = margin_of(ctx, contact);
+    if (can_follow(kept, a, b, contact, margin, t.keep))
     {
-        follow(kept, a, b, keeps_edge_of_b(contact), contact.manifold);
+        follow(kept, a, b, contact, contact.manifold);
         return;
     }
     const Manifold old = contact.manifold;
@@ -166,11 +276,19 @@ void follow_manifold(const StepContext& ctx, int index)
     const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
     contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold);
-    contact.flags &= ~(contact_flag::kept | contact_flag::edge_of_b);
+    contact.flags &= ~(contact_flag::kept | contact_flag::edge_of_b | contact_flag::nearest);
     if (!can_keep(state, contact, found))
         return;
-    contact.flags |= contact_flag::kept | (found.clipped.of_b ? contact_flag::edge_of_b : 0u);
+    contact.flags |= contact_flag::kept | (found.clipped.of_b ? contact_flag::edge_of_b : 0u) |
+                     (found.count > 0 && found.clipped.radius < 0 ? contact_flag::nearest : 0u);
     keep(kept, a, b, found);
+}
+
+bool is_within_margin(const StepContext& ctx, const Contact& contact, const OnePoint& now, int lane)
+{
+    const float margin = margin_of(ctx, contact);
+    return margin + now.way.v[lane] < surely * now.reach.v[lane] && now.separation.v[lane] <= margin &&
+           now.second.v[lane] > margin;
 }
 
 FollowedScene followed_scene(const StepContext& ctx)
@@ -192,7 +310,7 @@ Manifold manifold_at_start(const SceneState& state, int index)
     Manifold m = contact.manifold;
     if ((contact.flags & contact_flag::followed) != 0)
         follow(state.kept_manifolds[static_cast<std::size_t>(index)], sim_of(state, contact.body_a),
-               sim_of(state, contact.body_b), keeps_edge_of_b(contact), m);
+               sim_of(state, contact.body_b), contact, m);
     return m;
 }
 
@@ -212,8 +330,7 @@ Manifold settled_manifold(const SceneState& state, int index)
         }
         return sim;
     };
-    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b),
-           keeps_edge_of_b(contact), m);
+    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b), contact, m);
     return m;
 }
 

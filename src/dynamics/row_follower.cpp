@@ -53,8 +53,7 @@ std::uint32_t RowFollower::beyond_margins(const WideRow& row, const FollowedRow&
         const std::int32_t contact = row.contact.v[i];
         if (contact == none)
             continue;
-        const float margin = m_scene.speculation + relative_motion(m_state, m_state.contacts[contact]);
-        if (!(margin + now.way.v[i] < surely * now.reach.v[i]))
+        if (!is_within_margin(m_ctx, m_state.contacts[contact], now.one, i))
             beyond |= 1u << i;
     }
     return beyond;

@@ -45,7 +45,7 @@ void start_wide_row(WideRow& row)
 {
     clear_sums(row);
     row.coupling = {};
-    row.may_hit = row.untold = row.edge_of_b = row.kept = row.followed = 0;
+    row.may_hit = row.untold = row.edge_of_b = row.nearest = row.kept = row.followed = 0;
 }
 
 void empty_wide_row(std::int32_t fixed, WideRow& row)
@@ -82,6 +82,8 @@ void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
     row.count = m.count;
     if (keeps_edge_of_b(contact))
         row.edge_of_b |= 1u << i;
+    if (keeps_nearest(contact))
+        row.nearest |= 1u << i;
     for (int k = 0; k < m.count; ++k)
     {
         const ManifoldPoint& from = m.points[k];
@@ -139,6 +141,7 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
     row.may_hit &= ~(1u << i);
     row.untold &= ~(1u << i);
     row.edge_of_b &= ~(1u << i);
+    row.nearest &= ~(1u << i);
     row.kept &= ~(1u << i);
     row.followed &= ~(1u << i);
     fill_lane(ctx, states, row, i);

@@ -81,19 +81,21 @@ CAROM_INLINE Arrow centers_apart(const Places& places)
 
 CAROM_INLINE F8 length_of(const Arrow& v) { return root(v.x * v.x + v.y * v.y); }
 
-// How far any point of b has moved against a since the manifold was found; 3e38 where it has turned too far.
-CAROM_INLINE F8 way_since(const Places& places, const Turn& a, const Turn& b, const Arrow& apart, const Arrow& kept_center,
-                          const Turn& kept, float sure_cosine)
+struct Moved
 {
-    const Turn now = {a.c * b.c + a.s * b.s, a.c * b.s - a.s * b.c};
+    F8 way;
+    F8 cosine;
+};
+
+// How far any point of the other has moved against the edge's body since the manifold was found, and how far it has turned.
+CAROM_INLINE Moved moved_since(const Turn& own, const Turn& other, const Arrow& offset, const LaneFloats& extent,
+                               const Arrow& kept_center, const Turn& kept)
+{
+    const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
     const F8 cosine = now.c * kept.c + now.s * kept.s;
     const F8 sine = now.s * kept.c - now.c * kept.s;
-    const Arrow moved = {a.c * apart.x + a.s * apart.y - kept_center.x, a.c * apart.y - a.s * apart.x - kept_center.y};
-    LaneFloats extent;
-    for (int i = 0; i < lane_count; ++i)
-        extent.v[i] = places.b[i]->extent;
-    const F8 way = length_of(moved) + load(extent) * length_of({sine, 1 - cosine});
-    return select(cosine > all(sure_cosine), way, all(3e38f));
+    const Arrow moved = {own.c * offset.x + own.s * offset.y - kept_center.x, own.c * offset.y - own.s * offset.x - kept_center.y};
+    return {length_of(moved) + load(extent) * length_of({sine, 1 - cosine}), cosine};
 }
 
 CAROM_INLINE I8 lanes_of(std::uint32_t bits)
@@ -102,66 +104,29 @@ CAROM_INLINE I8 lanes_of(std::uint32_t bits)
     return (I8{b, b, b, b, b, b, b, b} & I8{1, 2, 4, 8, 16, 32, 64, 128}) != I8{};
 }
 
-// How the bodies of eight contacts stand to each other, and what is kept of them; as Facing in kept_manifold.cpp.
-struct Stand
+// Of eight contacts what is kept of them, as it lies there.
+struct Kept
 {
-    Arrow n;       ///< from a to b
-    Arrow outward; ///< of the edge
-    Arrow offset;  ///< from the center of the edge's body to the other's
-    Arrow start;
-    Arrow corners[2];
-    F8 along[2];
-    F8 end;
-    F8 way, reach, radius;
-    I8 edge_of_b;
+    Arrow first[2];  ///< the edge, or both corners
+    Arrow second[2]; ///< the corners before the edge, or the cones of both
+    Arrow last;      ///< the normal, or both radii
+    Arrow center;
+    Turn rotation;
+    F8 reach, radius;
 
-    CAROM_INLINE Stand(const Places& places, I8 edges_of_b, const FollowedScene& scene) : edge_of_b(edges_of_b)
+    CAROM_INLINE explicit Kept(const Places& places)
     {
-        static_assert(offsetof(KeptManifold, edge) == 0 && offsetof(KeptManifold, corners) == 16 &&
-                      offsetof(KeptManifold, normal) == 32 && offsetof(KeptManifold, center) == 40 &&
-                      offsetof(KeptManifold, rotation) == 48 && offsetof(KeptManifold, reach) == 56 &&
-                      offsetof(KeptManifold, radius) == 60);
-        const auto kept_at = [&](int offset_of)
-        { return [&places, offset_of](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset_of; }; };
-        const Turn a = turns_of(places.a);
-        const Turn b = turns_of(places.b);
-        const Arrow apart = centers_apart(places);
-        Arrow normal;
-        Arrow kept_center;
-        gather4(kept_at(32), normal.x, normal.y, kept_center.x, kept_center.y);
-        Turn kept;
-        gather4(kept_at(48), kept.c, kept.s, reach, radius);
-        way = way_since(places, a, b, apart, kept_center, kept, scene.sure_cosine);
-        const Turn own = {select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)};
-        const Turn other = {select(edge_of_b, a.c, b.c), select(edge_of_b, a.s, b.s)};
-        n = turned(own, normal);
-        outward = {select(edge_of_b, -n.x, n.x), select(edge_of_b, -n.y, n.y)};
-        offset = {select(edge_of_b, -apart.x, apart.x), select(edge_of_b, -apart.y, apart.y)};
-        Arrow stop;
-        gather4(kept_at(0), start.x, start.y, stop.x, stop.y);
-        gather4(kept_at(16), corners[0].x, corners[0].y, corners[1].x, corners[1].y);
-        start = turned(own, start);
-        stop = turned(own, stop);
-        const Arrow edge = {stop.x - start.x, stop.y - start.y};
-        end = edge.x * edge.x + edge.y * edge.y;
-        for (int i = 0; i < 2; ++i)
-        {
-            const Arrow corner = turned(other, corners[i]);
-            corners[i] = {offset.x + corner.x, offset.y + corner.y};
-            along[i] = edge.x * (corners[i].x - start.x) + edge.y * (corners[i].y - start.y);
-        }
-    }
-
-    CAROM_INLINE I8 meets(int points) const
-    {
-        I8 left = along[0] < all(0);
-        I8 right = along[0] > end;
-        if (points == 2)
-        {
-            left &= along[1] < all(0);
-            right &= along[1] > end;
-        }
-        return ~(left | right);
+        static_assert(offsetof(KeptManifold, found) == 0 &&
+                      offsetof(KeptManifold, center) == 40 && offsetof(KeptManifold, rotation) == 48 &&
+                      offsetof(KeptManifold, reach) == 56 && offsetof(KeptManifold, radius) == 60);
+        static_assert(offsetof(KeptEdge, corners) == 16 && offsetof(KeptEdge, normal) == 32 && offsetof(KeptCorners, cones) == 16 &&
+                      offsetof(KeptCorners, radii) == 32);
+        const auto at = [&](int offset)
+        { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
+        gather4(at(0), first[0].x, first[0].y, first[1].x, first[1].y);
+        gather4(at(16), second[0].x, second[0].y, second[1].x, second[1].y);
+        gather4(at(32), last.x, last.y, center.x, center.y);
+        gather4(at(48), rotation.c, rotation.s, reach, radius);
     }
 };
 
@@ -169,6 +134,56 @@ struct Point
 {
     Arrow a, b; ///< anchors
     F8 separation;
+    I8 inside; ///< it is the corner itself that is before the edge
+};
+
+// How the bodies of eight contacts stand to each other, and an edge to the corners before it; as Facing in kept_manifold.cpp.
+struct Stand
+{
+    Turn a, b;
+    Arrow apart;   ///< from the center of a to that of b
+    Arrow n;       ///< from a to b
+    Arrow outward; ///< of the edge
+    Arrow offset;  ///< from the center of the edge's body to the other's
+    Arrow start;
+    Arrow corners[2];
+    F8 along[2];
+    F8 end;
+    F8 reach, radius;
+    Moved moved;
+    I8 edge_of_b;
+
+    CAROM_INLINE Stand(const Places& places, const Kept& kept, std::uint32_t edges_of_b)
+        : a(turns_of(places.a)), b(turns_of(places.b)), apart(centers_apart(places)), reach(kept.reach), radius(kept.radius),
+          edge_of_b(lanes_of(edges_of_b))
+    {
+        const Turn own = {select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)};
+        const Turn other = {select(edge_of_b, a.c, b.c), select(edge_of_b, a.s, b.s)};
+        n = turned(own, kept.last);
+        outward = {select(edge_of_b, -n.x, n.x), select(edge_of_b, -n.y, n.y)};
+        offset = {select(edge_of_b, -apart.x, apart.x), select(edge_of_b, -apart.y, apart.y)};
+        start = turned(own, kept.first[0]);
+        const Arrow stop = turned(own, kept.first[1]);
+        const Arrow edge = {stop.x - start.x, stop.y - start.y};
+        end = edge.x * edge.x + edge.y * edge.y;
+        for (int i = 0; i < 2; ++i)
+        {
+            const Arrow corner = turned(other, kept.second[i]);
+            corners[i] = {offset.x + corner.x, offset.y + corner.y};
+            along[i] = edge.x * (corners[i].x - start.x) + edge.y * (corners[i].y - start.y);
+        }
+        LaneFloats extent;
+        for (int i = 0; i < lane_count; ++i)
+            extent.v[i] = ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent;
+        moved = moved_since(own, other, offset, extent, kept.center, kept.rotation);
+    }
+
+    CAROM_INLINE I8 meets() const
+    {
+        return ~(((along[0] < all(0)) & (along[1] < all(0))) | ((along[0] > end) & (along[1] > end)));
+    }
+
+    CAROM_INLINE I8 is_round() const { return (corners[0].x == corners[1].x) & (corners[0].y == corners[1].y); }
 };
 
 CAROM_INLINE Point follow_point(int k, const Stand& s)
@@ -179,6 +194,7 @@ CAROM_INLINE Point follow_point(int k, const Stand& s)
     const Arrow core = {s.corners[k].x + t * (s.corners[1 - k].x - s.corners[k].x),
                         s.corners[k].y + t * (s.corners[1 - k].y - s.corners[k].y)};
     Point p;
+    p.inside = beyond == all(0);
     p.separation = (s.outward.x * (core.x - s.start.x) + s.outward.y * (core.y - s.start.y)) - s.radius;
     const Arrow on_other = {core.x - s.radius * s.outward.x, core.y - s.radius * s.outward.y};
     const Arrow on_edge = {on_other.x - p.separation * s.outward.x, on_other.y - p.separation * s.outward.y};
@@ -207,80 +223,162 @@ CAROM_INLINE I8 bears(const WideRow& row)
     return loaded;
 }
 
+CAROM_INLINE F8 dot(const Arrow& v, const Arrow& w) { return v.x * w.x + v.y * w.y; }
+
+CAROM_INLINE Arrow select(I8 mask, const Arrow& v, const Arrow& w)
+{
+    return {carom::internal::select(mask, v.x, w.x), carom::internal::select(mask, v.y, w.y)};
+}
+
+// What has become of eight manifolds.
+struct Found
+{
+    Arrow n;
+    Point points[2];
+    F8 separation; ///< the least
+    F8 second;     ///< of one point: of what would be another
+    F8 way, reach;
+    I8 holds; ///< what was kept is true still; of one point, as far as its margin
+};
+
+CAROM_INLINE I8 is_best_still(const Stand& s, I8 inside, F8 lowest, const FollowedScene& scene)
+{
+    const I8 is_outside = inside & (lowest + s.radius > all(0));
+    return is_outside | ((s.moved.way < all(scene.sure_way)) & (s.moved.cosine > all(scene.sure_cosine)));
+}
+
+// What is known of eight contacts, as bits of lanes.
+struct Kinds
+{
+    std::uint32_t edge_of_b = 0;
+    std::uint32_t nearest = 0;
+};
+
+// From corner to corner, as Nearest in kept_manifold.cpp.
+CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found& found)
+{
+    const Arrow from = turned(s.a, kept.first[0]);
+    const Arrow to = turned(s.b, kept.first[1]);
+    const Arrow gap = {s.apart.x + to.x - from.x, s.apart.y + to.y - from.y};
+    const F8 distance = length_of(gap);
+    const Arrow n = {gap.x / distance, gap.y / distance};
+    const F8 separation = distance - (kept.last.x + kept.last.y);
+    const Arrow back = {-n.x, -n.y};
+    const I8 leads_out = (distance > all(KeptCorners::least_distance)) &
+                         (dot(n, turned(s.a, kept.second[0])) >= dot(kept.second[0], kept.second[0])) &
+                         (dot(back, turned(s.b, kept.second[1])) >= dot(kept.second[1], kept.second[1]));
+    Point& p = found.points[0];
+    found.n = select(lanes, n, found.n);
+    p.a = select(lanes, {from.x + kept.last.x * n.x, from.y + kept.last.x * n.y}, p.a);
+    p.b = select(lanes, {to.x - kept.last.y * n.x, to.y - kept.last.y * n.y}, p.b);
+    p.separation = found.separation = carom::internal::select(lanes, separation, p.separation);
+    found.second = carom::internal::select(lanes, all(3e38f), found.second);
+    found.way = carom::internal::select(lanes, all(0), found.way);
+    found.reach = carom::internal::select(lanes, all(3e38f), found.reach);
+    found.holds = (found.holds & ~lanes) | (leads_out & lanes);
+}
+
+CAROM_INLINE Found follow_points(int count, const Places& places, const Kinds& kinds, const FollowedScene& scene)
+{
+    const Kept kept(places);
+    const Stand stand(places, kept, kinds.edge_of_b);
+    Found found;
+    found.n = stand.n;
+    found.way = stand.moved.way;
+    found.reach = stand.reach;
+    found.points[0] = follow_point(0, stand);
+    found.points[1] = follow_point(1, stand);
+    const F8 first = found.points[0].separation;
+    const F8 second = found.points[1].separation;
+    if (count == 2)
+    {
+        const I8 second_is_lower = second < first;
+        found.separation = carom::internal::select(second_is_lower, second, first);
+        const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
+        found.holds = stand.meets() & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
+        return found;
+    }
+    found.separation = first;
+    found.second = carom::internal::select(stand.is_round(), all(3e38f), second);
+    found.holds = found.points[0].inside & is_best_still(stand, found.points[0].inside, first, scene);
+    if (kinds.nearest != 0)
+        take_nearest(lanes_of(kinds.nearest), kept, stand, found);
+    return found;
+}
+
+CAROM_INLINE void tell_one(const Found& now, OnePoint& one)
+{
+    store(one.way, now.way);
+    store(one.reach, now.reach);
+    store(one.separation, now.separation);
+    store(one.second, now.second);
+}
+
 // Lanes by what has become of their contacts.
-CAROM_INLINE void tell(const WideRow& row, const Stand& stand, F8 separation, I8 filled, const FollowedScene& scene, FollowedRow& found)
+CAROM_INLINE void tell(const WideRow& row, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
 {
     const I8 touching = ~lanes_of(row.untold);
     const I8 loaded = bears(row);
-    I8 sure = lanes_of(row.kept) & (stand.way < all(scene.sure_way)) & stand.meets(row.count);
-    if (row.count == 2)
-        sure &= stand.way < stand.reach * scene.surely;
-    const I8 near = separation <= select(touching, all(2 * scene.slop), all(scene.slop));
-    const I8 borne = loaded & (separation <= all(scene.speculation));
-    found.unsure = bits(filled & ~sure);
+    const I8 near = now.separation <= carom::internal::select(touching, all(2 * scene.slop), all(scene.slop));
+    const I8 borne = loaded & (now.separation <= all(scene.speculation));
+    found.unsure = bits(filled & ~(lanes_of(row.kept) & now.holds));
     found.begins_or_ends = bits(filled & (near != touching));
     found.borne = bits(filled & borne);
-    found.sunk = bits(filled & ~borne & (separation < all(-scene.slop)));
+    found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
     found.unloaded = bits(filled & ~loaded);
-    store(found.way, stand.way);
-    store(found.reach, stand.reach);
+    store(found.separation, now.separation);
+    if (row.count == 1)
+        tell_one(now, found.one);
 }
 
 void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
 {
     const Places places(row, scene);
     const I8 filled = load(row.contact) >= I8{};
-    const Stand stand(places, lanes_of(row.edge_of_b), scene);
-    store(row.nx, select(filled, stand.n.x, all(0)));
-    store(row.ny, select(filled, stand.n.y, all(0)));
-    const Point first = follow_point(0, stand);
-    put(row.points[0], first, stand.n, filled);
-    F8 separation = first.separation;
-    if (row.count == 2)
-    {
-        const Point second = follow_point(1, stand);
-        put(row.points[1], second, stand.n, filled);
-        separation = least(separation, second.separation);
-    }
-    store(found.separation, separation);
-    tell(row, stand, separation, filled, scene, found);
+    const Found now = follow_points(row.count, places, {row.edge_of_b, row.nearest}, scene);
+    store(row.nx, carom::internal::select(filled, now.n.x, all(0)));
+    store(row.ny, carom::internal::select(filled, now.n.y, all(0)));
+    for (int k = 0; k < row.count; ++k)
+        put(row.points[k], now.points[k], now.n, filled);
+    tell(row, now, filled, scene, found);
 }
 
-// The same for eight contacts of two points that are in no row now: into their manifolds.
-void follow_contacts(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found)
+// The same for eight contacts with as many points each that are in no row now: into their manifolds.
+void follow_contacts(const LaneInts& contacts, int count, Contact* into, const FollowedScene& scene, FollowedContacts& found)
 {
     static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
     const Places places(contacts, scene);
-    std::uint32_t of_b = 0;
+    Kinds kinds;
     std::uint32_t touching = 0;
     for (int i = 0; i < lane_count; ++i)
     {
-        const Contact& contact = into[contacts.v[i]];
-        of_b |= (contact.flags & contact_flag::edge_of_b) != 0 ? 1u << i : 0;
-        touching |= (contact.flags & contact_flag::touching) != 0 ? 1u << i : 0;
+        const std::uint32_t flags = into[contacts.v[i]].flags;
+        kinds.edge_of_b |= (flags & contact_flag::edge_of_b) != 0 ? 1u << i : 0;
+        kinds.nearest |= (flags & contact_flag::nearest) != 0 ? 1u << i : 0;
+        touching |= (flags & contact_flag::touching) != 0 ? 1u << i : 0;
     }
-    const Stand stand(places, lanes_of(of_b), scene);
+    const Found now = follow_points(count, places, kinds, scene);
     const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
-    LaneFloats nx;
-    LaneFloats ny;
-    store(nx, stand.n.x);
-    store(ny, stand.n.y);
-    F8 least_separation = all(3e38f);
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < count; ++k)
     {
-        const Point p = follow_point(k, stand);
-        least_separation = least(least_separation, p.separation);
+        const Point& p = now.points[k];
         scatter4([&](int i) { return reinterpret_cast<char*>(&manifold(i).points[k].anchor_a); }, p.a.x, p.a.y, p.b.x, p.b.y);
         LaneFloats separation;
         store(separation, p.separation);
         for (int i = 0; i < lane_count; ++i)
             manifold(i).points[k].separation = separation.v[i];
     }
+    LaneFloats nx;
+    LaneFloats ny;
+    store(nx, now.n.x);
+    store(ny, now.n.y);
     for (int i = 0; i < lane_count; ++i)
         manifold(i).normal = {nx.v[i], ny.v[i]};
-    const I8 near = least_separation <= all(2 * scene.slop);
-    found.sure = bits((stand.way < all(scene.sure_way)) & (stand.way < stand.reach * scene.surely) & stand.meets(2));
+    const I8 near = now.separation <= all(2 * scene.slop);
+    found.sure = bits(now.holds);
     found.touch_on = bits(near) & touching;
+    if (count == 1)
+        tell_one(now, found.one);
 }
 
 // Impulses of a point, side by side in a row, one after the other in a contact.

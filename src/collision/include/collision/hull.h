@@ -65,6 +65,11 @@ public:
     [[nodiscard]] Vec2 normal(int i) const { return m_normals[i]; }
     [[nodiscard]] float radius(int i) const { return m_radii[i & (m_count == 2)]; }
     [[nodiscard]] float offset(int edge) const { return dot(m_normals[edge], m_points[edge]) + radius(edge); }
+    [[nodiscard]] Vec2 cone(int i) const
+    {
+        return m_count == 2 ? end_cone(m_points[1 - i], m_points[i], m_radii[1 - i], m_radii[i])
+                            : corner_cone(m_normals, m_count, i);
+    }
     [[nodiscard]] Surface<float> surface_at(Vec2 p) const
     {
         return surface_of_hull<float>(m_points, m_normals, m_radii, m_count, p.x, p.y);

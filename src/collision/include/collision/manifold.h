@@ -45,24 +45,33 @@ struct ClippedEdges
     float radius = -1; ///< of both corners; negative: of none, or they differ
 };
 
+/// Two corners that are nearest to each other, or the centers of circles, in a's frame: as long as the way from one to the other lies in both cones, nothing
+/// is nearer.
+struct NearestCorners
+{
+    Vec2 at[2];
+    /// Of the normals out of either: n with dot(n, cone) >= dot(cone, cone), the middle of the two edges' normals. 0: any.
+    Vec2 cones[2];
+    float radii[2] = {-1, -1}; ///< negative: it was none
+};
+
 struct LocalManifold
 {
     Vec2 normal{}; ///< from a to b, in a's frame
     LocalPoint points[2];
     int count = 0;
     ClippedEdges clipped;
-    /// With less than two points: nothing nearer than this could have been left out, were the margin as wide. With two: how far the leaves may move before
-    /// another corner could be one of them.
+    NearestCorners nearest;
+    /// Without a point: nothing nearer than this could have been left out, were the margin as wide. With one: none but the corners that it was clipped
+    /// from. With two: how far the leaves may move before another corner could be one of them.
     float reach = 0;
 
-    // With this separation.
-    void leave_out(float separation) { reach = separation < reach ? separation : reach; }
-
-    // Of two points: another corner has this separation.
-    void bound_by_third(float separation)
+    // What it was clipped from is before the edge, the nearest of what was left out of it with this separation, and of its leaf's other corners.
+    void bound_by_third(float third, float margin, float left_out)
     {
         const float farther = points[0].separation < points[1].separation ? points[1].separation : points[0].separation;
-        reach = 0.5f * (separation - farther);
+        const float others = third > margin ? third : margin;
+        reach = count == 2 ? 0.5f * (third - farther) : count == 1 || others < left_out ? others : left_out;
     }
 
     void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature)

@@ -24,6 +24,7 @@ namespace carom::internal {
 }
 
 [[nodiscard]] inline bool keeps_edge_of_b(const Contact& contact) { return (contact.flags & contact_flag::edge_of_b) != 0; }
+[[nodiscard]] inline bool keeps_nearest(const Contact& contact) { return (contact.flags & contact_flag::nearest) != 0; }
 
 /// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over.
 void follow_manifold(const StepContext& ctx, int index);
@@ -32,11 +33,14 @@ void follow_manifold(const StepContext& ctx, int index);
 inline constexpr float surely = 0.999f;
 [[nodiscard]] FollowedScene followed_scene(const StepContext& ctx);
 
-/// It has two points and can be followed with others: in a crowd, and nothing has been done to it.
+/// One point that a kernel has followed: it gets no second, and is none that would not be found.
+[[nodiscard]] bool is_within_margin(const StepContext& ctx, const Contact& contact, const OnePoint& now, int lane);
+
+/// It has points and can be followed with others: in a crowd, and nothing has been done to it.
 [[nodiscard]] inline bool is_followed_with_others(const SceneState& state, const Contact& contact)
 {
     constexpr std::uint32_t asked = contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing;
-    return (contact.flags & asked) == contact_flag::kept && contact.manifold.count == 2 && in_crowd(state, contact);
+    return (contact.flags & asked) == contact_flag::kept && contact.manifold.count > 0 && in_crowd(state, contact);
 }
 
 /// A contact's manifold, at the poses of the start of this step, or, between steps, of the last: where its row has followed it, it is followed here now.

@@ -152,6 +152,7 @@ inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
 inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
 inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
 inline constexpr std::uint32_t edge_of_b = 2048; ///< of what is kept
+inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
 inline constexpr std::uint32_t followed =
     1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
 } // namespace contact_flag
@@ -175,17 +176,38 @@ struct Contact
     Manifold manifold{};
 };
 
-/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies, from their centers of mass and in their axes: an edge of one, and
-/// two corners of the other that it faces. Features are those of the manifold.
-struct alignas(64) KeptManifold
+/// An edge of one body, and two corners of the other that it faces, from their centers of mass and in their axes.
+struct KeptEdge
 {
     Vec2 edge[2];
     Vec2 corners[2];
     Vec2 normal{}; ///< from a to b, in the axes of the edge's body
-    Vec2 center{}; ///< where b's center of mass was seen from a
-    Rotation rotation{};
-    float reach = 0;  ///< nothing nearer than this was left out
-    float radius = 0; ///< of the corners
+};
+
+/// The corners of a and b that are nearest to each other, likewise; see NearestCorners.
+struct KeptCorners
+{
+    static constexpr float least_distance = 1e-6f; ///< nearer they have no direction from one to the other
+
+    Vec2 corners[2];
+    Vec2 cones[2];
+    float radii[2] = {};
+};
+
+/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies. Features are those of the manifold.
+struct alignas(64) KeptManifold
+{
+    union Found
+    {
+        KeptEdge edge;
+        KeptCorners nearest; ///< with contact_flag::nearest
+
+        Found() : edge{} {}
+    } found;
+    Vec2 center{};       ///< where the other's center of mass was, seen from the body of the edge; without an edge b's from a
+    Rotation rotation{}; ///< of the other, likewise
+    float reach = 0;     ///< nothing nearer than this was left out
+    float radius = 0;    ///< of the corners before the edge
 };
 
 /// Does a wide row of the last step still hold all that a contact is? As far as rows_stamp holds.

@@ -26,11 +26,19 @@ struct FollowedScene
     float speculation;
 };
 
+/// Of contacts with one point.
+struct OnePoint
+{
+    LaneFloats way;        ///< how far any point of the one has moved against the other since the manifold was found
+    LaneFloats reach;      ///< no third corner was nearer than this
+    LaneFloats separation; ///< of the point
+    LaneFloats second;     ///< of what would be the second point
+};
+
 /// What has become of a row's contacts; bits are lanes.
 struct FollowedRow
 {
-    LaneFloats way;        ///< how far any point of b has moved against a since the manifold was found
-    LaneFloats reach;      ///< nothing nearer than this was left out
+    OnePoint one;
     LaneFloats separation; ///< the least of the contact's points
     std::uint32_t unsure;  ///< to be looked at one by one; what else is told of them does not hold
     std::uint32_t begins_or_ends;
@@ -42,7 +50,8 @@ struct FollowedRow
 /// The same of eight contacts by themselves.
 struct FollowedContacts
 {
-    std::uint32_t sure;
+    OnePoint one;
+    std::uint32_t sure;     ///< of one point as far as its margin
     std::uint32_t touch_on; ///< touched, and are as near as that
 };
 
@@ -67,8 +76,9 @@ struct WideKernels
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
     /// Normal, arms and separations of a row whose contacts it held in the last step, at the poses that bodies have now.
     void (*follow)(WideRow& row, const FollowedScene& scene, FollowedRow& found);
-    /// The manifolds of eight contacts that have two points and are kept, likewise; of those that are not sure it is to be found by itself.
-    void (*follow_contacts)(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found);
+    /// The manifolds of eight contacts that have as many points and are kept, likewise; of those that are not sure it is to be found by itself.
+    void (*follow_contacts)(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene,
+                            FollowedContacts& found);
     /// Impulses of all lanes, and whether they bear a load, to their contacts.
     void (*take_impulses)(const WideRow& row, Contact* contacts);
     /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.

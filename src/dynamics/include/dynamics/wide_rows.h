@@ -53,6 +53,7 @@ struct WideRow
     std::uint32_t fixed_a; ///< lanes whose body a does not give way; what all threads read, none writes
     std::uint32_t fixed_b;
     std::uint32_t edge_of_b; ///< lanes whose normal is that of an edge of b
+    std::uint32_t nearest;   ///< lanes whose normal leads from corner to corner
     std::uint32_t kept;      ///< lanes whose manifold is kept
     std::uint32_t followed;  ///< lanes whose contact has contact_flag::followed
 };

@@ -10,6 +10,7 @@
 
 #include "geometry/leaf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -219,6 +220,21 @@ template <class R>
     case LeafType::Arc: return surface_of_arc<R>(leaf, px, py);
     }
     return std::nullopt;
+}
+
+/// The middle of the normals of the two edges at a corner: of all unit vectors n those with dot(n, cone) >= dot(cone, cone) lead out of it.
+[[nodiscard]] inline Vec2 corner_cone(const Vec2* normals, int count, int corner)
+{
+    return 0.5f * (normals[corner > 0 ? corner - 1 : count - 1] + normals[corner]);
+}
+
+/// The same of an end of a capsule or segment: half of the plane, less by what it tapers towards this end.
+[[nodiscard]] inline Vec2 end_cone(Vec2 other, Vec2 end, float radius_other, float radius)
+{
+    const Vec2 along = end - other;
+    const float l = length(along);
+    const float cosine = std::max((radius_other - radius) / l, 0.01f); // 0 would be all of it
+    return (cosine / l) * along;
 }
 
 /// Radius of a circle about the middle of a shape that has an inside: half its thickness, or a little less.

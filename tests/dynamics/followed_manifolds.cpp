@@ -1,0 +1,99 @@
+// Manifolds that are followed in a crowd must say what the narrow phase would say, were it asked.
+
+#include "dynamics/contact_update.h"
+#include "dynamics/kept_manifold.h"
+#include "dynamics/scene_data.h"
+#include "support/test_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace carom;
+using namespace carom::test;
+using namespace carom::internal;
+
+namespace {
+
+Geometry piece(int i)
+{
+    switch (i % 5)
+    {
+    case 0: return Circle{.radius = 0.2f};
+    case 1: return box(0.2f, 0.15f);
+    case 2: return Capsule{{-0.2f, 0}, {0.2f, 0}, 0.12f, 0.12f};
+    case 3: return Capsule{{-0.15f, 0}, {0.15f, 0}, 0.15f, 0.1f};
+    default: return Polygon{.vertices = {{-0.2f, -0.15f}, {0.2f, -0.15f}, {0.25f, 0.05f}, {0, 0.2f}}, .radius = 0.03f};
+    }
+}
+
+// A square room that turns, a third full.
+void build(Scene& scene)
+{
+    const BodyId room = scene.create_body({.type = BodyType::Kinematic, .angular_velocity = 0.6f});
+    for (const Vec2 side : {Vec2{3.2f, 0}, Vec2{-3.2f, 0}})
+        scene.create_shape(room, box(0.2f, 3.4f, side), {.friction = 0.5f});
+    for (const Vec2 side : {Vec2{0, 3.2f}, Vec2{0, -3.2f}})
+        scene.create_shape(room, box(3.4f, 0.2f, side), {.friction = 0.5f});
+    for (int i = 0; i < 120; ++i)
+        add_dynamic(scene, {-2.4 + 0.53 * (i % 10), -2.4 + 0.42 * (i / 10)}, piece(i), {.friction = 0.5f});
+}
+
+BodyPose pose_before(const SceneState& state, int body)
+{
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    if (state.bodies[body].type == BodyType::Static)
+        return {sim.center, sim.rotation, sim.local_center};
+    return {sim.previous_center, sim.previous_rotation, sim.local_center};
+}
+
+struct Tally
+{
+    int edges = 0;
+    int corners = 0;
+    int off = 0; ///< something else would be found
+};
+
+// Of a contact that is kept, whether the last step followed it or found it.
+void compare(const SceneState& state, int index, Tally& tally)
+{
+    const Contact& contact = state.contacts[index];
+    if (!is_kept(contact) || contact.manifold.count == 0)
+        return;
+    const Manifold m = settled_manifold(state, index);
+    const BodyPose a = pose_before(state, contact.body_a);
+    const BodyPose b = pose_before(state, contact.body_b);
+    const float near = least_separation(m);
+    const Manifold found = world_manifold(state, contact, a, b, std::max(near, 0.0f) + 0.03f);
+    ++(keeps_nearest(contact) ? tally.corners : tally.edges);
+    ASSERT_GT(found.count, 0) << "a point that is not there, apart by " << near;
+    // Of two points another edge, or a corner, may be a little better, and is not looked for as long as bodies have moved little.
+    const float off = std::fabs(least_separation(found) - near);
+    ASSERT_LE(off, m.count == 2 ? 0.02f : 1e-4f) << "found at " << least_separation(found) << ", followed at " << near << ", "
+                                                 << m.count << " points, nearest corners: " << keeps_nearest(contact);
+    tally.off += off > 1e-4f ? 1 : 0;
+}
+
+} // namespace
+
+TEST(DynamicsFollowedManifolds, AreWhatWouldBeFound)
+{
+    Scene scene(sleepless());
+    build(scene);
+    Tally tally;
+    for (int i = 0; i < 400; ++i)
+    {
+        SCOPED_TRACE("step " + std::to_string(i));
+        scene.step(1.0f / 60);
+        const SceneState& state = scene.data().state;
+        for (const std::int32_t contact : state.awake_contacts)
+        {
+            compare(state, contact, tally);
+            if (HasFatalFailure())
+                return;
+        }
+    }
+    EXPECT_GT(tally.corners, 1000);
+    EXPECT_GT(tally.edges, 10000);
+    EXPECT_LT(tally.off, tally.edges / 50);
+}
