@@ -6,7 +6,8 @@
 
 namespace carom::internal {
 
-inline constexpr int precise_limit = 32; ///< bodies: beyond it a contact more or less does not decide where a ball goes
+inline constexpr int precise_limit =
+    16; ///< bodies, as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
 
 /// Fills Scratch::links and joint_links, and flight as far as it is known from single bodies and their contacts.
 void gather_unit_graph(StepContext& ctx);
