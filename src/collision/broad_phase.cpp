@@ -30,7 +30,7 @@ void BroadPhase::remove(int item)
 {
     if (!has(item))
         return;
-    Place& place = m_places[static_cast<std::size_t>(item)];
+    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
     if (place.traits.unbounded)
         std::erase(m_unbounded, item);
     else
@@ -40,7 +40,7 @@ void BroadPhase::remove(int item)
 
 void BroadPhase::move_to(int item, Layer layer)
 {
-    Place& place = m_places[static_cast<std::size_t>(item)];
+    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
     if (place.layer == layer)
         return;
     if (!place.traits.unbounded)
@@ -56,7 +56,7 @@ void BroadPhase::move_to(int item, Layer layer)
 
 void BroadPhase::stand_still(int item)
 {
-    Place& place = m_places[static_cast<std::size_t>(item)];
+    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
     place.path = {place.box, {}, 0};
 }
 
@@ -69,7 +69,7 @@ void BroadPhase::set_box(int item, const FloatBox& box)
 
 void BroadPhase::widen(int item, const FloatBox& box)
 {
-    Place& place = m_places[static_cast<std::size_t>(item)];
+    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
     place.box = box;
     const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
     if (!place.traits.unbounded && leaf.tree >= 0)

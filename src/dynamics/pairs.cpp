@@ -8,6 +8,7 @@
 #include "dynamics/half_space_box.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
+#include "dynamics/wide_kernels.h"
 
 #include <algorithm>
 #include <span>
@@ -258,39 +259,70 @@ std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
     return meet ? fate::loses_contact : fate::loses_contact | fate::goes;
 }
 
+// Of a task's pairs. Most stay as they are.
+void find_fates(const StepContext& ctx, std::size_t first, std::size_t last)
+{
+    const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
+    std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
+    const BoxPlace* places = ctx.state.broad_phase.places();
+    for (std::size_t i = first; i < last; i += lane_count)
+    {
+        const std::size_t end = std::min(i + lane_count, last);
+        const bool full = end == i + lane_count;
+        const std::uint32_t stay = full ? wide_kernels().stay(&pairs[i], places, ctx.scene.tolerances.box_margin) : 0;
+        std::fill(fates.begin() + static_cast<std::ptrdiff_t>(i), fates.begin() + static_cast<std::ptrdiff_t>(end),
+                  std::uint8_t{0});
+        for (std::size_t k = i; k < end; ++k)
+        {
+            if ((stay >> (k - i) & 1u) == 0)
+                fates[k] = fate_of(ctx, pairs[k]);
+        }
+    }
+}
+
+// The last takes its place.
+void take_out(SceneState& state, std::size_t index)
+{
+    std::vector<BoxPair>& pairs = state.box_pairs;
+    const auto set_place = [&](const BoxPair& pair, std::int32_t place)
+    {
+        if (pair.contact != none)
+            state.contacts[pair.contact].pair = place;
+    };
+    set_place(pairs[index], none);
+    if (index + 1 < pairs.size())
+    {
+        pairs[index] = pairs.back();
+        set_place(pairs[index], static_cast<std::int32_t>(index));
+    }
+    pairs.pop_back();
+}
+
 void follow_pairs(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     std::vector<BoxPair>& pairs = state.box_pairs;
     std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
     fates.resize(pairs.size());
-    for_each_in_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
-                      [&](std::size_t i) { fates[i] = fate_of(ctx, pairs[i]); });
+    run_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
+              [&](std::size_t first, std::size_t last) { find_fates(ctx, first, last); });
     state.parted_pairs.clear();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (std::size_t i = 0; i < fates.size(); ++i)
     {
+        if (fates[i] == 0)
+            continue;
         if ((fates[i] & fate::parted) != 0)
             state.parted_pairs.push_back(pair_key(pairs[i].a, pairs[i].b));
         if ((fates[i] & fate::gets_contact) != 0)
             give_contact(ctx, i);
         if ((fates[i] & fate::loses_contact) != 0)
             destroy_contact(ctx.scene, pairs[i].contact, ctx.scene.events, 0);
-        if ((fates[i] & fate::goes) != 0)
-        {
-            if (pairs[i].contact != none)
-                state.contacts[pairs[i].contact].pair = none;
-            continue;
-        }
-        if (kept != i)
-        {
-            pairs[kept] = pairs[i];
-            if (pairs[kept].contact != none)
-                state.contacts[pairs[kept].contact].pair = static_cast<std::int32_t>(kept);
-        }
-        ++kept;
     }
-    pairs.resize(kept);
+    for (std::size_t i = fates.size(); i > 0; --i)
+    {
+        if ((fates[i - 1] & fate::goes) != 0)
+            take_out(state, i - 1);
+    }
     std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
 }
 

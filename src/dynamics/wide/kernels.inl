@@ -1,5 +1,6 @@
 // All kernels for one instruction set, in a namespace of its own: CAROM_ISA. Every set does the same, bit for bit.
 
+#include "collision/broad_phase.h"
 #include "core/lane_math.h"
 #include "dynamics/scene_state.h"
 #include "dynamics/wide_joints.h"
@@ -59,12 +60,14 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 #include "joint_kernels.inl"
 #include "follow_kernels.inl"
 #include "state_kernels.inl"
+#include "pair_kernels.inl"
 
 } // namespace
 
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
-                             follows::follow,        follows::follow_contacts, follows::take_impulses, states::move};
+                             follows::follow,        follows::follow_contacts, follows::take_impulses, states::move,
+                             pairs::stay};
 
 } // namespace carom::internal::CAROM_ISA

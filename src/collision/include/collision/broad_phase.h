@@ -58,6 +58,17 @@ struct ItemTraits
     return (x > y ? x : y) - (a.any_way + b.any_way);
 }
 
+/// All that decides about an item's pairs.
+struct alignas(64) BoxPlace
+{
+    BoxPath path{};
+    Layer layer = Layer::None;
+    ItemTraits traits{};
+    FloatBox box{};
+    FloatBox before{};
+};
+static_assert(sizeof(BoxPlace) == 64);
+
 class BroadPhase
 {
 public:
@@ -81,6 +92,8 @@ public:
     [[nodiscard]] bool moves(int item) const { return m_places[static_cast<std::size_t>(item)].layer == Layer::Moving; }
     [[nodiscard]] ItemTraits traits(int item) const { return m_places[static_cast<std::size_t>(item)].traits; }
 
+    /// By item.
+    [[nodiscard]] const BoxPlace* places() const { return m_places.data(); }
     [[nodiscard]] const FloatBox& box(int item) const { return m_places[static_cast<std::size_t>(item)].box; }
     [[nodiscard]] bool has(int item) const
     {
@@ -91,14 +104,14 @@ public:
     [[nodiscard]] const FloatBox& box_before(int item) const { return m_places[static_cast<std::size_t>(item)].before; }
     [[nodiscard]] bool has_changed(int item) const
     {
-        const Place& p = m_places[static_cast<std::size_t>(item)];
+        const BoxPlace& p = m_places[static_cast<std::size_t>(item)];
         return p.box.lx != p.before.lx || p.box.ly != p.before.ly || p.box.ux != p.before.ux || p.box.uy != p.before.uy;
     }
     void renew(int item) { m_places[static_cast<std::size_t>(item)].before = {}; }
     /// Pairs have been looked for.
     void settle(int item)
     {
-        Place& p = m_places[static_cast<std::size_t>(item)];
+        BoxPlace& p = m_places[static_cast<std::size_t>(item)];
         p.before = p.box;
     }
 
@@ -214,17 +227,6 @@ private:
     static constexpr int fits_per_sort = 8;
     static constexpr std::size_t recent_limit = 32; // longer lists cost queries more than the merge they put off
 
-    // All that decides about pairs.
-    struct alignas(64) Place
-    {
-        BoxPath path{};
-        Layer layer = Layer::None;
-        ItemTraits traits{};
-        FloatBox box{};
-        FloatBox before{};
-    };
-    static_assert(sizeof(Place) == 64);
-
     struct Leaf
     {
         std::int32_t tree = -1;  ///< -1: in the recent list
@@ -273,7 +275,7 @@ private:
     void merge_recent(Forest& forest);
     void rebuild(Forest& forest, std::size_t from_tree);
 
-    std::vector<Place> m_places;
+    std::vector<BoxPlace> m_places;
     std::vector<Leaf> m_leaves; ///< by item, as the places
     Forest m_forests[2];
     std::vector<BlockPast> m_past; ///< of the blocks of the moving layer, once all are fitted

@@ -10,6 +10,8 @@
 namespace carom::internal {
 
 struct BodySim;
+struct BoxPair;
+struct BoxPlace;
 struct Contact;
 struct KeptManifold;
 
@@ -83,6 +85,8 @@ struct WideKernels
     void (*take_impulses)(const WideRow& row, Contact* contacts);
     /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
+    /// Of eight pairs, a bit for each that stays as it is for sure: its fat boxes meet, and it has a contact if and only if it may meet in the step.
+    std::uint32_t (*stay)(const BoxPair* pairs, const BoxPlace* places, float box_margin);
 };
 
 /// The best that this machine has, or that CAROM_ISA allows (sse2, avx2, avx512); chosen once.
