@@ -1,20 +1,20 @@
 #include "collision/box_tree.h"
 
-#include "collision/z_order.h"
+#include "collision/hilbert_order.h"
 #include "core/assert.h"
 
 namespace carom::internal {
 
 void BoxTree::build(std::span<const TreeLeaf> leaves)
 {
-    ZOrder order;
+    HilbertOrder order;
     order.sort(leaves.size(),
                [&](std::size_t i)
                {
                    const FloatBox& b = leaves[i].box;
                    return Vec2{0.5f * (b.lx + b.ux), 0.5f * (b.ly + b.uy)};
                });
-    const std::span<const ZOrder::Key> keys = order.keys();
+    const std::span<const HilbertOrder::Key> keys = order.keys();
     m_items.resize(leaves.size());
     if (m_levels.empty())
         m_levels.emplace_back();

@@ -34,17 +34,17 @@ void sort_bodies(SceneState& state)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
 }
 
-// Into sixteenths, along a Z-curve through where they are; where few would change, all stay in theirs, for contacts are solved in another order then, and
+// Into sixteenths, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are solved in another order then, and
 // what is coming to rest is stirred by that.
 void part_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     if (state.step_count % steps_between_cells != 1)
         return;
-    ZOrder& order = ctx.scratch.plane_order;
+    HilbertOrder& order = ctx.scratch.plane_order;
     order.sort(state.awake_bodies.size(),
                [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
-    const std::span<const ZOrder::Key> keys = order.keys();
+    const std::span<const HilbertOrder::Key> keys = order.keys();
     const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * plane_cells / keys.size()); };
     const auto body_of = [&](std::size_t rank) -> BodyRecord& { return state.bodies[state.awake_bodies[keys[rank].index]]; };
     std::size_t changed = 0;

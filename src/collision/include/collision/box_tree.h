@@ -1,6 +1,6 @@
 #pragma once
 
-// A static tree of boxes: leaves in Morton order, each node the union of eight children in sequence. No pointers: level k of the tree
+// A static tree of boxes: leaves along a Hilbert curve, each node the union of eight children in sequence. No pointers: level k of the tree
 // is an array an eighth as long as level k - 1, and the children of node i are 8 i ... 8 i + 7. Siblings lie side by side, a coordinate
 // at a time, so that all eight are tested at once. Building it is a radix sort and one pass; boxes may shrink, grow and vanish
 // afterwards without moving.

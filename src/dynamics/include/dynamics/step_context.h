@@ -3,8 +3,8 @@
 // What the stages of one step hand to each other. Vectors are cleared, not freed: a settled scene steps without allocating.
 
 #include "carom/event.h"
+#include "collision/hilbert_order.h"
 #include "collision/time_of_impact.h"
-#include "collision/z_order.h"
 #include "dynamics/joint_rows.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
@@ -365,7 +365,7 @@ struct Scratch
     std::vector<ContactPlace> sorted_contacts;
     std::vector<std::int32_t> moved_to; ///< by contact slot
     std::vector<std::byte> moved_items; ///< on their way
-    ZOrder plane_order;                 ///< of the awake bodies
+    HilbertOrder plane_order;           ///< of the awake bodies
 };
 
 /// Those of a unit, in flight or landed.
