@@ -492,6 +492,12 @@ Reach reach_of(const LeafView& v, const FramePath& path, Vector direction)
     return reach;
 }
 
+// How far a point 1 m from the center comes by turning.
+double most_turn(const FramePath& path, double duration)
+{
+    return std::min(2.0, duration * (std::fabs(path.w) + 0.5 * duration * std::fabs(path.alpha)));
+}
+
 // Two leaves along an axis from a to b, and how near they may come in that time.
 class Interval
 {
@@ -505,10 +511,9 @@ public:
         m_gap = dot({cb.x - ca.x, cb.y - ca.y}, axis) - m_a.along - m_b.along;
         const double speed = -dot({cb.vx - ca.vx, cb.vy - ca.vy}, axis);
         const double acceleration = -dot({cb.ax - ca.ax, cb.ay - ca.ay}, axis);
-        const auto turn = [duration](const FramePath& path)
-        { return std::min(2.0, duration * (std::fabs(path.w) + 0.5 * duration * std::fabs(path.alpha))); };
-        m_closing = duration * (std::max(speed, 0.0) + 0.5 * duration * std::max(acceleration, 0.0)) + m_a.most * turn(path_a) +
-                    m_b.most * turn(path_b) + nearly_touch * std::min(m_a.most, m_b.most);
+        m_closing = duration * (std::max(speed, 0.0) + 0.5 * duration * std::max(acceleration, 0.0)) +
+                    m_a.most * most_turn(path_a, duration) + m_b.most * most_turn(path_b, duration) +
+                    nearly_touch * std::min(m_a.most, m_b.most);
     }
 
     [[nodiscard]] bool stays_open() const { return m_gap > m_closing; }
@@ -532,6 +537,73 @@ private:
     Reach m_b;
     double m_gap;
     double m_closing;
+};
+
+// The edges of a polygon as they stand at t = 0. A probe that is beyond one of them by more than both may come nearer along its normal in the time does not
+// meet the polygon: most of a look at it is saved.
+class Faces
+{
+public:
+    /// Slack: what counts as met though it is farther away.
+    Faces(const LeafView& leaf, const FramePath& frame, const FramePath& carrier, double duration, double slack)
+        : m_leaf(leaf), m_count(leaf.leaf->type == LeafType::Polygon && leaf.leaf->count <= most ? leaf.leaf->count : 0)
+    {
+        if (m_count == 0)
+            return;
+        const SinCos turn_frame = {frame.s, frame.c};
+        const CenterPath& c = carrier.center;
+        const CenterPath& f = frame.center;
+        const auto in_leaf = [&](double x, double y) { return turned_back(turn_frame, {x, y}); };
+        const Vector apart = in_leaf(c.x - f.x, c.y - f.y);
+        m_center = {apart.x + static_cast<double>(frame.local_center.x), apart.y + static_cast<double>(frame.local_center.y)};
+        m_turn = {carrier.s * frame.c - carrier.c * frame.s, carrier.c * frame.c + carrier.s * frame.s};
+        m_local_center = carrier.local_center;
+        m_swing = most_turn(carrier, duration);
+        const Vector v = in_leaf(c.vx - f.vx, c.vy - f.vy);
+        const Vector a = in_leaf(c.ax - f.ax, c.ay - f.ay);
+        double reach = 0;
+        for (int i = 0; i < m_count; ++i)
+            reach = std::max(reach, size(minus(leaf.points[i], frame.local_center)));
+        const double own = slack + static_cast<double>(leaf.leaf->r0) +
+                           (reach + static_cast<double>(leaf.leaf->r0)) * most_turn(frame, duration);
+        for (int i = 0; i < m_count; ++i)
+        {
+            const Vector n = wide(leaf.normals[i]);
+            const double closing = duration * (std::max(-dot(v, n), 0.0) + 0.5 * duration * std::max(-dot(a, n), 0.0));
+            m_limits[i] = dot(n, wide(leaf.points[i])) + own + closing;
+        }
+    }
+
+    [[nodiscard]] bool are_out_of_reach(const Probe& probe) const
+    {
+        if (m_count == 0)
+            return false;
+        const Vector local = minus(probe.point, m_local_center);
+        const Vector q = turned(m_turn, local);
+        const Vector p = {m_center.x + q.x, m_center.y + q.y};
+        const double own = probe.radius + (m_swing > 0 ? m_swing * size(local) : 0);
+        bool is_beyond = false;
+        for (int i = 0; i < m_count; ++i)
+            is_beyond |= dot(wide(m_leaf.normals[i]), p) > m_limits[i] + own;
+        return is_beyond;
+    }
+
+private:
+    static constexpr int most = 8;
+
+    static Vector wide(Vec2 v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
+    static Vector minus(Vec2 v, Vec2 w)
+    {
+        return {static_cast<double>(v.x) - static_cast<double>(w.x), static_cast<double>(v.y) - static_cast<double>(w.y)};
+    }
+
+    const LeafView& m_leaf;
+    int m_count;
+    Vector m_center; ///< of the carrier, and its turn, in the leaf's frame
+    SinCos m_turn{};
+    Vec2 m_local_center{};
+    double m_swing = 0; ///< how far the carrier swings a point that is 1 m from its center
+    double m_limits[most];
 };
 
 } // namespace
@@ -561,12 +633,15 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
     std::optional<Interval> interval;
     if (!axis.is_none())
         interval.emplace(a, path_a, b, path_b, Vector{axis.x, axis.y}, duration);
+    const Faces faces_of_a(a, path_a, path_b, duration, nearly_touch * length);
+    const Faces faces_of_b(b, path_b, path_a, duration, nearly_touch * length);
     std::optional<Touch> first;
     for_each_probe_pair(
         a, b,
         [&](const Probe& probe, int number, bool on_a)
         {
-            if (held.has(number, on_a) || (interval && interval->leaves_out(probe, on_a)))
+            if (held.has(number, on_a) || (interval && interval->leaves_out(probe, on_a)) ||
+                (on_a ? faces_of_b : faces_of_a).are_out_of_reach(probe))
                 return;
             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
             const double left = first ? first->time : duration;
@@ -609,10 +684,14 @@ void add_touch(Touches& touches, const Touch& t, double length)
 Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double tolerance)
 {
     const double length = std::min(probe_size(a), probe_size(b));
+    const Faces faces_of_a(a, path_a, path_b, 0, tolerance);
+    const Faces faces_of_b(b, path_b, path_a, 0, tolerance);
     Touches touches;
     for_each_probe_pair(a, b,
                         [&](const Probe& probe, int number, bool on_a)
                         {
+                            if ((on_a ? faces_of_b : faces_of_a).are_out_of_reach(probe))
+                                return;
                             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0,
                                                     length);
                             if (approach.starts_beyond(tolerance))
