@@ -9,6 +9,7 @@
 #include "dynamics/joint_direct.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
+#include "dynamics/unit_bins.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_graph.h"
 #include "dynamics/wide_prepare.h"
@@ -27,7 +28,7 @@ constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
 constexpr int most_cells = plane_cells;
 constexpr int cells_to_a_thread = 4;
-constexpr int links_worth_cells = 1024;
+constexpr int links_worth_cells = enough_groups * lane_count;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 

@@ -100,8 +100,9 @@ private:
     int m_cells;
 };
 
-/// Worth all threads.
-[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= 256; }
+/// Groups that are worth all threads: with fewer, waiting at the end of each colour costs more than a second thread gains.
+inline constexpr int enough_groups = 1536;
+[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= enough_groups; }
 
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
