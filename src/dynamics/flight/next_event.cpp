@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace carom::internal {
 
@@ -31,10 +32,7 @@ ProbeSet held_corners(const Flier& f, std::int32_t own, std::int32_t other)
 class Search
 {
 public:
-    Search(const FlightSpan& span, Flier& f)
-        : m_span(span), m_flier(f), m_origin(span.sim_of(f.body).center), m_own_path(path_from(span, f.body, f.time, m_origin)),
-          m_reach(reach_of(span, f.body))
-    {}
+    Search(const FlightSpan& span, Flier& f) : m_span(span), m_flier(f), m_origin(span.sim_of(f.body).center) {}
 
     void run()
     {
@@ -55,6 +53,20 @@ public:
     }
 
 private:
+    struct Way
+    {
+        FramePath path;
+        Reach reach;
+    };
+
+    // Most of a crowd never ask.
+    [[nodiscard]] const Way& own_way()
+    {
+        if (!m_own)
+            m_own = Way{path_from(m_span, m_flier.body, m_flier.time, m_origin), reach_of(m_span, m_flier.body)};
+        return *m_own;
+    }
+
     // The angle reaches a limit of the hinge: the first root of angle + w t + alpha t²/2.
     void consider_limits()
     {
@@ -113,7 +125,7 @@ private:
         const std::vector<Reach>& reaches = m_span.output.reaches;
         for (std::size_t i = 0; i < reaches.size(); ++i)
         {
-            if (are_apart(m_reach, reaches[i]))
+            if (are_apart(own_way().reach, reaches[i]))
                 continue;
             const Flier& other = m_span.scratch.fliers[static_cast<std::size_t>(m_span.output.deflected[i])];
             if (other.body != m_flier.body)
@@ -173,7 +185,7 @@ private:
         if (left < 0)
             return;
         const FramePath target = path_from(m_span, body, start, m_origin);
-        const FramePath own_path = start > m_flier.time ? path_after(m_own_path, start - m_flier.time) : m_own_path;
+        const FramePath own_path = start > m_flier.time ? path_after(own_way().path, start - m_flier.time) : own_way().path;
         const LeafView a = leaf_view(state, shape);
         const LeafView b = leaf_view(state, own);
         const Axis line = line_of_centers(target, own_path);
@@ -226,9 +238,9 @@ private:
     }
 
     // Two moving bodies that stay apart whatever they turn: most of a crowd.
-    [[nodiscard]] bool is_out_of_reach(int body) const
+    [[nodiscard]] bool is_out_of_reach(int body)
     {
-        return m_span.state_in_unit(body) != none && are_apart(m_reach, reach_of(m_span, body));
+        return m_span.state_in_unit(body) != none && are_apart(own_way().reach, reach_of(m_span, body));
     }
 
     [[nodiscard]] static bool are_apart(const Reach& a, const Reach& b)
@@ -242,8 +254,7 @@ private:
     const FlightSpan& m_span;
     Flier& m_flier;
     Position m_origin;
-    FramePath m_own_path;
-    Reach m_reach;
+    std::optional<Way> m_own;
 };
 
 } // namespace
