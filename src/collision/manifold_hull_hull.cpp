@@ -112,7 +112,7 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
         if (i != i0 && i != i1)
             third = std::min(third, dot(n, ref.other.point(i)) - ref.other.radius(i) - offset);
     }
-    out.bound_by_third(third, margin, left_out);
+    out.bound_by_third(third, left_out);
 }
 
 // Shapes that are apart are nearest at a corner circle of one and the surface of the other.

@@ -219,7 +219,7 @@ private:
             if (i != i0 && i != i1)
                 third = std::min(third, dot(n, others.at[i]) - offset);
         }
-        out.bound_by_third(third, margin, left_out);
+        out.bound_by_third(third, left_out);
         return out.count > 0;
     }
 

@@ -22,9 +22,6 @@ void mirrored(const LeafView& a, const LeafView& b, const RelativePose& pose, fl
     {
         out.clipped.edge[i] = pose.to_a(m.clipped.edge[i]);
         out.clipped.corners[i] = pose.to_a(m.clipped.corners[i]);
-    }
-    for (std::size_t i = 0; i < 2; ++i)
-    {
         out.nearest.at[i] = pose.to_a(m.nearest.at[1 - i]);
         out.nearest.cones[i] = rotate(pose.rotation, m.nearest.cones[1 - i]);
         out.nearest.radii[i] = m.nearest.radii[1 - i];

@@ -85,7 +85,7 @@ void find_manifold(const StepContext& ctx, Contact& contact)
     contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b),
                                       ctx.scene.tolerances.speculation + relative_motion(state, contact));
     carry_impulses(old, contact.manifold);
-    contact.flags &= ~(contact_flag::kept | contact_flag::followed);
+    contact.flags &= ~(contact_flag::all_kept | contact_flag::followed);
 }
 
 void update_manifold(const StepContext& ctx, int index)

@@ -45,6 +45,8 @@ Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& o
     return {length(place_of(other, own) - kept.center) + other.extent * chord, turn.c};
 }
 
+bool has_edge_of_b(const LocalManifold& found) { return found.count > 0 && found.clipped.radius >= 0 && found.clipped.of_b; }
+
 void keep_edge(KeptEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
 {
     const bool of_b = found.clipped.of_b;
@@ -72,8 +74,8 @@ void keep_corners(KeptCorners& kept, const BodySim& a, const BodySim& b, const R
 
 void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalManifold& found)
 {
-    const BodySim& own = found.clipped.of_b ? b : a;
-    const BodySim& other = found.clipped.of_b ? a : b;
+    const BodySim& own = has_edge_of_b(found) ? b : a;
+    const BodySim& other = has_edge_of_b(found) ? a : b;
     kept.center = place_of(other, own);
     kept.rotation = inverse(own.rotation) * other.rotation;
     kept.reach = found.reach;
@@ -177,12 +179,14 @@ bool has_one_point(const KeptManifold& kept, const Facing& facing, const Moved& 
            is_best_still(facing, near, moved, longest_way);
 }
 
+// Near enough to be some.
 bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
 {
     const Facing::Foot first = facing.foot(0);
     const Facing::Foot second = facing.foot(1);
     const Facing::Foot& lowest = second.separation < first.separation ? second : first;
-    return facing.meets() && moved.way <= kept.reach && is_best_still(facing, lowest, moved, longest_way);
+    return facing.meets() && lowest.separation <= longest_way && moved.way <= kept.reach &&
+           is_best_still(facing, lowest, moved, longest_way);
 }
 
 // The way from one corner to the other that is nearest to it.
@@ -276,10 +280,10 @@ void follow_manifold(const StepContext& ctx, int index)
     const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
     contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold);
-    contact.flags &= ~(contact_flag::kept | contact_flag::edge_of_b | contact_flag::nearest);
+    contact.flags &= ~contact_flag::all_kept;
     if (!can_keep(state, contact, found))
         return;
-    contact.flags |= contact_flag::kept | (found.clipped.of_b ? contact_flag::edge_of_b : 0u) |
+    contact.flags |= contact_flag::kept | (has_edge_of_b(found) ? contact_flag::edge_of_b : 0u) |
                      (found.count > 0 && found.clipped.radius < 0 ? contact_flag::nearest : 0u);
     keep(kept, a, b, found);
 }

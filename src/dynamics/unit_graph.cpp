@@ -601,7 +601,8 @@ public:
                 {
                     const std::size_t other = place_of_shape(shape);
                     std::atomic_ref(scratch.may_be_struck[other]).store(1, std::memory_order_relaxed);
-                    note(place, static_cast<std::int32_t>(other));
+                    if (scratch.is_deflected[other] == 0) // what no tree holds yet is not chosen
+                        note(place, static_cast<std::int32_t>(other));
                 });
             // of two that are both deflected the first finds the second
             tree.for_each_overlap(

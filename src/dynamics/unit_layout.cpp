@@ -28,7 +28,7 @@ constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
 constexpr int most_cells = plane_cells;
 constexpr int cells_to_a_thread = 4;
-constexpr int links_worth_cells = enough_groups * lane_count;
+constexpr int links_worth_cells = worth_all_threads * lane_count;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 

@@ -295,7 +295,7 @@ CAROM_INLINE Found follow_points(int count, const Places& places, const Kinds& k
         const I8 second_is_lower = second < first;
         found.separation = carom::internal::select(second_is_lower, second, first);
         const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
-        found.holds = stand.meets() & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
+        found.holds = stand.meets() & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
         return found;
     }
     found.separation = first;

@@ -67,11 +67,13 @@ struct LocalManifold
     float reach = 0;
 
     // What it was clipped from is before the edge, the nearest of what was left out of it with this separation, and of its leaf's other corners.
-    void bound_by_third(float third, float margin, float left_out)
+    void bound_by_third(float third, float left_out)
     {
         const float farther = points[0].separation < points[1].separation ? points[1].separation : points[0].separation;
-        const float others = third > margin ? third : margin;
-        reach = count == 2 ? 0.5f * (third - farther) : count == 1 || others < left_out ? others : left_out;
+        if (count == 2)
+            reach = 0.5f * (third - farther);
+        else
+            reach = count == 1 || third < left_out ? third : left_out;
     }
 
     void add(Vec2 on_a, Vec2 on_b, float separation, std::uint32_t feature)

@@ -101,8 +101,8 @@ private:
 };
 
 /// Groups that are worth all threads: with fewer, waiting at the end of each colour costs more than a second thread gains.
-inline constexpr int enough_groups = 1536;
-[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= enough_groups; }
+inline constexpr int worth_all_threads = 1536;
+[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= worth_all_threads; }
 
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
