@@ -179,7 +179,7 @@ bool has_one_point(const KeptManifold& kept, const Facing& facing, const Moved& 
            is_best_still(facing, near, moved, longest_way);
 }
 
-// Near enough to be some.
+// Both corners before the edge, and no other has become one of them.
 bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
 {
     const Facing::Foot first = facing.foot(0);

@@ -265,18 +265,14 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last)
     const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
     std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
     const BoxPlace* places = ctx.state.broad_phase.places();
+    const WideKernels& kernels = wide_kernels();
     for (std::size_t i = first; i < last; i += lane_count)
     {
         const std::size_t end = std::min(i + lane_count, last);
         const bool full = end == i + lane_count;
-        const std::uint32_t stay = full ? wide_kernels().stay(&pairs[i], places, ctx.scene.tolerances.box_margin) : 0;
-        std::fill(fates.begin() + static_cast<std::ptrdiff_t>(i), fates.begin() + static_cast<std::ptrdiff_t>(end),
-                  std::uint8_t{0});
+        const std::uint32_t stay = full ? kernels.stay(&pairs[i], places, ctx.scene.tolerances.box_margin) : 0;
         for (std::size_t k = i; k < end; ++k)
-        {
-            if ((stay >> (k - i) & 1u) == 0)
-                fates[k] = fate_of(ctx, pairs[k]);
-        }
+            fates[k] = (stay >> (k - i) & 1u) != 0 ? std::uint8_t{0} : fate_of(ctx, pairs[k]);
     }
 }
 

@@ -66,7 +66,7 @@ struct LocalManifold
     /// from. With two: how far the leaves may move before another corner could be one of them.
     float reach = 0;
 
-    // What it was clipped from is before the edge, the nearest of what was left out of it with this separation, and of its leaf's other corners.
+    // By the separations of the lowest other corner of the clipped edge's leaf, and of what of that edge itself was too far away to be a point.
     void bound_by_third(float third, float left_out)
     {
         const float farther = points[0].separation < points[1].separation ? points[1].separation : points[0].separation;

@@ -207,7 +207,7 @@ struct alignas(64) KeptManifold
     } found;
     Vec2 center{};       ///< where the other's center of mass was, seen from the body of the edge; without an edge b's from a
     Rotation rotation{}; ///< of the other, likewise
-    float reach = 0;     ///< nothing nearer than this was left out
+    float reach = 0;     ///< see LocalManifold::reach
     float radius = 0;    ///< of the corners before the edge
 };
 

@@ -11,7 +11,6 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
