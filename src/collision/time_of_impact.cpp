@@ -375,7 +375,7 @@ double patience_at(const Sight& sight, double least_approach, double duration)
 }
 
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
-                                          double least_approach, double wait)
+                                          double least_approach, const Press& press)
 {
     double t = 0;
     for (int i = 0; i < max_looks && t <= duration; ++i)
@@ -387,7 +387,7 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
             continue;
         }
         const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
-        const double least = std::max(least_approach, pressed_speed(sight.acceleration, wait, length));
+        const double least = std::max(least_approach, pressed_speed(sight.acceleration, press, length));
         if (near && sight.rate < -least)
             return touch_of(sight, t, probe_on_a);
         if (near && sight.end_of_arc)
@@ -406,9 +406,11 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
 
 } // namespace
 
-double pressed_speed(double acceleration, double wait, double length)
+double pressed_speed(double acceleration, const Press& press, double length)
 {
-    return acceleration < 0 ? std::min(-acceleration * wait, std::sqrt(-2 * acceleration * nearly_touch * length)) : 0;
+    if (acceleration >= 0)
+        return 0;
+    return std::min(std::max(-acceleration * press.wait, press.least_blow), std::sqrt(-2 * acceleration * nearly_touch * length));
 }
 
 FramePath path_after(const FramePath& path, double time)
@@ -627,7 +629,7 @@ Axis line_of_centers(const FramePath& a, const FramePath& b)
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach, double wait, const ProbeSet& held, Axis axis)
+                                 double duration, double least_approach, const Press& press, const ProbeSet& held, Axis axis)
 {
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Interval> interval;
@@ -645,7 +647,7 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
                 return;
             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
             const double left = first ? first->time : duration;
-            const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach, wait);
+            const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach, press);
             if (hit && (!first || hit->time < first->time))
                 first = hit;
         });

@@ -3,6 +3,7 @@
 
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
+#include "dynamics/flight.h"
 #include "dynamics/joint_direct.h"
 #include "dynamics/prepare.h"
 #include "dynamics/rows.h"
@@ -70,6 +71,8 @@ void fall(const StepContext& ctx, std::int32_t index)
 void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew)
 {
     const Unit& unit = ctx.scratch.units[u];
+    if (glide(ctx, unit, ctx.scratch.outputs[u]))
+        return;
     fill_unit(ctx, unit, crew);
     solve_unit(ctx, unit, ctx.scratch.outputs[u], energy, crew);
     commit_unit(ctx, unit, crew);

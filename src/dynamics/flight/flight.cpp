@@ -191,6 +191,43 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
     }
 }
 
+namespace {
+
+// All of it is in the air, and its path through the step is one parabola.
+bool flies_freely(const StepContext& ctx, const Unit& unit)
+{
+    const bool alike = unit.flier_count == unit.dynamic_count && unit.row_count == 0 && unit.wide_count == 0 &&
+                       unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.law_count == 0 && unit.slices == 1;
+    if (!alike || unit.traced || ctx.scene.def.record_substeps)
+        return false;
+    const auto falls = [&](const Flier& f)
+    {
+        const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(f.state)];
+        return !f.landed && f.joint == none && c.linear_decay == 1 && c.angular_decay == 1;
+    };
+    return std::ranges::all_of(fliers_of(ctx.scratch, unit), falls);
+}
+
+} // namespace
+
+bool glide(const StepContext& ctx, const Unit& unit, UnitOutput& output)
+{
+    if (!flies_freely(ctx, unit))
+        return false;
+    StepContext whole = ctx;
+    whole.h = ctx.dt;
+    whole.substeps = 1;
+    const FlightSpan span(whole, unit, 0, output);
+    for (Flier& f : span.fliers())
+        start_flight(span, f);
+    const auto meets_nothing = [&](Flier& f) { return try_find_next_event(span, f) && f.event_time > span.h; };
+    if (!std::ranges::all_of(span.fliers(), meets_nothing))
+        return false;
+    for (Flier& f : span.fliers())
+        finish_flight(span, f);
+    return true;
+}
+
 void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
 {
     if (unit.traced)

@@ -91,7 +91,7 @@ Bounce ImpactSet::law(int index, double u)
     }
     // What is held elsewhere may press here.
     const double pressing = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_held, row), 0.0});
-    const double rest = 0.5 * pressing * m_span.h + m_span.least_approach;
+    const double rest = std::max(0.5 * pressing * m_span.h, both_give_way(row) ? blow_of(s) : 0) + m_span.least_approach;
     if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
     {
         s.rests = true;
@@ -103,11 +103,16 @@ Bounce ImpactSet::law(int index, double u)
 // They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.
 bool ImpactSet::is_small_blow(const ImpactRow& row, const Source& s, double u) const
 {
-    if (!both_give_way(row))
-        return false;
-    const double size = std::min(probe_size(leaf_view(m_state, s.own)), probe_size(leaf_view(m_state, s.other)));
-    return s.touch.distance < -deep_in * size && u < 2 * pressed_speed(s.touch.acceleration, press_time * m_span.h, size);
+    return both_give_way(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s);
 }
+
+double ImpactSet::size_of(const Source& s) const
+{
+    return std::min(probe_size(leaf_view(m_state, s.own)), probe_size(leaf_view(m_state, s.other)));
+}
+
+// As fast as what presses two that both give way is let become.
+double ImpactSet::blow_of(const Source& s) const { return pressed_speed(s.touch.acceleration, m_span.press(), size_of(s)); }
 
 // Bodies that go on striking each other, as in a heap that collapses, come to rest against each other.
 bool ImpactSet::is_crowded(const ImpactRow& row) const

@@ -41,6 +41,8 @@ std::int32_t FlightSpan::state_in_unit(int body) const
     return s >= unit.first_state && s < unit.first_state + unit.state_count ? s : none;
 }
 
+Press FlightSpan::press() const { return {0.25 * h, static_cast<double>(ctx.scene.tolerances.rest_speed)}; }
+
 double turning_acceleration(const FlightSpan& span, const Flier& f, double angle)
 {
     const StateConstants& c = span.constants_of(f.state);

@@ -193,7 +193,7 @@ private:
         if (stays_apart_along(line, a, target, b, own_path, left) || stays_apart_along(normal, a, target, b, own_path, left))
             return;
         const std::optional<Touch> hit = first_touch(a, target, b, own_path, left, m_span.least_approach,
-                                                     state.bodies[body].type == BodyType::Dynamic ? m_span.h * press_time : 0,
+                                                     state.bodies[body].type == BodyType::Dynamic ? m_span.press() : Press{},
                                                      held_corners(m_flier, own, shape), normal.is_none() ? line : normal);
         if (!hit || start + hit->time >= m_flier.event_time)
             return;

@@ -81,15 +81,21 @@ struct Touch
 /// Of the size: so deep at the most comes what presses before it touches anew.
 inline constexpr double nearly_touch = 1e-3;
 
-/// How fast the gap closes once it has been pressed for `wait` seconds, or as deep as nearly_touch; acceleration of the gap as in Touch.
-[[nodiscard]] double pressed_speed(double acceleration, double wait, double length);
+/// What touches and presses is taken in blows: after `wait` seconds at the earliest, and none slower than `least_blow`.
+struct Press
+{
+    double wait = 0;
+    double least_blow = 0; ///< m/s
+};
+
+/// How fast the gap closes by then, or once it is pressed as deep as nearly_touch; acceleration of the gap as in Touch.
+[[nodiscard]] double pressed_speed(double acceleration, const Press& press, double length);
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
-/// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew only when it has pressed
-/// for `wait` seconds. The corners of `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
+/// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew by `press`. The corners of `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
-                                               const FramePath& path_b, double duration, double least_approach, double wait = 0,
-                                               const ProbeSet& held = {}, Axis axis = {});
+                                               const FramePath& path_b, double duration, double least_approach,
+                                               const Press& press = {}, const ProbeSet& held = {}, Axis axis = {});
 
 /// True where nothing of the two can meet in that time: along an axis from a to b they stay apart. False says nothing.
 [[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,

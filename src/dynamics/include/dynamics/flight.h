@@ -14,6 +14,9 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
 /// something becomes the solver's from the next sub-step on; its rows go to output.late_rows.
 void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output, Crew& crew);
 
+/// Where all of the unit flies freely, and none of it meets anything in this step, flies it through the whole step at once. False: nothing has moved.
+[[nodiscard]] bool glide(const StepContext& ctx, const Unit& unit, UnitOutput& output);
+
 /// It is no longer on the way that the pairs of this step were found with.
 void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier);
 

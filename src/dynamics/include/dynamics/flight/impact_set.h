@@ -67,6 +67,8 @@ private:
     void note_before();
     Bounce law(int index, double u);
     [[nodiscard]] bool is_small_blow(const ImpactRow& row, const Source& s, double u) const;
+    [[nodiscard]] double size_of(const Source& s) const;
+    [[nodiscard]] double blow_of(const Source& s) const;
     [[nodiscard]] bool is_crowded(const ImpactRow& row) const;
     double kick(Source& s, float speed);
     void note_stopped_joints();

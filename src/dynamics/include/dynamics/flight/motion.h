@@ -35,11 +35,11 @@ struct FlightSpan
     [[nodiscard]] const BodySim& sim_of(int body) const { return state.sims[static_cast<std::size_t>(body)]; }
     /// The state of a dynamic body of this unit; none: it does not move, or belongs elsewhere.
     [[nodiscard]] std::int32_t state_in_unit(int body) const;
+    /// Of two that both give way none holds the other; what presses them together is taken in small blows.
+    [[nodiscard]] Press press() const;
     [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }
 };
 
-/// Of two that both give way none holds the other; what presses them together is taken in small blows, so often in a sub-step at the most.
-inline constexpr double press_time = 1.0 / 4;
 inline constexpr double at_limit = 1e-7; ///< rad: an angle this near is at the limit of its hinge
 
 /// Held by nothing: gravity and forces alone.
