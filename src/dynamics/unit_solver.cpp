@@ -345,12 +345,12 @@ private:
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
 
-    // Joints and contacts of a few bodies take turns, and what holds bodies together has the last word. Contacts of a few bodies are solved until
-    // they agree: what a wall stops last still comes into its neighbours, and overlap is pushed out against the forces.
+    // What holds bodies together has the last word, and where they are few, joints and contacts take turns. Contacts of a few bodies are solved
+    // until they agree: what a wall stops last still comes into its neighbours, and overlap is pushed out against the forces.
     void solve(bool use_bias)
     {
-        const bool alternate = is_direct() && (!m_rows.empty() || !late_rows().empty());
         const std::size_t contacts = m_rows.size() + late_rows().size();
+        const bool alternate = is_direct() && contacts > 0 && m_unit.wide_count == 0;
         const bool settles = m_unit.precise && contacts > 0 && contacts + m_joints.size() > 1;
         const int most = settles ? settle_turns : alternate ? turns : 1;
         for (int turn = 0; turn < most; ++turn)
@@ -377,7 +377,7 @@ private:
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
                 break;
         }
-        if (alternate)
+        if (is_direct() && (contacts > 0 || m_unit.wide_count > 0))
             m_output.direct->solve(use_bias);
     }
 
