@@ -35,21 +35,27 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
     const Scratch& scratch = ctx.scratch;
     const std::int32_t first_lane = (unit.first_wide + g) * lane_count;
     WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
-    const bool is_full = scratch.lane_links[as_index(first_lane + lane_count - 1)] != none;
-    is_full ? start_wide_row(row) : empty_wide_row(unit.first_state, row);
+    row.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
         const std::int32_t link = scratch.lane_links[as_index(first_lane + i)];
         if (link == none)
-            break;
+        {
+            row.a.v[i] = row.b.v[i] = unit.first_state;
+            row.contact.v[i] = none;
+            continue;
+        }
         const Link& l = scratch.solved_links[as_index(link)];
+        row.a.v[i] = l.a;
+        row.b.v[i] = l.b;
+        row.contact.v[i] = l.contact;
+        row.count = l.points; // the same in all lanes
         Contact& contact = ctx.state.contacts[l.contact];
         contact.color = l.color;
         contact.wide = (unit.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
-        fill_lane(ctx, l, row, i);
     }
-    wide_kernels().prepare(&row, 1);
+    wide_kernels().fill(row, &ctx.state.contacts[0], scratch.constants.data());
 }
 
 void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)

@@ -41,26 +41,10 @@ void clear_sums(WideRow& row)
     }
 }
 
-void start_wide_row(WideRow& row)
+void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
 {
-    clear_sums(row);
-    row.coupling = {};
-    row.may_hit = row.untold = row.edge_of_b = row.nearest = row.kept = row.followed = 0;
-}
-
-void empty_wide_row(std::int32_t fixed, WideRow& row)
-{
-    row = {};
-    std::fill(std::begin(row.a.v), std::end(row.a.v), fixed);
-    std::fill(std::begin(row.b.v), std::end(row.b.v), fixed);
-    std::fill(std::begin(row.contact.v), std::end(row.contact.v), none);
-    for (WidePoint& p : row.points)
-        std::fill(std::begin(p.k.v), std::end(p.k.v), 1.0f);
-    row.count = 1;
-}
-
-void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
-{
+    for (std::uint32_t* lanes : {&row.may_hit, &row.untold, &row.edge_of_b, &row.nearest, &row.kept, &row.followed})
+        *lanes &= ~(1u << i);
     const Contact& contact = ctx.state.contacts[states.contact];
     const Manifold& m = contact.manifold;
     const StateConstants& a = constants_of(ctx, states.a);
@@ -134,17 +118,6 @@ void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t index)
         p.total_impulse.v[lane.i] = row.points[k].total_impulse;
         p.total_tangent.v[lane.i] = row.points[k].total_tangent;
     }
-}
-
-void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
-{
-    row.may_hit &= ~(1u << i);
-    row.untold &= ~(1u << i);
-    row.edge_of_b &= ~(1u << i);
-    row.nearest &= ~(1u << i);
-    row.kept &= ~(1u << i);
-    row.followed &= ~(1u << i);
-    fill_lane(ctx, states, row, i);
 }
 
 std::uint32_t filled_lanes(const WideRow& row)

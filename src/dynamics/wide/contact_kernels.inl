@@ -237,36 +237,6 @@ CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftnes
     g.finish(row, states);
 }
 
-void prepare(WideRow* rows, std::int32_t count)
-{
-    for (WideRow* row = rows; row < rows + count; ++row)
-    {
-        const F8 mass = load(row->inverse_mass_a) + load(row->inverse_mass_b);
-        const F8 ia = load(row->inverse_inertia_a);
-        const F8 ib = load(row->inverse_inertia_b);
-        row->fixed_a = bits((load(row->inverse_mass_a) == all(0)) & (ia == all(0)));
-        row->fixed_b = bits((load(row->inverse_mass_b) == all(0)) & (ib == all(0)));
-        for (int i = 0; i < row->count; ++i)
-        {
-            WidePoint& p = row->points[i];
-            const F8 na = load(p.across_a);
-            const F8 nb = load(p.across_b);
-            const F8 ta = load(p.along_a);
-            const F8 tb = load(p.along_b);
-            const F8 k = mass + na * na * ia + nb * nb * ib;
-            const F8 tangent_k = mass + ta * ta * ia + tb * tb * ib;
-            store(p.k, select(k > all(0), k, all(1)));
-            store(p.separation, load(p.base));
-            store(p.tangent_mass, select(tangent_k > all(0), all(1) / tangent_k, all(0)));
-        }
-        const F8 coupling = mass + load(row->points[0].across_a) * load(row->points[1].across_a) * ia +
-                            load(row->points[0].across_b) * load(row->points[1].across_b) * ib;
-        // Points nearly in one place share their load anyhow; solving for both would only divide noise.
-        const F8 limit = 0.9995f * root(load(row->points[0].k) * load(row->points[1].k));
-        store(row->coupling, clamp(coupling, -limit, limit));
-    }
-}
-
 void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
 {
     for (WideRow* row = rows; row < rows + count; ++row)

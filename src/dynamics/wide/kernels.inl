@@ -56,6 +56,7 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
     scatter4([&](int i) { return (fixed >> i & 1u) != 0 ? reinterpret_cast<char*>(unused + i) : at(i); }, v.x, v.y, v.w, v.flags);
 }
 
+#include "fill_kernels.inl"
 #include "contact_kernels.inl"
 #include "joint_kernels.inl"
 #include "follow_kernels.inl"
@@ -65,7 +66,7 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 } // namespace
 
 extern const WideKernels kernels;
-const WideKernels kernels = {CAROM_ISA_NAME,          contacts::prepare, contacts::warm_start, contacts::solve, contacts::relax,
+const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
                              follows::follow,        follows::follow_contacts, follows::take_impulses, states::move,
                              pairs::stay};

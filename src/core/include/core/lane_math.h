@@ -30,6 +30,8 @@ CAROM_INLINE I8 load(const LaneInts& a)
 }
 CAROM_INLINE void store(LaneFloats& a, F8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
 
+CAROM_INLINE void store(LaneInts& a, I8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
+
 CAROM_INLINE F8 all(float x) { return F8{x, x, x, x, x, x, x, x}; }
 /// Of each lane a where the mask is set (-1), b where it is clear (0).
 CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return mask ? a : b; }

@@ -14,6 +14,7 @@ struct BoxPair;
 struct BoxPlace;
 struct Contact;
 struct KeptManifold;
+struct StateConstants;
 
 /// Where the manifolds of rows that stay are followed.
 struct FollowedScene
@@ -61,7 +62,9 @@ struct FollowedContacts
 struct WideKernels
 {
     const char* name;
-    /// Effective masses, once all lanes are filled.
+    /// A row from its contacts and the constants of their states, effective masses too. `row` has a, b, contact and count of each lane.
+    void (*fill)(WideRow& row, const Contact* contacts, const StateConstants* constants);
+    /// Effective masses anew, once lanes have been filled one by one.
     void (*prepare)(WideRow* rows, std::int32_t count);
     void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
     /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.

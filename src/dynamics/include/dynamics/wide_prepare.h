@@ -9,16 +9,8 @@ namespace carom::internal {
 /// What a row gathers over a step.
 void clear_sums(WideRow& row);
 
-/// All lanes will be filled.
-void start_wide_row(WideRow& row);
-
-/// No lane pushes anything. `fixed` is the unit's state of what does not move.
-void empty_wide_row(std::int32_t fixed, WideRow& row);
-
-/// Writes the contact of a link between states into a lane; WideKernels::prepare does the rest.
-void fill_lane(const StepContext& ctx, const Link& states, WideRow& row, int lane);
-
-/// The same where the contact stood before; sums are cleared already.
+/// Writes the contact of a link between states into a lane that it has stood in before, as WideKernels::fill does with eight; sums are cleared already.
+/// WideKernels::prepare does the rest.
 void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int lane);
 
 /// As bits.

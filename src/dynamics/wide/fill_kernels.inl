@@ -1,0 +1,131 @@
+// Rows are filled from their contacts, and get their effective masses; refill_lane has the same for one lane. Part of kernels.inl.
+
+namespace fills {
+
+// What empty lanes read: nothing pushes.
+constexpr Contact nobody{};
+
+// Four floats of each lane's contact, from a place within it.
+CAROM_INLINE void gather_contacts(const Contact* const (&contacts)[lane_count], std::size_t place, F8& x, F8& y, F8& z, F8& w)
+{
+    gather4([&](int i) { return reinterpret_cast<const char*>(contacts[i]) + place; }, x, y, z, w);
+}
+
+CAROM_INLINE I8 as_ints(F8 bits_of)
+{
+    I8 r;
+    std::memcpy(&r, &bits_of, sizeof r);
+    return r;
+}
+
+CAROM_INLINE I8 all_ints(std::uint32_t x)
+{
+    const auto i = static_cast<std::int32_t>(x);
+    return I8{i, i, i, i, i, i, i, i};
+}
+
+// Lanes with that flag.
+CAROM_INLINE unsigned lanes_with(I8 flags, std::uint32_t flag) { return bits((flags & all_ints(flag)) != I8{}); }
+
+CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane_count], std::size_t place, F8 nx, F8 ny)
+{
+    static_assert(offsetof(ManifoldPoint, anchor_a) == 0 && offsetof(ManifoldPoint, anchor_b) == 8 &&
+                  offsetof(ManifoldPoint, separation) == 16 && offsetof(ManifoldPoint, normal_impulse) == 20 &&
+                  offsetof(ManifoldPoint, tangent_impulse) == 24);
+    F8 ax, ay, bx, by;
+    gather_contacts(contacts, place, ax, ay, bx, by);
+    F8 separation, normal_impulse, tangent_impulse, unused;
+    gather_contacts(contacts, place + offsetof(ManifoldPoint, separation), separation, normal_impulse, tangent_impulse, unused);
+    store(p.across_a, ax * ny - ay * nx);
+    store(p.along_a, ax * nx + ay * ny);
+    store(p.across_b, bx * ny - by * nx);
+    store(p.along_b, bx * nx + by * ny);
+    store(p.base, separation);
+    store(p.normal_impulse, normal_impulse);
+    store(p.tangent_impulse, tangent_impulse);
+    store(p.total_impulse, all(0));
+    store(p.total_tangent, all(0));
+    store(p.approach, all(0));
+}
+
+CAROM_INLINE void fill_masses(WideRow& row, const StateConstants* constants)
+{
+    static_assert(offsetof(StateConstants, inverse_mass) == 0 && offsetof(StateConstants, inverse_inertia) == 8);
+    F8 mass_a, mass_b, inertia_a, inertia_b, unused_y, unused;
+    gather4([&](int i) { return reinterpret_cast<const char*>(constants + row.a.v[i]); }, mass_a, unused_y, inertia_a, unused);
+    gather4([&](int i) { return reinterpret_cast<const char*>(constants + row.b.v[i]); }, mass_b, unused_y, inertia_b, unused);
+    store(row.inverse_mass_a, mass_a);
+    store(row.inverse_mass_b, mass_b);
+    store(row.inverse_inertia_a, inertia_a);
+    store(row.inverse_inertia_b, inertia_b);
+    store(row.stiff, (mass_a == all(0)) | (mass_b == all(0)));
+}
+
+CAROM_INLINE void prepare_row(WideRow& row)
+{
+    const F8 mass = load(row.inverse_mass_a) + load(row.inverse_mass_b);
+    const F8 ia = load(row.inverse_inertia_a);
+    const F8 ib = load(row.inverse_inertia_b);
+    row.fixed_a = bits((load(row.inverse_mass_a) == all(0)) & (ia == all(0)));
+    row.fixed_b = bits((load(row.inverse_mass_b) == all(0)) & (ib == all(0)));
+    for (int i = 0; i < row.count; ++i)
+    {
+        WidePoint& p = row.points[i];
+        const F8 na = load(p.across_a);
+        const F8 nb = load(p.across_b);
+        const F8 ta = load(p.along_a);
+        const F8 tb = load(p.along_b);
+        const F8 k = mass + na * na * ia + nb * nb * ib;
+        const F8 tangent_k = mass + ta * ta * ia + tb * tb * ib;
+        store(p.k, select(k > all(0), k, all(1)));
+        store(p.separation, load(p.base));
+        store(p.tangent_mass, select(tangent_k > all(0), all(1) / tangent_k, all(0)));
+    }
+    if (row.count < 2)
+        return;
+    const F8 coupling = mass + load(row.points[0].across_a) * load(row.points[1].across_a) * ia +
+                        load(row.points[0].across_b) * load(row.points[1].across_b) * ib;
+    // Points nearly in one place share their load anyhow; solving for both would only divide noise.
+    const F8 limit = 0.9995f * root(load(row.points[0].k) * load(row.points[1].k));
+    store(row.coupling, clamp(coupling, -limit, limit));
+}
+
+void prepare(WideRow* rows, std::int32_t count)
+{
+    for (WideRow* row = rows; row < rows + count; ++row)
+        prepare_row(*row);
+}
+
+// All but a, b, contact and count, which say what goes there.
+void fill(WideRow& row, const Contact* contacts, const StateConstants* constants)
+{
+    static_assert(offsetof(Contact, body_b) == offsetof(Contact, shape_a) + 12 &&
+                  offsetof(Contact, friction) == offsetof(Contact, flags) + 4 && offsetof(Manifold, normal) == 0);
+    const Contact* of_lane[lane_count];
+    for (int i = 0; i < lane_count; ++i)
+        of_lane[i] = row.contact.v[i] < 0 ? &nobody : contacts + row.contact.v[i];
+    F8 x, y, body_a, body_b, flag_bits, friction, nx, ny;
+    gather_contacts(of_lane, offsetof(Contact, shape_a), x, y, body_a, body_b);
+    store(row.body_a, as_ints(body_a));
+    store(row.body_b, as_ints(body_b));
+    gather_contacts(of_lane, offsetof(Contact, flags), flag_bits, friction, x, y);
+    store(row.friction, friction);
+    gather_contacts(of_lane, offsetof(Contact, manifold), nx, ny, x, y);
+    store(row.nx, nx);
+    store(row.ny, ny);
+    fill_masses(row, constants);
+    for (int k = 0; k < row.count; ++k)
+        fill_point(row.points[k], of_lane, offsetof(Contact, manifold) + offsetof(Manifold, points) + k * sizeof(ManifoldPoint),
+                   nx, ny);
+    const I8 flags = as_ints(flag_bits);
+    const unsigned filled = bits(load(row.contact) >= I8{});
+    row.may_hit = filled & ~lanes_with(flags, contact_flag::loaded);
+    row.untold = filled & ~lanes_with(flags, contact_flag::touching);
+    row.kept = lanes_with(flags, contact_flag::kept) & ~lanes_with(flags, contact_flag::fresh);
+    row.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);
+    row.nearest = lanes_with(flags, contact_flag::nearest);
+    row.followed = 0;
+    prepare_row(row);
+}
+
+} // namespace fills
