@@ -544,13 +544,9 @@ public:
     {
         std::vector<TreeLeaf>& reaches = scratch.reaches;
         reaches.clear();
-        scratch.is_deflected.resize(state.awake_bodies.size());
-        for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
-                          [&](std::size_t i)
-                          {
-                              const bool flies = scratch.flight[i] != earthbound;
-                              scratch.is_deflected[i] = flies && may_be_deflected(state.awake_bodies[i]) ? 1 : 0;
-                          });
+        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
+        for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), items_per_task,
+                          [&](std::size_t i) { note_deflected(scratch.links[i]); });
         for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         {
             if (scratch.is_deflected[i] == 0)
@@ -621,17 +617,24 @@ public:
         return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
     }
 
-    [[nodiscard]] bool may_be_deflected(int body) const
+    // Whoever flies may be, by what it meets on its way.
+    void note_deflected(const Link& l) const
     {
-        if (scratch.motion[static_cast<std::size_t>(state.bodies[body].awake_index)] <= ctx.scene.tolerances.speculation)
-            return false;
-        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = state.contacts[edge >> 1];
-            if (gets_rows(state, contact) && !stays_apart(ctx, contact))
-                return true;
-        }
-        return false;
+        const bool a_may = may_be_deflected(l.a);
+        const bool b_may = may_be_deflected(l.b);
+        if (!l.solved || (!a_may && !b_may) || stays_apart(ctx, state.contacts[l.contact]))
+            return;
+        const auto note = [&](std::int32_t place)
+        { std::atomic_ref(scratch.is_deflected[static_cast<std::size_t>(place)]).store(1, std::memory_order_relaxed); };
+        if (a_may)
+            note(l.a);
+        if (b_may)
+            note(l.b);
+    }
+
+    [[nodiscard]] bool may_be_deflected(std::int32_t place) const
+    {
+        return in_flight(place) && scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
     }
 
     // Units in the order of their first body; every dynamic body gets its unit.

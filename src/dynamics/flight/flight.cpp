@@ -44,7 +44,7 @@ void reconsider_neighbours(const FlightSpan& span, std::int32_t struck)
     for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
     {
         if (Flier* f = span.flier_at(span.state_in_unit(other_body(state.contacts[edge >> 1], body))))
-            find_next_event(span, *f);
+            reconsider(span, *f, struck, edge >> 1);
     }
 }
 

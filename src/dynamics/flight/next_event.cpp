@@ -40,16 +40,21 @@ public:
         for (int edge = m_span.state.bodies[m_flier.body].first_contact; edge != none;)
         {
             const int index = edge >> 1;
-            Contact& contact = m_span.state.contacts[index];
-            edge = contact.next[edge & 1];
-            if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0)
-                continue;
-            const bool is_a = contact.body_a == m_flier.body;
-            consider(is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, index);
+            edge = m_span.state.contacts[index].next[edge & 1];
+            consider_contact(index);
         }
         if (m_flier.deflected)
             look_beyond_boxes();
         look_at_deflected();
+    }
+
+    void consider_contact(int index)
+    {
+        const Contact& contact = m_span.state.contacts[index];
+        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0)
+            return;
+        const bool is_a = contact.body_a == m_flier.body;
+        consider(is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, index);
     }
 
 private:
@@ -280,12 +285,22 @@ Reach reach_of(const FlightSpan& span, int body)
             static_cast<double>(sim.extent) + 2 * span.h * static_cast<double>(length(there.velocity))};
 }
 
+namespace {
+
+bool looks_for_none(const FlightSpan& span, const Flier& f) { return f.landed || is_capped(f) || f.time >= span.h; }
+
+double& time_in_list(const FlightSpan& span, const Flier& f)
+{
+    return span.scratch.event_times[static_cast<std::size_t>(&f - span.scratch.fliers.data())];
+}
+
+} // namespace
+
 bool try_find_next_event(const FlightSpan& span, Flier& f)
 {
-    double& time_in_list = span.scratch.event_times[static_cast<std::size_t>(&f - span.scratch.fliers.data())];
     f.passes = none;
-    f.event_time = time_in_list = 1e300;
-    if (f.landed || f.impacts >= impact_limit || f.time >= span.h)
+    f.event_time = time_in_list(span, f) = 1e300;
+    if (looks_for_none(span, f))
         return true;
     if (f.held_count > 0 && f.hold_until < span.h)
     { // its path is that of the hold for so long
@@ -294,7 +309,7 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
         f.event_version = 0;
     }
     Search(span, f).run();
-    time_in_list = f.event_time;
+    time_in_list(span, f) = f.event_time;
     return f.passes == none;
 }
 
@@ -302,6 +317,19 @@ void find_next_event(const FlightSpan& span, Flier& f)
 {
     while (!try_find_next_event(span, f))
         span.state.contacts[f.passes].flags |= contact_flag::passing;
+}
+
+void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact)
+{
+    if (looks_for_none(span, f))
+        return;
+    f.passes = none;
+    const bool was_to_meet_it = f.event_state == struck;
+    if (!was_to_meet_it)
+        Search(span, f).consider_contact(contact);
+    time_in_list(span, f) = f.event_time;
+    if (was_to_meet_it || f.passes != none)
+        find_next_event(span, f);
 }
 
 } // namespace carom::internal

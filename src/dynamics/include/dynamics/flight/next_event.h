@@ -11,6 +11,9 @@ void find_next_event(const FlightSpan& span, Flier& f);
 /// The same, but writes to the flier alone: false where it goes through a one-way shape, which must be noted before the search goes on.
 [[nodiscard]] bool try_find_next_event(const FlightSpan& span, Flier& f);
 
+/// The same where all that has changed is the way of a state that this contact is with.
+void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact);
+
 /// How often the path of a state has changed in this sub-step.
 [[nodiscard]] inline std::int32_t version_of(const FlightSpan& span, std::int32_t state)
 {
