@@ -216,7 +216,8 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     const Axis axis = flipped ? axis_b : axis_a;
     if (axis.separation > margin)
     {
-        out.reach = axis.separation;
+        const Vec2 n = reference.normal(axis.edge);
+        out.part(flipped ? -n : n, axis.separation);
         return;
     }
     // Edge normals are all the separating axes of cores that overlap. Of cores that are apart, and of the ends of capsules, they are not: there
@@ -244,6 +245,8 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
         out.add(nearest.on_a, nearest.on_b, nearest.separation, nearest.feature);
         note_corners(a, b, nearest, out);
     }
+    if (apart && out.count == 0)
+        out.part(nearest.normal, nearest.separation);
 }
 
 // Does the seam at this end leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner.
@@ -292,6 +295,7 @@ void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose&
         m.add(pose.to_b(out.points[i].on_b), pose.to_b(out.points[i].on_a), out.points[i].separation, out.points[i].feature);
     keep_to_piece(piece, edge, hull, margin, m);
     out.count = 0;
+    out.parting = {};
     out.normal = -rotate(pose.rotation, m.normal);
     for (int i = 0; i < m.count; ++i)
         out.add(pose.to_a(m.points[i].on_b), pose.to_a(m.points[i].on_a), m.points[i].separation, m.points[i].feature);

@@ -129,13 +129,13 @@ public:
     {
         const Axis axis_a = best_axis(m_a, m_corners_b, m_radii);
         if (axis_a.separation > margin)
-            return are_apart(axis_a.separation, out);
+            return are_apart(m_a.normals[axis_a.edge], axis_a.separation, out);
         m_corners_a.count = m_a.leaf->count;
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_pose.to_b(m_a.points[i]);
         const Axis axis_b = best_axis(m_b, m_corners_a, m_radii);
         if (axis_b.separation > margin)
-            return are_apart(axis_b.separation, out);
+            return are_apart(-rotate(m_pose.rotation, m_b.normals[axis_b.edge]), axis_b.separation, out);
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_a.points[i];
         const bool flipped = edge_is_of_b(axis_a, axis_b);
@@ -143,9 +143,9 @@ public:
     }
 
 private:
-    static bool are_apart(float separation, LocalManifold& out)
+    static bool are_apart(Vec2 direction, float separation, LocalManifold& out)
     {
-        out.reach = separation;
+        out.part(direction, separation);
         return true;
     }
 
@@ -245,9 +245,9 @@ private:
         const float separation = distance - m_radii;
         if (separation >= than || !(distance > 0))
             return false;
-        if (separation > margin)
-            return are_apart(separation, out);
         const Vec2 n = (1 / distance) * (m_corners_b.at[b] - m_corners_a.at[a]);
+        if (separation > margin)
+            return are_apart(n, separation, out);
         out.normal = n;
         out.add(m_corners_a.at[a] + m_a.leaf->r0 * n, m_corners_b.at[b] - m_b.leaf->r0 * n, separation,
                 (0x4000u << 16) | (static_cast<std::uint32_t>(a) << 8) | static_cast<std::uint32_t>(b));

@@ -60,12 +60,12 @@ void collide_surface_circle(const LeafView& a, const LeafView& b, const Relative
     const std::optional<Surface<float>> s = surface_at<float>(a, c.x, c.y);
     if (!s)
         return;
+    const Vec2 n = {s->nx, s->ny};
     if (s->distance - r > margin)
     {
-        out.reach = s->distance - r;
+        out.part(n, s->distance - r);
         return;
     }
-    const Vec2 n = {s->nx, s->ny};
     out.normal = n;
     out.reach = 3e38f; // there is no other point
     out.add(c - s->distance * n, c - r * n, s->distance - r, static_cast<std::uint32_t>(s->feature));

@@ -14,7 +14,7 @@ void mirrored(const LeafView& a, const LeafView& b, const RelativePose& pose, fl
     LocalManifold m;
     m.reach = margin;
     collide_swapped(b, a, swapped, margin, m);
-    out.reach = m.reach;
+    out.part(-rotate(pose.rotation, m.parting), m.reach);
     out.normal = -rotate(pose.rotation, m.normal);
     for (int i = 0; i < m.count; ++i)
         out.add(pose.to_a(m.points[i].on_b), pose.to_a(m.points[i].on_a), m.points[i].separation, m.points[i].feature);

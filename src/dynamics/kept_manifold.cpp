@@ -38,14 +38,36 @@ struct Moved
     float cosine;
 };
 
-Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+Rotation turned_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
 {
-    const Rotation turn = inverse(own.rotation) * other.rotation * inverse(kept.rotation);
-    const float chord = std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c));
-    return {length(place_of(other, own) - kept.center) + other.extent * chord, turn.c};
+    return inverse(own.rotation) * other.rotation * inverse(kept.rotation);
 }
 
-bool has_edge_of_b(const LocalManifold& found) { return found.count > 0 && found.clipped.radius >= 0 && found.clipped.of_b; }
+// Of a circle of radius 1.
+float chord_of(Rotation turn) { return std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c)); }
+
+Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+{
+    const Rotation turn = turned_since(kept, own, other);
+    return {length(place_of(other, own) - kept.center) + other.extent * chord_of(turn), turn.c};
+}
+
+// Of two without a point: how far apart they still are for sure. Along the direction that parted them only what goes along it, and turns, takes from
+// their distance.
+float room(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+{
+    const Vec2 way = place_of(other, own) - kept.center;
+    const Vec2 direction = kept.found.parting.direction;
+    const float gain = direction == Vec2{} ? -length(way) : dot(direction, way);
+    return kept.reach + gain - kept.found.parting.arm * chord_of(turned_since(kept, own, other));
+}
+
+// How far the shape's corners are from the center that they turn about, at the most.
+float arm_of(const SceneState& state, int shape, const BodySim& sim)
+{
+    const Leaf& leaf = state.shapes[shape].leaf;
+    return sim.extent - (leaf.type == LeafType::Capsule ? std::min(leaf.r0, leaf.r1) : leaf.r0);
+}
 
 void keep_edge(KeptEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
 {
@@ -72,18 +94,31 @@ void keep_corners(KeptCorners& kept, const BodySim& a, const BodySim& b, const R
     kept.radii[1] = found.radii[1];
 }
 
-void keep(KeptManifold& kept, const BodySim& a, const BodySim& b, const LocalManifold& found)
+// What is kept is seen from b.
+bool is_of_b(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
-    const BodySim& own = has_edge_of_b(found) ? b : a;
-    const BodySim& other = has_edge_of_b(found) ? a : b;
+    if (found.count > 0)
+        return found.clipped.radius >= 0 && found.clipped.of_b;
+    return arm_of(state, contact.shape_a, sim_of(state, contact.body_a)) <
+           arm_of(state, contact.shape_b, sim_of(state, contact.body_b));
+}
+
+void keep(const SceneState& state, const Contact& contact, const LocalManifold& found, KeptManifold& kept)
+{
+    const BodySim& a = sim_of(state, contact.body_a);
+    const BodySim& b = sim_of(state, contact.body_b);
+    const bool of_b = keeps_edge_of_b(contact);
+    const BodySim& own = of_b ? b : a;
+    const BodySim& other = of_b ? a : b;
     kept.center = place_of(other, own);
     kept.rotation = inverse(own.rotation) * other.rotation;
     kept.reach = found.reach;
     kept.radius = found.clipped.radius;
-    if (found.count == 0)
-        return;
     const RelativePose pose = relative_pose(a.pose(), b.pose());
-    if (found.clipped.radius >= 0)
+    if (found.count == 0)
+        kept.found.parting = {of_b ? inverse_rotate(pose.rotation, -found.parting) : found.parting,
+                              arm_of(state, of_b ? contact.shape_a : contact.shape_b, other)};
+    else if (found.clipped.radius >= 0)
         keep_edge(kept.found.edge, a, b, pose, found);
     else
         keep_corners(kept.found.nearest, a, b, pose, found.nearest);
@@ -244,7 +279,7 @@ bool can_follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, co
     if (!is_kept(contact))
         return false;
     if (contact.manifold.count == 0)
-        return margin + moved_since(kept, a, b).way <= kept.reach;
+        return margin <= (keeps_edge_of_b(contact) ? room(kept, b, a) : room(kept, a, b));
     if (keeps_nearest(contact))
     {
         const Nearest nearest(kept.found.nearest, a, b);
@@ -283,9 +318,9 @@ void follow_manifold(const StepContext& ctx, int index)
     contact.flags &= ~contact_flag::all_kept;
     if (!can_keep(state, contact, found))
         return;
-    contact.flags |= contact_flag::kept | (has_edge_of_b(found) ? contact_flag::edge_of_b : 0u) |
+    contact.flags |= contact_flag::kept | (is_of_b(state, contact, found) ? contact_flag::edge_of_b : 0u) |
                      (found.count > 0 && found.clipped.radius < 0 ? contact_flag::nearest : 0u);
-    keep(kept, a, b, found);
+    keep(state, contact, found, kept);
 }
 
 bool is_within_margin(const StepContext& ctx, const Contact& contact, const OnePoint& now, int lane)

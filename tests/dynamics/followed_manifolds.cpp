@@ -51,18 +51,25 @@ struct Tally
 {
     int edges = 0;
     int corners = 0;
-    int off = 0; ///< something else would be found
+    int apart = 0; ///< without a point
+    int off = 0;   ///< something else would be found
 };
 
 // Of a contact that is kept, whether the last step followed it or found it.
 void compare(const SceneState& state, int index, Tally& tally)
 {
     const Contact& contact = state.contacts[index];
-    if (!is_kept(contact) || contact.manifold.count == 0)
+    if (!is_kept(contact))
         return;
-    const Manifold m = settled_manifold(state, index);
     const BodyPose a = pose_before(state, contact.body_a);
     const BodyPose b = pose_before(state, contact.body_b);
+    if (contact.manifold.count == 0)
+    {
+        ++tally.apart;
+        ASSERT_EQ(world_manifold(state, contact, a, b, 0.0199f).count, 0) << "a point that was not told"; // all within 2 cm are
+        return;
+    }
+    const Manifold m = settled_manifold(state, index);
     const float near = least_separation(m);
     const Manifold found = world_manifold(state, contact, a, b, std::max(near, 0.0f) + 0.03f);
     ++(keeps_nearest(contact) ? tally.corners : tally.edges);
@@ -94,6 +101,7 @@ TEST(DynamicsFollowedManifolds, AreWhatWouldBeFound)
         }
     }
     EXPECT_GT(tally.corners, 1000);
+    EXPECT_GT(tally.apart, 10000);
     EXPECT_GT(tally.edges, 10000);
     EXPECT_LT(tally.off, tally.edges / 50);
 }

@@ -65,6 +65,14 @@ struct LocalManifold
     /// Without a point: nothing nearer than this could have been left out, were the margin as wide. With one: none but the corners that it was clipped
     /// from. With two: how far the leaves may move before another corner could be one of them.
     float reach = 0;
+    /// Without a point, the direction from a to b, in a's frame, along which they are that far apart; 0: none is known.
+    Vec2 parting{};
+
+    void part(Vec2 direction, float separation)
+    {
+        parting = direction;
+        reach = separation;
+    }
 
     // By the separations of the lowest other corner of the clipped edge's leaf, and of what of that edge itself was too far away to be a point.
     void bound_by_third(float third, float left_out)

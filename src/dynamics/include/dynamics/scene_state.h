@@ -151,7 +151,7 @@ inline constexpr std::uint32_t begun = 64;       ///< began to touch while the u
 inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
 inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
 inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
-inline constexpr std::uint32_t edge_of_b = 2048; ///< of what is kept
+inline constexpr std::uint32_t edge_of_b = 2048; ///< what is kept is seen from b
 inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
 inline constexpr std::uint32_t all_kept = kept | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
@@ -195,6 +195,13 @@ struct KeptCorners
     float radii[2] = {};
 };
 
+/// Of two without a point, the direction from one to the other along which they were apart, in the axes of the one; 0: none is known.
+struct KeptParting
+{
+    Vec2 direction{};
+    float arm = 0; ///< of the other's corners about its center of mass, at the most
+};
+
 /// What the narrow phase last found of a contact in a crowd, fixed to the two bodies. Features are those of the manifold.
 struct alignas(64) KeptManifold
 {
@@ -202,10 +209,11 @@ struct alignas(64) KeptManifold
     {
         KeptEdge edge;
         KeptCorners nearest; ///< with contact_flag::nearest
+        KeptParting parting; ///< without a point
 
         Found() : edge{} {}
     } found;
-    Vec2 center{};       ///< where the other's center of mass was, seen from the body of the edge; without an edge b's from a
+    Vec2 center{};       ///< where the other's center of mass was, seen from a, or from b with contact_flag::edge_of_b
     Rotation rotation{}; ///< of the other, likewise
     float reach = 0;     ///< see LocalManifold::reach
     float radius = 0;    ///< of the corners before the edge
