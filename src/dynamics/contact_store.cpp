@@ -205,6 +205,8 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     contact.pair = pair;
     const int index = state.contacts.create(contact);
     state.kept_manifolds.resize(static_cast<std::size_t>(state.contacts.capacity()));
+    state.impulses.resize(static_cast<std::size_t>(state.contacts.capacity()));
+    impulses_of(state, index) = {};
     state.lane_marks.resize(static_cast<std::size_t>(state.contacts.capacity()), LaneMark::None);
     state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
     link_contact(state, index);

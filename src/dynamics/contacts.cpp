@@ -11,6 +11,7 @@
 #include "dynamics/wake.h"
 
 #include <span>
+#include <utility>
 
 namespace carom::internal {
 
@@ -42,23 +43,23 @@ Manifold world_manifold(const SceneState& state, const Contact& contact, const B
     return in_world(local_manifold(state, contact, a, b, margin), a, b);
 }
 
-void carry_impulses(const Manifold& old, Manifold& fresh)
+void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impulses)
 {
     fresh.rolling_impulse = old.rolling_impulse;
-    if (fresh.count == 0)
-    { // kept for the next piece of the chain, should the ball have rolled over to it
-        fresh.points[0].normal_impulse = old.points[0].normal_impulse;
-        fresh.points[0].tangent_impulse = old.points[0].tangent_impulse;
-    }
+    const ContactImpulses before = std::exchange(impulses, {});
+    const auto carry = [&](int i, int j)
+    {
+        impulses.points[i].normal = before.points[j].normal;
+        impulses.points[i].tangent = before.points[j].tangent;
+    };
+    if (fresh.count == 0) // kept for the next piece of the chain, should the ball have rolled over to it
+        carry(0, 0);
     for (int i = 0; i < fresh.count; ++i)
     {
         for (int j = 0; j < old.count; ++j)
         {
             if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1))
-            {
-                fresh.points[i].normal_impulse = old.points[j].normal_impulse;
-                fresh.points[i].tangent_impulse = old.points[j].tangent_impulse;
-            }
+                carry(i, j);
         }
     }
 }
@@ -78,13 +79,14 @@ void update_passing(const StepContext& ctx, Contact& contact)
         contact.flags |= contact_flag::passing;
 }
 
-void find_manifold(const StepContext& ctx, Contact& contact)
+void find_manifold(const StepContext& ctx, int index)
 {
-    const SceneState& state = ctx.state;
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
     const Manifold old = contact.manifold;
     contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b),
                                       ctx.scene.tolerances.speculation + relative_motion(state, contact));
-    carry_impulses(old, contact.manifold);
+    carry_impulses(old, contact.manifold, impulses_of(state, index));
     contact.flags &= ~(contact_flag::all_kept | contact_flag::followed);
 }
 
@@ -94,7 +96,7 @@ void update_manifold(const StepContext& ctx, int index)
     if (in_crowd(ctx.state, contact))
         follow_manifold(ctx, index);
     else
-        find_manifold(ctx, contact);
+        find_manifold(ctx, index);
     if ((contact.flags & contact_flag::one_way) != 0)
         update_passing(ctx, contact);
 }
@@ -130,8 +132,9 @@ void inherit_load(StepContext& ctx, int index)
                          contact.flags |= contact_flag::loaded;
                          other.flags &= ~contact_flag::loaded;
                          contact.manifold.rolling_impulse = other.manifold.rolling_impulse;
-                         contact.manifold.points[0].normal_impulse = other.manifold.points[0].normal_impulse;
-                         contact.manifold.points[0].tangent_impulse = other.manifold.points[0].tangent_impulse;
+                         const PointImpulses& borne = impulses_of(state, other_index).points[0];
+                         impulses_of(state, index).points[0].normal = borne.normal;
+                         impulses_of(state, index).points[0].tangent = borne.tangent;
                      });
 }
 

@@ -314,7 +314,7 @@ void follow_manifold(const StepContext& ctx, int index)
     const BodyPose pose_b = pose_at_start(state, contact.body_b);
     const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
     contact.manifold = in_world(found, pose_a, pose_b);
-    carry_impulses(old, contact.manifold);
+    carry_impulses(old, contact.manifold, impulses_of(state, index));
     contact.flags &= ~contact_flag::all_kept;
     if (!can_keep(state, contact, found))
         return;

@@ -62,7 +62,7 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index)
     if (update_contact(ctx, index) != News::Nothing || is_solved(contact) != was_solved)
         return false;
     if (!was_solved)
-        forget_impulses(contact);
+        forget_impulses(ctx.state, index);
     return true;
 }
 

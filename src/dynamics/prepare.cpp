@@ -204,8 +204,9 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
     set_row_geometry(ctx.scratch, row, manifold);
     for (int i = 0; i < row.count; ++i)
     {
-        row.points[i].normal_impulse = manifold.points[i].normal_impulse;
-        row.points[i].tangent_impulse = manifold.points[i].tangent_impulse;
+        const PointImpulses& impulses = impulses_of(ctx.state, index).points[i];
+        row.points[i].normal_impulse = impulses.normal;
+        row.points[i].tangent_impulse = impulses.tangent;
     }
     if (ctx.slices > 1)
         scale_row(row, 1 / static_cast<float>(ctx.slices));

@@ -182,6 +182,7 @@ private:
                               if (contact.pair != none)
                                   m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = slots[i];
                           });
+        move_items(slots, [&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); });
         move_items(slots, [&](int slot) -> KeptManifold& { return m_state.kept_manifolds[static_cast<std::size_t>(slot)]; });
     }
 

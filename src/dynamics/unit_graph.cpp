@@ -208,7 +208,7 @@ public:
             const bool touching = (contact.flags & contact_flag::touching) != 0;
             const bool solved = is_solved(contact);
             if (!solved)
-                leave_row(contact);
+                leave_row(index);
             if (!touching && !solved)
                 continue;
             const std::int32_t a = place_of(contact.body_a);
@@ -238,10 +238,10 @@ public:
         }
     }
 
-    static void leave_row(Contact& contact)
+    void leave_row(std::int32_t contact) const
     {
-        forget_impulses(contact);
-        contact.color = none;
+        forget_impulses(state, contact);
+        state.contacts[contact].color = none;
     }
 
     // The same for joints.
@@ -713,7 +713,7 @@ public:
                 if (gets_row(l))
                     return unit_of_link(l);
                 if (l.solved)
-                    leave_row(state.contacts[l.contact]);
+                    leave_row(l.contact);
                 return none;
             },
             [](Unit& unit, int first, int count)

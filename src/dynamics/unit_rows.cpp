@@ -55,7 +55,7 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
         contact.wide = (unit.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
     }
-    wide_kernels().fill(row, &ctx.state.contacts[0], scratch.constants.data());
+    wide_kernels().fill(row, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
 }
 
 void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
@@ -112,8 +112,12 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     const Scratch& scratch = ctx.scratch;
     contact_bins(scratch, unit)
-        .for_each(crew, [&](int g)
-                  { wide_kernels().take_impulses(scratch.wide_rows[as_index(unit.wide_store + g)], &ctx.state.contacts[0]); });
+        .for_each(crew,
+                  [&](int g)
+                  {
+                      wide_kernels().take_impulses(scratch.wide_rows[as_index(unit.wide_store + g)], &ctx.state.contacts[0],
+                                                   ctx.state.impulses.data());
+                  });
     for_each_place(crew, unit.first_row, unit.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
     for_each_place(crew, unit.first_joint, unit.joint_count,
@@ -135,10 +139,7 @@ void commit_row(SceneState& state, const ContactRow& row)
         const RowPoint& p = row.points[i];
         m.points[i].anchor_a = p.ra;
         m.points[i].anchor_b = p.rb;
-        m.points[i].normal_impulse = p.normal_impulse;
-        m.points[i].tangent_impulse = p.tangent_impulse;
-        m.points[i].total_impulse = p.total_impulse;
-        m.points[i].total_tangent = p.total_tangent;
+        impulses_of(state, row.contact).points[i] = {p.normal_impulse, p.tangent_impulse, p.total_impulse, p.total_tangent};
         if (p.normal_impulse > 0)
             contact.flags |= contact_flag::loaded;
     }

@@ -617,6 +617,7 @@ private:
         carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
         set_row_geometry(m_scratch, row, fresh);
         m_ctx.state.contacts[row.contact].manifold = fresh;
+        impulses_of(m_ctx.state, row.contact) = {}; // the row has them
     }
 
     [[nodiscard]] static bool has_turned(Rotation from, Rotation to, float least)
@@ -646,7 +647,7 @@ private:
             return;
         m_ctx.state.contacts[now.contact].color = m_ctx.state.contacts[row.contact].color;
         m_ctx.state.contacts[row.contact].color = none;
-        forget_impulses(m_ctx.state.contacts[row.contact]);
+        forget_impulses(m_ctx.state, row.contact);
         row.contact = now.contact;
     }
 

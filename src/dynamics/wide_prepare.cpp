@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace carom::internal {
 
@@ -77,8 +78,8 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
         p.across_b.v[i] = cross(from.anchor_b, m.normal);
         p.along_b.v[i] = dot(from.anchor_b, m.normal);
         p.base.v[i] = from.separation;
-        p.normal_impulse.v[i] = from.normal_impulse;
-        p.tangent_impulse.v[i] = from.tangent_impulse;
+        p.normal_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].normal;
+        p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
     }
     if ((contact.flags & contact_flag::loaded) == 0)
         row.may_hit |= 1u << i;
@@ -134,7 +135,8 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     WideRow& row = lane.row;
     const int i = lane.i;
     row.a.v[i] = row.b.v[i] = fixed;
-    row.contact.v[i] = none;
+    for (PointImpulses& p : impulses_of(ctx.state, std::exchange(row.contact.v[i], none)).points)
+        p.normal = p.tangent = 0;
     row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
     row.coupling.v[i] = 0;
     for (WidePoint& p : row.points)
@@ -148,8 +150,6 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     row.fixed_b |= 1u << i;
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;
-    for (ManifoldPoint& p : contact.manifold.points)
-        p.normal_impulse = p.tangent_impulse = 0;
 }
 
 bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }

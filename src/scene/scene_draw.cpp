@@ -78,7 +78,7 @@ public:
             const Position center = m_state.sims[static_cast<std::size_t>(contact.body_a)].center;
             const Manifold manifold = settled_manifold(m_state, i);
             for (int p = 0; p < manifold.count; ++p)
-                draw_contact(manifold, manifold.points[p], center);
+                draw_contact(manifold, manifold.points[p], m_state.impulses[static_cast<std::size_t>(i)].points[p], center);
         }
     }
 
@@ -191,7 +191,7 @@ private:
             m_draw.line(role, corners[i], corners[(i + 1) % 4]);
     }
 
-    void draw_contact(const Manifold& m, const ManifoldPoint& p, Position center) const
+    void draw_contact(const Manifold& m, const ManifoldPoint& p, const PointImpulses& impulses, Position center) const
     {
         const Position at = center + p.anchor_a;
         if (m_options.contacts)
@@ -199,9 +199,9 @@ private:
         if (m_options.normals)
             m_draw.line(DrawRole::ContactNormal, at, at + m_options.velocity_scale * m.normal);
         if (m_options.impulses)
-            m_draw.line(DrawRole::Impulse, at, at + (m_options.impulse_scale * p.total_impulse) * m.normal);
+            m_draw.line(DrawRole::Impulse, at, at + (m_options.impulse_scale * impulses.total_normal) * m.normal);
         if (m_options.friction)
-            m_draw.line(DrawRole::Friction, at, at + (m_options.impulse_scale * p.total_tangent) * perp(m.normal));
+            m_draw.line(DrawRole::Friction, at, at + (m_options.impulse_scale * impulses.total_tangent) * perp(m.normal));
     }
 
     const SceneState& m_state;

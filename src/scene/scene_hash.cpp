@@ -105,8 +105,9 @@ void add_shape(Hasher& h, const SceneState& state, int shape)
         add(h, state.broad_phase.box(shape));
 }
 
-void add_contact(Hasher& h, const Contact& c)
+void add_contact(Hasher& h, const SceneState& state, int index)
 {
+    const Contact& c = state.contacts[index];
     h.add(c.shape_a);
     h.add(c.shape_b);
     h.add(static_cast<int>(c.flags & ~contact_flag::followed)); // which says only where the rest of it is
@@ -114,8 +115,8 @@ void add_contact(Hasher& h, const Contact& c)
     h.add(c.manifold.rolling_impulse);
     for (int i = 0; i < c.manifold.count; ++i)
     {
-        h.add(c.manifold.points[i].normal_impulse);
-        h.add(c.manifold.points[i].tangent_impulse);
+        h.add(state.impulses[static_cast<std::size_t>(index)].points[i].normal);
+        h.add(state.impulses[static_cast<std::size_t>(index)].points[i].tangent);
         h.add(static_cast<int>(c.manifold.points[i].feature));
     }
 }
@@ -164,7 +165,7 @@ std::uint64_t Scene::state_hash() const
     for (int i = 0; i < state.contacts.capacity(); ++i)
     {
         if (state.contacts.is_live(i))
-            add_contact(h, state.contacts[i]);
+            add_contact(h, state, i);
     }
     for (int i = 0; i < state.joints.capacity(); ++i)
     {

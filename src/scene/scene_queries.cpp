@@ -282,7 +282,8 @@ ContactInfo describe(const SceneState& state, int index)
     for (int i = 0; i < manifold.count; ++i)
     {
         const ManifoldPoint& p = manifold.points[i];
-        info.points[i] = {center + p.anchor_a, p.separation, p.total_impulse, p.total_tangent};
+        const PointImpulses& impulses = state.impulses[static_cast<std::size_t>(index)].points[i];
+        info.points[i] = {center + p.anchor_a, p.separation, impulses.total_normal, impulses.total_tangent};
     }
     return info;
 }

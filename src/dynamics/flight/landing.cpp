@@ -65,6 +65,7 @@ private:
         if (manifold.count == 0 && !may_come_to_face(contact, m_span.unit))
             return;
         m_span.state.contacts[index].manifold = manifold; // the row's points are these
+        impulses_of(m_span.state, index) = {};
         m_span.state.contacts[index].flags &= ~contact_flag::kept;
         const bool flier_is_a = contact.body_a == m_flier.body;
         ContactRow row =

@@ -1,9 +1,10 @@
-// Rows are filled from their contacts, and get their effective masses; refill_lane has the same for one lane. Part of kernels.inl.
+// Rows are filled from their contacts and impulses, and get their effective masses; refill_lane has the same for one lane. Part of kernels.inl.
 
 namespace fills {
 
 // What empty lanes read: nothing pushes.
 constexpr Contact nobody{};
+constexpr ContactImpulses nothing{};
 
 // Four floats of each lane's contact, from a place within it.
 CAROM_INLINE void gather_contacts(const Contact* const (&contacts)[lane_count], std::size_t place, F8& x, F8& y, F8& z, F8& w)
@@ -30,22 +31,33 @@ CAROM_INLINE unsigned lanes_with(I8 flags, std::uint32_t flag) { return bits((fl
 CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane_count], std::size_t place, F8 nx, F8 ny)
 {
     static_assert(offsetof(ManifoldPoint, anchor_a) == 0 && offsetof(ManifoldPoint, anchor_b) == 8 &&
-                  offsetof(ManifoldPoint, separation) == 16 && offsetof(ManifoldPoint, normal_impulse) == 20 &&
-                  offsetof(ManifoldPoint, tangent_impulse) == 24);
+                  sizeof(ManifoldPoint) == 24 && offsetof(ManifoldPoint, separation) == 16);
     F8 ax, ay, bx, by;
     gather_contacts(contacts, place, ax, ay, bx, by);
-    F8 separation, normal_impulse, tangent_impulse, unused;
-    gather_contacts(contacts, place + offsetof(ManifoldPoint, separation), separation, normal_impulse, tangent_impulse, unused);
     store(p.across_a, ax * ny - ay * nx);
     store(p.along_a, ax * nx + ay * ny);
     store(p.across_b, bx * ny - by * nx);
     store(p.along_b, bx * nx + by * ny);
-    store(p.base, separation);
-    store(p.normal_impulse, normal_impulse);
-    store(p.tangent_impulse, tangent_impulse);
+    LaneFloats separation;
+    for (int i = 0; i < lane_count; ++i)
+        std::memcpy(&separation.v[i], reinterpret_cast<const char*>(contacts[i]) + place + offsetof(ManifoldPoint, separation), 4);
+    store(p.base, load(separation));
     store(p.total_impulse, all(0));
     store(p.total_tangent, all(0));
     store(p.approach, all(0));
+}
+
+CAROM_INLINE void fill_impulses(WideRow& row, const ContactImpulses* impulses)
+{
+    for (int k = 0; k < row.count; ++k)
+    {
+        F8 normal, tangent, total_normal, total_tangent;
+        const auto at = [&](int i)
+        { return reinterpret_cast<const char*>((row.contact.v[i] < 0 ? nothing : impulses[row.contact.v[i]]).points + k); };
+        gather4(at, normal, tangent, total_normal, total_tangent);
+        store(row.points[k].normal_impulse, normal);
+        store(row.points[k].tangent_impulse, tangent);
+    }
 }
 
 CAROM_INLINE void fill_masses(WideRow& row, const StateConstants* constants)
@@ -97,7 +109,7 @@ void prepare(WideRow* rows, std::int32_t count)
 }
 
 // All but a, b, contact and count, which say what goes there.
-void fill(WideRow& row, const Contact* contacts, const StateConstants* constants)
+void fill(WideRow& row, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants)
 {
     static_assert(offsetof(Contact, body_b) == offsetof(Contact, shape_a) + 12 &&
                   offsetof(Contact, friction) == offsetof(Contact, flags) + 4 && offsetof(Manifold, normal) == 0);
@@ -117,6 +129,7 @@ void fill(WideRow& row, const Contact* contacts, const StateConstants* constants
     for (int k = 0; k < row.count; ++k)
         fill_point(row.points[k], of_lane, offsetof(Contact, manifold) + offsetof(Manifold, points) + k * sizeof(ManifoldPoint),
                    nx, ny);
+    fill_impulses(row, impulses);
     const I8 flags = as_ints(flag_bits);
     const unsigned filled = bits(load(row.contact) >= I8{});
     row.may_hit = filled & ~lanes_with(flags, contact_flag::loaded);

@@ -381,13 +381,12 @@ void follow_contacts(const LaneInts& contacts, int count, Contact* into, const F
         tell_one(now, found.one);
 }
 
-// Impulses of a point, side by side in a row, one after the other in a contact.
-void take_impulses(const WideRow& row, Contact* contacts)
+// Impulses of a point, side by side in a row, one after the other in a contact's.
+void take_impulses(const WideRow& row, Contact* contacts, ContactImpulses* impulses)
 {
-    static_assert(offsetof(ManifoldPoint, tangent_impulse) == offsetof(ManifoldPoint, normal_impulse) + 4 &&
-                  offsetof(ManifoldPoint, total_impulse) == offsetof(ManifoldPoint, normal_impulse) + 8 &&
-                  offsetof(ManifoldPoint, total_tangent) == offsetof(ManifoldPoint, normal_impulse) + 12);
-    alignas(ManifoldPoint) char unused[lane_count * sizeof(F4)];
+    static_assert(sizeof(PointImpulses) == sizeof(F4) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
+                  offsetof(PointImpulses, total_normal) == 8);
+    PointImpulses unused[lane_count];
     I8 loaded{};
     for (int k = 0; k < row.count; ++k)
     {
@@ -395,10 +394,7 @@ void take_impulses(const WideRow& row, Contact* contacts)
         const F8 normal_impulse = load(p.normal_impulse);
         loaded |= normal_impulse > all(0);
         const auto at = [&](int i)
-        {
-            return row.contact.v[i] < 0 ? unused + i * static_cast<int>(sizeof(F4))
-                                        : reinterpret_cast<char*>(&contacts[row.contact.v[i]].manifold.points[k].normal_impulse);
-        };
+        { return reinterpret_cast<char*>(row.contact.v[i] < 0 ? unused + i : impulses[row.contact.v[i]].points + k); };
         scatter4(at, normal_impulse, load(p.tangent_impulse), load(p.total_impulse), load(p.total_tangent));
     }
     const unsigned bears = bits(loaded);
@@ -407,7 +403,9 @@ void take_impulses(const WideRow& row, Contact* contacts)
         if (row.contact.v[i] < 0)
             continue;
         std::uint32_t& flags = contacts[row.contact.v[i]].flags;
-        flags = (flags & ~contact_flag::loaded) | ((bears >> i & 1u) != 0 ? contact_flag::loaded : 0);
+        const std::uint32_t now = (flags & ~contact_flag::loaded) | ((bears >> i & 1u) != 0 ? contact_flag::loaded : 0);
+        if (now != flags)
+            flags = now;
     }
 }
 

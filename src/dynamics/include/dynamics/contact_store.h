@@ -46,11 +46,10 @@ void for_each_contact(SceneState& state, int body, Visit&& visit)
 }
 
 /// Of a contact that nothing solves any more.
-inline void forget_impulses(Contact& contact)
+inline void forget_impulses(SceneState& state, int contact)
 {
-    contact.flags &= ~contact_flag::loaded;
-    for (ManifoldPoint& p : contact.manifold.points)
-        p.normal_impulse = p.tangent_impulse = p.total_impulse = p.total_tangent = 0;
+    state.contacts[contact].flags &= ~contact_flag::loaded;
+    impulses_of(state, contact) = {};
 }
 
 [[nodiscard]] inline int other_body(const Contact& contact, int body)

@@ -27,7 +27,7 @@ struct BodyPose
                                       float margin);
 
 /// Points with the feature of an old one take over its impulses; a single point in a single point's place does too.
-void carry_impulses(const Manifold& old, Manifold& fresh);
+void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impulses);
 
 [[nodiscard]] inline BodyPose pose_at_start(const SceneState& state, int body)
 {

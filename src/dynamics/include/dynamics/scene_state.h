@@ -125,10 +125,6 @@ struct ManifoldPoint
     Vec2 anchor_a{}; ///< from a's center of mass to a's surface, world axes
     Vec2 anchor_b{};
     float separation = 0;
-    float normal_impulse = 0; ///< of the last sub-step, for warm starting
-    float tangent_impulse = 0;
-    float total_impulse = 0; ///< over the last step
-    float total_tangent = 0;
     std::uint32_t feature = 0;
 };
 
@@ -158,7 +154,22 @@ inline constexpr std::uint32_t followed =
     1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
 } // namespace contact_flag
 
-struct Contact
+/// Of a manifold's points, for warm starting and for who asks.
+struct PointImpulses
+{
+    float normal = 0; ///< of the last sub-step
+    float tangent = 0;
+    float total_normal = 0; ///< over the last step
+    float total_tangent = 0;
+};
+
+struct ContactImpulses
+{
+    PointImpulses points[2];
+};
+
+/// Two cache lines: who it is, and how it touches.
+struct alignas(64) Contact
 {
     std::int32_t shape_a = none;
     std::int32_t shape_b = none;
@@ -176,6 +187,7 @@ struct Contact
     std::int32_t wide = none;  ///< during a step: where its wide row is, group * lane_count + lane
     Manifold manifold{};
 };
+static_assert(sizeof(Contact) == 128);
 
 /// An edge of one body, and two corners of the other that it faces, from their centers of mass and in their axes.
 struct KeptEdge
@@ -298,6 +310,7 @@ struct SceneState
     VertexStore vertices;
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
+    std::vector<ContactImpulses> impulses;    ///< by contact slot
     std::vector<KeptManifold> kept_manifolds; ///< by contact slot
     std::vector<LaneMark> lane_marks;         ///< by contact slot
     std::vector<BoxPair> box_pairs;
@@ -318,6 +331,11 @@ struct SceneState
 
 /// The contact has been changed, or will be, by other than its row.
 inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static_cast<std::size_t>(contact)] = LaneMark::None; }
+
+[[nodiscard]] inline ContactImpulses& impulses_of(SceneState& state, int contact)
+{
+    return state.impulses[static_cast<std::size_t>(contact)];
+}
 
 /// Empty where the restitution is the same at all speeds.
 [[nodiscard]] inline RestitutionCurve curve_of(const SceneState& state, const ShapeRecord& shape)

@@ -13,6 +13,7 @@ struct BodySim;
 struct BoxPair;
 struct BoxPlace;
 struct Contact;
+struct ContactImpulses;
 struct KeptManifold;
 struct StateConstants;
 
@@ -62,8 +63,8 @@ struct FollowedContacts
 struct WideKernels
 {
     const char* name;
-    /// A row from its contacts and the constants of their states, effective masses too. `row` has a, b, contact and count of each lane.
-    void (*fill)(WideRow& row, const Contact* contacts, const StateConstants* constants);
+    /// A row from its contacts, their impulses, and the constants of their states, effective masses too. `row` has a, b, contact and count of each lane.
+    void (*fill)(WideRow& row, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants);
     /// Effective masses anew, once lanes have been filled one by one.
     void (*prepare)(WideRow* rows, std::int32_t count);
     void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
@@ -84,8 +85,8 @@ struct WideKernels
     /// The manifolds of eight contacts that have as many points and are kept, likewise; of those that are not sure it is to be found by itself.
     void (*follow_contacts)(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene,
                             FollowedContacts& found);
-    /// Impulses of all lanes, and whether they bear a load, to their contacts.
-    void (*take_impulses)(const WideRow& row, Contact* contacts);
+    /// Impulses of all lanes, and to their contacts whether they bear a load.
+    void (*take_impulses)(const WideRow& row, Contact* contacts, ContactImpulses* impulses);
     /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
     /// Of eight pairs, a bit for each that stays as it is for sure: its fat boxes meet, and it has a contact if and only if it may meet in the step.
