@@ -51,13 +51,15 @@ void ImpactSet::sum_impulse(const ImpactRow& r)
     }
 }
 
-// Slower than what presses the body on gives in a sub-step is settling; shallower than half a degree along a chain is rolling.
+// Slower than what presses the body on gives in a sub-step is settling, and so are the blows that pressing is taken in; shallower than half a degree
+// along a chain is rolling.
 bool ImpactSet::is_worth_telling(const ImpactRow& row, const Source& s) const
 {
     const bool along_chain = m_state.shapes[s.other].owner != s.other;
     const double shallow = along_chain ? 0.01 * std::fabs(s.slide) : 0;
-    return row.approach >
-           std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed), -s.touch.acceleration * m_span.h, shallow});
+    const double blow = both_give_way(row) ? 2 * blow_of(s) : 0;
+    return row.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed),
+                                    -s.touch.acceleration * m_span.h, blow, shallow});
 }
 
 ImpactEvent ImpactSet::event_of(const ImpactRow& row, const Source& s, bool own_is_a) const
