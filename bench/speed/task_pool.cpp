@@ -17,10 +17,10 @@ void pause()
 
 } // namespace
 
-TaskPool::TaskPool(int count)
+TaskPool::TaskPool(int count) : m_shares(static_cast<std::size_t>(count))
 {
     for (int i = 1; i < count; ++i)
-        m_threads.emplace_back([this] { serve(); });
+        m_threads.emplace_back([this, i] { serve(i); });
 }
 
 TaskPool::~TaskPool()
@@ -48,31 +48,52 @@ void TaskPool::run(int count, Task task, void* context)
     m_context = context;
     m_done = 0;
     const std::uint32_t round = m_round + 1;
-    m_tickets = std::uint64_t{round} << 32 | static_cast<std::uint32_t>(count);
+    int first = 0;
+    for (int i = 0; i < static_cast<int>(m_shares.size()); ++i)
+    {
+        const int end = end_of_share(i);
+        m_shares[static_cast<std::size_t>(i)].tickets = std::uint64_t{round} << 32 | static_cast<std::uint32_t>(end - first);
+        first = end;
+    }
     m_round = round;
     m_round.notify_all();
-    while (take_task())
-    {
-    }
+    work_off(0);
     while (m_done != count)
         pause();
 }
 
-// Who holds a ticket keeps its round from ending.
-bool TaskPool::take_task()
+int TaskPool::end_of_share(int thread) const
 {
-    std::uint64_t tickets = m_tickets;
+    return static_cast<int>(std::int64_t{m_count} * (thread + 1) / static_cast<std::int64_t>(m_shares.size()));
+}
+
+void TaskPool::work_off(int thread)
+{
+    const int threads = static_cast<int>(m_shares.size());
+    for (int i = 0; i < threads; ++i)
+    {
+        while (take_task((thread + i) % threads))
+        {
+        }
+    }
+}
+
+// Who holds a ticket keeps its round from ending.
+bool TaskPool::take_task(int thread)
+{
+    std::atomic<std::uint64_t>& share = m_shares[static_cast<std::size_t>(thread)].tickets;
+    std::uint64_t tickets = share;
     do
     {
         if (static_cast<std::uint32_t>(tickets) == 0)
             return false;
-    } while (!m_tickets.compare_exchange_weak(tickets, tickets - 1));
-    m_task(m_context, m_count - static_cast<int>(static_cast<std::uint32_t>(tickets)));
+    } while (!share.compare_exchange_weak(tickets, tickets - 1));
+    m_task(m_context, end_of_share(thread) - static_cast<int>(static_cast<std::uint32_t>(tickets)));
     ++m_done;
     return true;
 }
 
-void TaskPool::serve()
+void TaskPool::serve(int thread)
 {
     for (std::uint32_t seen = 0;;)
     {
@@ -80,9 +101,7 @@ void TaskPool::serve()
         seen = m_round;
         if (m_over)
             return;
-        while (take_task())
-        {
-        }
+        work_off(thread);
     }
 }
 

@@ -13,7 +13,8 @@
 namespace speed {
 
 /// Runs tasks on the calling thread and count - 1 more. One scene at a time. A step runs many short rounds of tasks: a thread that has
-/// nothing to do keeps looking for a while before it goes to sleep, and one that comes too late is not waited for.
+/// nothing to do keeps looking for a while before it goes to sleep, and one that comes too late is not waited for. In every round a thread begins with
+/// its own share, in order, so that it comes back to what it has in its cache, and then helps the others.
 class TaskPool
 {
 public:
@@ -28,12 +29,20 @@ public:
 private:
     using Task = void (*)(void*, int);
 
+    /// Of a thread in this round: round, and in the lower half how many of its tasks nobody has taken.
+    struct alignas(64) Share
+    {
+        std::atomic<std::uint64_t> tickets{0};
+    };
+
     void run(int count, Task task, void* context);
-    [[nodiscard]] bool take_task();
-    void serve();
+    void work_off(int thread);
+    [[nodiscard]] bool take_task(int thread);
+    [[nodiscard]] int end_of_share(int thread) const;
+    void serve(int thread);
     void wait_for_round(std::uint32_t seen) const;
 
-    std::atomic<std::uint64_t> m_tickets{0}; ///< round, and in the lower half how many of its tasks nobody has taken
+    std::vector<Share> m_shares;
     std::atomic<std::uint32_t> m_round{0};
     std::atomic<int> m_done{0};
     std::atomic<bool> m_over{false};
