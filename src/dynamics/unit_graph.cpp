@@ -126,7 +126,7 @@ public:
     {
         scratch.flight.assign(state.awake_bodies.size(), earthbound);
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
-        scratch.has_uneven = false;
+        scratch.has_uneven = scratch.has_kinematic = false;
         forget_places();
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
                           [&](std::size_t i)
@@ -152,6 +152,8 @@ public:
     {
         const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
         scratch.places[static_cast<std::size_t>(body)] = dynamic ? place : -2 - place;
+        if (!dynamic)
+            std::atomic_ref(scratch.has_kinematic).store(true, std::memory_order_relaxed);
     }
 
     void note_uneven(int body) const
@@ -311,17 +313,13 @@ public:
     void link_islands()
     {
         reset_parents(ctx);
-        const bool finds_anew = state.graph_dirty;
-        if (finds_anew)
-            label_islands();
-        scratch.has_kinematic = false;
-        for (const std::int32_t body : state.awake_bodies)
+        if (state.graph_dirty)
         {
-            const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
-            scratch.has_kinematic |= !dynamic;
-            if (dynamic && !finds_anew)
-                link_bodies(ctx, body, state.bodies[body].island);
+            label_islands();
+            return;
         }
+        for (const std::int32_t body : state.awake_bodies)
+            link_bodies(ctx, body, state.bodies[body].island);
     }
 
     void label_islands()
@@ -336,10 +334,10 @@ public:
             if (j.a >= 0 && j.b >= 0)
                 link(scratch.parent, j.a, j.b);
         }
-        for (const std::int32_t body : state.awake_bodies)
+        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         {
-            const std::int32_t root = find_root(scratch.parent, state.bodies[body].awake_index);
-            state.bodies[body].island = state.awake_bodies[static_cast<std::size_t>(root)];
+            const std::int32_t root = find_root(scratch.parent, static_cast<std::int32_t>(i));
+            state.bodies[state.awake_bodies[i]].island = state.awake_bodies[static_cast<std::size_t>(root)];
         }
         state.graph_dirty = false;
     }
@@ -645,7 +643,7 @@ public:
         scratch.unit_of.assign(n, none);
         for (std::size_t i = 0; i < n; ++i)
         {
-            if (state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
+            if (scratch.has_kinematic && state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
                 continue;
             const auto root = static_cast<std::size_t>(find_root(scratch.parent, static_cast<std::int32_t>(i)));
             if (root == i)

@@ -181,7 +181,6 @@ private:
             const std::int32_t place = m_scratch.solved_bodies[as_index(i)];
             const int body = m_state.awake_bodies[as_index(place)];
             m_scratch.state_of[as_index(place)] = add_state(body);
-            m_state.sims[as_index(body)].crowded = !unit.precise;
             seed_flier(unit, place);
         }
         unit.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - unit.first_flier;
@@ -326,8 +325,13 @@ private:
         const int body = m_scratch.state_bodies[as_index(i)];
         BodyState& s = m_scratch.states[as_index(i)];
         s = body == none ? BodyState{} : initial_state(m_state, body);
-        m_scratch.constants[as_index(i)] = is_dynamic(unit, i) ? state_constants(unit_ctx, body) : StateConstants{};
-        if (unit.alone && is_dynamic(unit, i))
+        StateConstants& c = m_scratch.constants[as_index(i)];
+        c = {};
+        if (!is_dynamic(unit, i))
+            return;
+        c = state_constants(unit_ctx, body);
+        m_state.sims[as_index(body)].crowded = !unit.precise;
+        if (unit.alone)
             s.flags |= body_flag::alone;
     }
 

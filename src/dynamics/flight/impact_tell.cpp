@@ -58,8 +58,8 @@ bool ImpactSet::is_worth_telling(const ImpactRow& row, const Source& s) const
     const bool along_chain = m_state.shapes[s.other].owner != s.other;
     const double shallow = along_chain ? 0.01 * std::fabs(s.slide) : 0;
     const double blow = both_give_way(row) ? 2 * blow_of(s) : 0;
-    return row.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed),
-                                    -s.touch.acceleration * m_span.h, blow, shallow});
+    return row.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed), -s.touch.acceleration * m_span.h,
+                                    blow, shallow});
 }
 
 ImpactEvent ImpactSet::event_of(const ImpactRow& row, const Source& s, bool own_is_a) const
