@@ -126,7 +126,7 @@ void fill(WideRow& row, const Contact* contacts, const ContactImpulses* impulses
     store(row.nx, nx);
     store(row.ny, ny);
     fill_masses(row, constants);
-    for (int k = 0; k < row.count; ++k)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
         fill_point(row.points[k], of_lane, offsetof(Contact, manifold) + offsetof(Manifold, points) + k * sizeof(ManifoldPoint),
                    nx, ny);
     fill_impulses(row, impulses);
