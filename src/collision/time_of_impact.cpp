@@ -410,7 +410,9 @@ double pressed_speed(double acceleration, const Press& press, double length)
 {
     if (acceleration >= 0)
         return 0;
-    return std::min(std::max(-acceleration * press.wait, press.least_blow), std::sqrt(-2 * acceleration * nearly_touch * length));
+    const auto at_depth = [&](double depth) { return std::sqrt(-2 * acceleration * depth); };
+    const double least = std::min(press.least_blow, at_depth(press.depth));
+    return std::min(std::max(-acceleration * press.wait, least), at_depth(nearly_touch * length));
 }
 
 FramePath path_after(const FramePath& path, double time)

@@ -325,8 +325,9 @@ void Body::teleport(Position position, float angle)
                      {
                          Contact& contact = m_data->state.contacts[index];
                          contact.flags |= contact_flag::fresh;
-                         contact.flags &= ~(contact_flag::passing | contact_flag::loaded);
+                         contact.flags &= ~contact_flag::passing;
                          contact.manifold = {};
+                         forget_impulses(m_data->state, index);
                          leave_lane(m_data->state, index);
                      });
     refresh_boxes(*m_data, t.slot);

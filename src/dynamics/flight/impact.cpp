@@ -2,7 +2,8 @@
 // their impulses; then they are told, and what is left pressing is held.
 //
 // Resting is an outcome: a bounce so small that the pressing acceleration would end it within half a sub-step (e u <= a_n h / 2) is none.
-// Zero gravity never rests by that rule, nor does a slow body with room to bounce. What is held takes the part of the acceleration that
+// Zero gravity never rests by that rule, nor does a slow body with room to bounce; but of two that both give way and lean on each other a bounce of
+// the blows that this is taken in is none either (Press). What is held takes the part of the acceleration that
 // presses, for the rest of the sub-step, and is then the solver's.
 
 #include "dynamics/flight/impact.h"
@@ -112,7 +113,11 @@ double ImpactSet::size_of(const Source& s) const
 }
 
 // As fast as what presses two that both give way is let become.
-double ImpactSet::blow_of(const Source& s) const { return pressed_speed(s.touch.acceleration, m_span.press(), size_of(s)); }
+double ImpactSet::blow_of(const Source& s) const
+{
+    const Press press = m_span.press(m_state.shapes[s.own].body, m_state.shapes[s.other].body);
+    return pressed_speed(s.touch.acceleration, press, size_of(s));
+}
 
 // Bodies that go on striking each other, as in a heap that collapses, come to rest against each other.
 bool ImpactSet::is_crowded(const ImpactRow& row) const

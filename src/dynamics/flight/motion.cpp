@@ -41,7 +41,12 @@ std::int32_t FlightSpan::state_in_unit(int body) const
     return s >= unit.first_state && s < unit.first_state + unit.state_count ? s : none;
 }
 
-Press FlightSpan::press() const { return {0.25 * h, static_cast<double>(ctx.scene.tolerances.rest_speed)}; }
+Press FlightSpan::press(int a, int b) const
+{
+    constexpr double shallow = 0.01; // of what is inside them
+    const double size = std::min(sim_of(a).size, sim_of(b).size);
+    return {0.25 * h, static_cast<double>(ctx.scene.tolerances.rest_speed), shallow * size};
+}
 
 double turning_acceleration(const FlightSpan& span, const Flier& f, double angle)
 {

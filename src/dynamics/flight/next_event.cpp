@@ -197,9 +197,10 @@ private:
         const Axis normal = normal_at_start(shape, contact);
         if (stays_apart_along(line, a, target, b, own_path, left) || stays_apart_along(normal, a, target, b, own_path, left))
             return;
-        const std::optional<Touch> hit = first_touch(a, target, b, own_path, left, m_span.least_approach,
-                                                     state.bodies[body].type == BodyType::Dynamic ? m_span.press() : Press{},
-                                                     held_corners(m_flier, own, shape), normal.is_none() ? line : normal);
+        const std::optional<Touch> hit =
+            first_touch(a, target, b, own_path, left, m_span.least_approach,
+                        state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : Press{},
+                        held_corners(m_flier, own, shape), normal.is_none() ? line : normal);
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.

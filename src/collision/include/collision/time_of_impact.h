@@ -81,11 +81,13 @@ struct Touch
 /// Of the size: so deep at the most comes what presses before it touches anew.
 inline constexpr double nearly_touch = 1e-3;
 
-/// What touches and presses is taken in blows: after `wait` seconds at the earliest, and none slower than `least_blow`.
+/// What touches and presses is taken in blows: as fast as what presses makes it in `wait` seconds, but no slower than `least_blow` unless it would
+/// come deeper than `depth` for that.
 struct Press
 {
     double wait = 0;
     double least_blow = 0; ///< m/s
+    double depth = 0;      ///< m
 };
 
 /// How fast the gap closes by then, or once it is pressed as deep as nearly_touch; acceleration of the gap as in Touch.

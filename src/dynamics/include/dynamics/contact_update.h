@@ -21,7 +21,7 @@ struct BodyPose
 [[nodiscard]] LocalManifold local_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b,
                                            float margin);
 
-/// The same with anchors from the centers of mass, in world axes; impulses 0.
+/// The same with anchors from the centers of mass, in world axes.
 [[nodiscard]] Manifold in_world(const LocalManifold& local, const BodyPose& a, const BodyPose& b);
 [[nodiscard]] Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b,
                                       float margin);

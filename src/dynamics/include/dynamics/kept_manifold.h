@@ -23,6 +23,7 @@ namespace carom::internal {
     return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
 }
 
+/// Or, without a point, whether the direction that parts them is in the axes of b.
 [[nodiscard]] inline bool keeps_edge_of_b(const Contact& contact) { return (contact.flags & contact_flag::edge_of_b) != 0; }
 [[nodiscard]] inline bool keeps_nearest(const Contact& contact) { return (contact.flags & contact_flag::nearest) != 0; }
 

@@ -36,7 +36,7 @@ struct FlightSpan
     /// The state of a dynamic body of this unit; none: it does not move, or belongs elsewhere.
     [[nodiscard]] std::int32_t state_in_unit(int body) const;
     /// Of two that both give way none holds the other; what presses them together is taken in small blows.
-    [[nodiscard]] Press press() const;
+    [[nodiscard]] Press press(int body_a, int body_b) const;
     [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }
 };
 
