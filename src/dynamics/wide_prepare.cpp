@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 namespace carom::internal {
 
@@ -134,9 +133,10 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     const Lane lane(ctx.scratch, contact.wide);
     WideRow& row = lane.row;
     const int i = lane.i;
-    row.a.v[i] = row.b.v[i] = fixed;
-    for (PointImpulses& p : impulses_of(ctx.state, std::exchange(row.contact.v[i], none)).points)
+    for (PointImpulses& p : impulses_of(ctx.state, row.contact.v[i]).points)
         p.normal = p.tangent = 0;
+    row.a.v[i] = row.b.v[i] = fixed;
+    row.contact.v[i] = none;
     row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
     row.coupling.v[i] = 0;
     for (WidePoint& p : row.points)

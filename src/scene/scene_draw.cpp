@@ -78,7 +78,7 @@ public:
             const Position center = m_state.sims[static_cast<std::size_t>(contact.body_a)].center;
             const Manifold manifold = settled_manifold(m_state, i);
             for (int p = 0; p < manifold.count; ++p)
-                draw_contact(manifold, manifold.points[p], m_state.impulses[static_cast<std::size_t>(i)].points[p], center);
+                draw_contact(manifold, manifold.points[p], impulses_of(m_state, i).points[p], center);
         }
     }
 

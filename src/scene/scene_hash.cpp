@@ -115,8 +115,8 @@ void add_contact(Hasher& h, const SceneState& state, int index)
     h.add(c.manifold.rolling_impulse);
     for (int i = 0; i < c.manifold.count; ++i)
     {
-        h.add(state.impulses[static_cast<std::size_t>(index)].points[i].normal);
-        h.add(state.impulses[static_cast<std::size_t>(index)].points[i].tangent);
+        h.add(impulses_of(state, index).points[i].normal);
+        h.add(impulses_of(state, index).points[i].tangent);
         h.add(static_cast<int>(c.manifold.points[i].feature));
     }
 }

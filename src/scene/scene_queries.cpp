@@ -282,7 +282,7 @@ ContactInfo describe(const SceneState& state, int index)
     for (int i = 0; i < manifold.count; ++i)
     {
         const ManifoldPoint& p = manifold.points[i];
-        const PointImpulses& impulses = state.impulses[static_cast<std::size_t>(index)].points[i];
+        const PointImpulses& impulses = impulses_of(state, index).points[i];
         info.points[i] = {center + p.anchor_a, p.separation, impulses.total_normal, impulses.total_tangent};
     }
     return info;

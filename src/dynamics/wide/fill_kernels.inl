@@ -6,41 +6,23 @@ namespace fills {
 constexpr Contact nobody{};
 constexpr ContactImpulses nothing{};
 
-// Four floats of each lane's contact, from a place within it.
-CAROM_INLINE void gather_contacts(const Contact* const (&contacts)[lane_count], std::size_t place, F8& x, F8& y, F8& z, F8& w)
-{
-    gather4([&](int i) { return reinterpret_cast<const char*>(contacts[i]) + place; }, x, y, z, w);
-}
-
-CAROM_INLINE I8 as_ints(F8 bits_of)
-{
-    I8 r;
-    std::memcpy(&r, &bits_of, sizeof r);
-    return r;
-}
-
-CAROM_INLINE I8 all_ints(std::uint32_t x)
-{
-    const auto i = static_cast<std::int32_t>(x);
-    return I8{i, i, i, i, i, i, i, i};
-}
-
 // Lanes with that flag.
 CAROM_INLINE unsigned lanes_with(I8 flags, std::uint32_t flag) { return bits((flags & all_ints(flag)) != I8{}); }
 
-CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane_count], std::size_t place, F8 nx, F8 ny)
+// From the contacts' k-th points.
+CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane_count], int k, F8 nx, F8 ny)
 {
-    static_assert(offsetof(ManifoldPoint, anchor_a) == 0 && offsetof(ManifoldPoint, anchor_b) == 8 &&
-                  sizeof(ManifoldPoint) == 24 && offsetof(ManifoldPoint, separation) == 16);
+    static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
+    const auto point = [&](int i) -> const ManifoldPoint& { return contacts[i]->manifold.points[k]; };
     F8 ax, ay, bx, by;
-    gather_contacts(contacts, place, ax, ay, bx, by);
+    gather4([&](int i) { return reinterpret_cast<const char*>(&point(i).anchor_a); }, ax, ay, bx, by);
     store(p.across_a, ax * ny - ay * nx);
     store(p.along_a, ax * nx + ay * ny);
     store(p.across_b, bx * ny - by * nx);
     store(p.along_b, bx * nx + by * ny);
     LaneFloats separation;
     for (int i = 0; i < lane_count; ++i)
-        std::memcpy(&separation.v[i], reinterpret_cast<const char*>(contacts[i]) + place + offsetof(ManifoldPoint, separation), 4);
+        separation.v[i] = point(i).separation;
     store(p.base, load(separation));
     store(p.total_impulse, all(0));
     store(p.total_tangent, all(0));
@@ -117,18 +99,17 @@ void fill(WideRow& row, const Contact* contacts, const ContactImpulses* impulses
     for (int i = 0; i < lane_count; ++i)
         of_lane[i] = row.contact.v[i] < 0 ? &nobody : contacts + row.contact.v[i];
     F8 x, y, body_a, body_b, flag_bits, friction, nx, ny;
-    gather_contacts(of_lane, offsetof(Contact, shape_a), x, y, body_a, body_b);
+    gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->shape_a); }, x, y, body_a, body_b);
     store(row.body_a, as_ints(body_a));
     store(row.body_b, as_ints(body_b));
-    gather_contacts(of_lane, offsetof(Contact, flags), flag_bits, friction, x, y);
+    gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->flags); }, flag_bits, friction, x, y);
     store(row.friction, friction);
-    gather_contacts(of_lane, offsetof(Contact, manifold), nx, ny, x, y);
+    gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->manifold.normal); }, nx, ny, x, y);
     store(row.nx, nx);
     store(row.ny, ny);
     fill_masses(row, constants);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
-        fill_point(row.points[k], of_lane, offsetof(Contact, manifold) + offsetof(Manifold, points) + k * sizeof(ManifoldPoint),
-                   nx, ny);
+    for (int k = 0; k < row.count; ++k)
+        fill_point(row.points[k], of_lane, k, nx, ny);
     fill_impulses(row, impulses);
     const I8 flags = as_ints(flag_bits);
     const unsigned filled = bits(load(row.contact) >= I8{});

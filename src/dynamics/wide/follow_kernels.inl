@@ -100,8 +100,7 @@ CAROM_INLINE Moved moved_since(const Turn& own, const Turn& other, const Arrow& 
 
 CAROM_INLINE I8 lanes_of(std::uint32_t bits)
 {
-    const auto b = static_cast<std::int32_t>(bits);
-    return (I8{b, b, b, b, b, b, b, b} & I8{1, 2, 4, 8, 16, 32, 64, 128}) != I8{};
+    return (all_ints(bits) & I8{1, 2, 4, 8, 16, 32, 64, 128}) != I8{};
 }
 
 // Of eight contacts what is kept of them, as it lies there.

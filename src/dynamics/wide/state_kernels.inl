@@ -35,11 +35,8 @@ std::int32_t move(BodyState* states, std::int32_t count, float h)
         Poses p;
         gather4(at, v.x, v.y, v.w, v.flags);
         gather4(pose_at, p.x, p.y, p.c, p.s);
-        I8 flags;
-        std::memcpy(&flags, &v.flags, sizeof flags);
-        const auto apart = static_cast<std::int32_t>(body_flag::flier | body_flag::unbound);
         const F8 angle = h * v.w;
-        const I8 plain = ((flags & I8{apart, apart, apart, apart, apart, apart, apart, apart}) == I8{}) &
+        const I8 plain = ((as_ints(v.flags) & all_ints(body_flag::flier | body_flag::unbound)) == I8{}) &
                          (greatest(angle, -angle) < all(0.25f));
         if (bits(plain) != 0xff)
             break;

@@ -94,7 +94,8 @@ struct Press
 [[nodiscard]] double pressed_speed(double acceleration, const Press& press, double length);
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
-/// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew by `press`. The corners of `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
+/// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew by `press`. The corners of
+/// `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach,
                                                const Press& press = {}, const ProbeSet& held = {}, Axis axis = {});

@@ -33,6 +33,20 @@ CAROM_INLINE void store(LaneFloats& a, F8 x) { std::memcpy(__builtin_assume_alig
 CAROM_INLINE void store(LaneInts& a, I8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
 
 CAROM_INLINE F8 all(float x) { return F8{x, x, x, x, x, x, x, x}; }
+CAROM_INLINE I8 all_ints(std::uint32_t x)
+{
+    const auto i = static_cast<std::int32_t>(x);
+    return I8{i, i, i, i, i, i, i, i};
+}
+
+/// The same bits: flags that were gathered beside floats.
+CAROM_INLINE I8 as_ints(F8 bits_of)
+{
+    I8 r;
+    std::memcpy(&r, &bits_of, sizeof r);
+    return r;
+}
+
 /// Of each lane a where the mask is set (-1), b where it is clear (0).
 CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return mask ? a : b; }
 CAROM_INLINE F8 least(F8 a, F8 b) { return a < b ? a : b; }

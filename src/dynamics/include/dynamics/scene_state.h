@@ -336,6 +336,10 @@ inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static
 {
     return state.impulses[static_cast<std::size_t>(contact)];
 }
+[[nodiscard]] inline const ContactImpulses& impulses_of(const SceneState& state, int contact)
+{
+    return state.impulses[static_cast<std::size_t>(contact)];
+}
 
 /// Empty where the restitution is the same at all speeds.
 [[nodiscard]] inline RestitutionCurve curve_of(const SceneState& state, const ShapeRecord& shape)
