@@ -1,4 +1,5 @@
-// Stage 6, commit and sleep: the step's result goes back into the records, in the order of the units; deferred impulses, triggers, sleep.
+// Stage 6, commit: the step's result goes back into the records, in the order of the units; deferred impulses, triggers; then bodies come to rest or
+// fall asleep (settle.cpp).
 
 #include "core/refuse.h"
 #include "core/task_pool.h"
@@ -24,9 +25,6 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t bodies_per_task = 512;
-constexpr float creeping = 0.2f;      // of the sleep speed
-constexpr float creep_time = 0.5f;    // s
-constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
 
 // Written once: threads that read it do not wait for each other.
 void raise(std::atomic<bool>& flag)
@@ -72,6 +70,18 @@ void commit_kinematic(const StepContext& ctx, int body)
     sim.center += ctx.dt * sim.velocity;
     if (sim.angular_velocity != 0)
         sim.rotation = renormalized(Rotation::from_angle(ctx.dt * sim.angular_velocity) * sim.rotation);
+}
+
+void commit_kinematic_bodies(StepContext& ctx)
+{
+    for (const std::int32_t body : ctx.state.awake_bodies)
+    {
+        if (ctx.state.bodies[body].type != BodyType::Kinematic)
+            continue;
+        if (ctx.scene.def.record_substeps)
+            record_kinematic(ctx, body);
+        commit_kinematic(ctx, body);
+    }
 }
 
 bool is_sound(const BodyState& s, double x, double y)
@@ -227,157 +237,14 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
     end_bounces(ctx, output);
 }
 
-// --- sleep -------------------------------------------------------------------------------------------------------------------------------
-
-bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
-{
-    for (int edge = record.first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
-    {
-        if (state.joints[edge >> 1].kind == JointType::Spring)
-            return true;
-    }
-    return false;
-}
-
-bool bears_in_crowd(const StepContext& ctx, const BodySim& sim)
-{
-    return sim.crowded && sim.gravity_scale * ctx.state.gravity != Vec2{};
-}
-
-void slow_down(BodySim& sim, float by)
-{
-    sim.velocity *= by;
-    sim.angular_velocity *= by;
-}
-
-float speed_of(const BodySim& sim) { return std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent); }
-
-// What is slower is quiet.
-float quiet_speed(const StepContext& ctx, const BodyRecord& record)
-{
-    if (record.type == BodyType::Kinematic)
-        return 0;
-    const float limit = ctx.scene.tolerances.sleep_speed;
-    return hangs_on_spring(ctx.state, record) ? 0.02f * limit : limit; // a damped spring creeps the last of its way
-}
-
-// In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
-// may not sleep, because others move or sleeping is off.
-void settle_or_stir(const StepContext& ctx, int body)
-{
-    const BodyRecord& record = ctx.state.bodies[body];
-    BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    const float limit = quiet_speed(ctx, record);
-    const bool is_quiet = speed_of(sim) <= limit && record.can_sleep && !record.has_target;
-    sim.sleep_time = is_quiet ? sim.sleep_time + ctx.dt : 0;
-    if (sim.sleep_time >= time_to_sleep && speed_of(sim) < creeping * limit && record.type == BodyType::Dynamic &&
-        bears_in_crowd(ctx, sim))
-        slow_down(sim, std::max(1 - ctx.dt / creep_time, 0.0f));
-}
-
-// What leans on a moving kinematic body is carried by it, however slowly.
-void keep_carried_awake(const StepContext& ctx)
-{
-    SceneState& state = ctx.state;
-    for (const std::int32_t body : state.awake_bodies)
-    {
-        if (state.bodies[body].type != BodyType::Kinematic)
-            continue;
-        const BodySim& carrier = state.sims[static_cast<std::size_t>(body)];
-        if (carrier.velocity == Vec2{} && carrier.angular_velocity == 0)
-            continue;
-        for_each_contact(state, body,
-                         [&](int index)
-                         {
-                             const Contact& contact = state.contacts[index];
-                             const std::uint32_t kind = contact.flags & (contact_flag::touching | contact_flag::trigger);
-                             if (kind == contact_flag::touching)
-                                 state.sims[static_cast<std::size_t>(other_body(contact, body))].sleep_time = 0;
-                         });
-    }
-}
-
-void put_to_sleep(StepContext& ctx)
-{
-    SceneState& state = ctx.state;
-    std::atomic<bool> any_tired{false};
-    std::atomic<bool> any_kinematic{false};
-    for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
-                      [&](std::size_t i)
-                      {
-                          const std::int32_t body = state.awake_bodies[i];
-                          settle_or_stir(ctx, body);
-                          if (state.sims[static_cast<std::size_t>(body)].sleep_time >= time_to_sleep)
-                              raise(any_tired);
-                          if (state.bodies[body].type == BodyType::Kinematic)
-                              raise(any_kinematic);
-                      });
-    if (ctx.scene.def.sleeping && any_kinematic)
-        keep_carried_awake(ctx);
-    if (!ctx.scene.def.sleeping || !any_tired)
-        return;
-    // The least sleep time of each island, at the place of its label.
-    std::vector<float>& least = ctx.scratch.least_sleep;
-    least.assign(state.awake_bodies.size(), 3e38f);
-    const auto label_of = [&](int body)
-    {
-        const int island = state.bodies[body].type == BodyType::Dynamic ? state.bodies[body].island : body;
-        return island != none ? state.bodies[island].awake_index : none;
-    };
-    for (const std::int32_t body : state.awake_bodies)
-    {
-        const int label = label_of(body);
-        const float time = label == none ? 0 : state.sims[static_cast<std::size_t>(body)].sleep_time;
-        float& slot = least[static_cast<std::size_t>(label == none ? state.bodies[body].awake_index : label)];
-        slot = std::min(slot, time);
-    }
-    std::vector<std::int32_t>& sleepers = ctx.scratch.order;
-    sleepers.clear();
-    for (const std::int32_t body : state.awake_bodies)
-    {
-        const int label = label_of(body);
-        if (label != none && least[static_cast<std::size_t>(label)] >= time_to_sleep)
-            sleepers.push_back(body);
-    }
-    for (const std::int32_t body : sleepers)
-        sleep_body(ctx.scene, body);
-}
-
-void clear_forces(StepContext& ctx)
-{
-    for_each_in_parts(ctx.scene.def.tasks, ctx.state.awake_bodies.size(), bodies_per_task,
-                      [&](std::size_t i)
-                      {
-                          const std::int32_t body = ctx.state.awake_bodies[i];
-                          BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-                          if (!ctx.scene.keep_forces)
-                          {
-                              sim.force = {};
-                              sim.torque = 0;
-                          }
-                          if (ctx.state.bodies[body].has_target)
-                          {
-                              ctx.state.bodies[body].has_target = false;
-                              sim.velocity = {};
-                              sim.angular_velocity = 0;
-                          }
-                      });
-}
-
 } // namespace
 
-void commit_and_sleep(StepContext& ctx)
+void commit(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     scratch.unsound.clear();
-    for (const std::int32_t body : ctx.state.awake_bodies)
-    {
-        if (ctx.state.bodies[body].type != BodyType::Kinematic)
-            continue;
-        if (ctx.scene.def.record_substeps)
-            record_kinematic(ctx, body);
-        commit_kinematic(ctx, body);
-    }
+    if (scratch.has_kinematic)
+        commit_kinematic_bodies(ctx);
     std::atomic<bool> any_unsound{false};
     for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), bodies_per_task,
                       [&](std::size_t i)
@@ -399,8 +266,7 @@ void commit_and_sleep(StepContext& ctx)
     update_triggers(ctx);
     for (const std::int32_t body : scratch.unsound)
         quarantine(ctx, body, ctx.dt);
-    put_to_sleep(ctx);
-    clear_forces(ctx);
+    settle_bodies(ctx);
 }
 
 } // namespace carom::internal

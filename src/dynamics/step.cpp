@@ -81,7 +81,7 @@ const StepReport& step(SceneData& scene, float dt)
               timed(ms.contacts, [&] { update_contacts(ctx); });
               timed(ms.units, [&] { build_units(ctx); });
               timed(ms.solve, [&] { solve_units(ctx); });
-              timed(ms.commit, [&] { commit_and_sleep(ctx); });
+              timed(ms.commit, [&] { commit(ctx); });
               timed(ms.events, [&] { publish_events(ctx); });
               end_step(ctx);
               tidy(ctx);

@@ -1,5 +1,5 @@
-// Islands (touching contacts and joints between dynamic bodies) persist until the graph changes; units are islands joined further where rows
-// or flight paths may meet in this step. A unit's kind depends on its content alone, never on threads or the order of other units.
+// Units are what touches, is joined or may come to touch in this step, through dynamic bodies, joined further where flight paths may meet. A unit's kind
+// depends on its content alone, never on threads or the order of other units.
 
 #include "dynamics/unit_graph.h"
 
@@ -61,12 +61,6 @@ bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b)
         return false;
     parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     return true;
-}
-
-bool link_bodies(StepContext& ctx, int a, int b)
-{
-    return is_moving_dynamic(ctx.state, a) && is_moving_dynamic(ctx.state, b) &&
-           link(ctx.scratch.parent, ctx.state.bodies[a].awake_index, ctx.state.bodies[b].awake_index);
 }
 
 void reset_parents(StepContext& ctx)
@@ -309,35 +303,19 @@ public:
         flight.store(earthbound, std::memory_order_relaxed);
     }
 
-    // Islands, at the root of each of its bodies; relabelled only when the graph has changed.
-    void link_islands()
+    // Islands, and what may become one in this step.
+    void link_units()
     {
         reset_parents(ctx);
-        if (state.graph_dirty)
-        {
-            label_islands();
-            return;
-        }
-        for (const std::int32_t body : state.awake_bodies)
-            link_bodies(ctx, body, state.bodies[body].island);
-    }
-
-    void label_islands()
-    {
         for (const Link& l : scratch.links)
         {
-            if (l.touching && l.a >= 0 && l.b >= 0)
+            if (l.a >= 0 && l.b >= 0)
                 link(scratch.parent, l.a, l.b);
         }
         for (const JointLink& j : scratch.joint_links)
         {
             if (j.a >= 0 && j.b >= 0)
                 link(scratch.parent, j.a, j.b);
-        }
-        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
-        {
-            const std::int32_t root = find_root(scratch.parent, static_cast<std::int32_t>(i));
-            state.bodies[state.awake_bodies[i]].island = state.awake_bodies[static_cast<std::size_t>(root)];
         }
         state.graph_dirty = false;
     }
@@ -524,16 +502,6 @@ public:
             state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
         return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
                       : 0;
-    }
-
-    // What this step adds to the islands.
-    void link_units()
-    {
-        for (const Link& l : scratch.links)
-        {
-            if (l.solved && !l.touching && l.a >= 0 && l.b >= 0)
-                link(scratch.parent, l.a, l.b);
-        }
     }
 
     // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
@@ -779,7 +747,6 @@ void gather_unit_graph(StepContext& ctx)
 void build_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
-    graph.link_islands();
     graph.link_units();
     graph.number_units();
     graph.ground_crowds();

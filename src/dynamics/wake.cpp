@@ -4,8 +4,6 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/kept_manifold.h"
 
-#include <algorithm>
-
 namespace carom::internal {
 
 void enter_awake(SceneData& scene, int body)
@@ -57,35 +55,6 @@ void leave_awake(SceneData& scene, int body)
                      });
 }
 
-std::vector<std::int32_t> island_of(const SceneState& state, int body)
-{
-    std::vector<std::int32_t> island{body};
-    const auto add = [&](int other)
-    {
-        if (other != none && state.bodies[other].type == BodyType::Dynamic && state.bodies[other].enabled &&
-            std::find(island.begin(), island.end(), other) == island.end())
-            island.push_back(other);
-    };
-    for (std::size_t i = 0; i < island.size(); ++i)
-    {
-        const int at = island[i];
-        if (state.bodies[at].type != BodyType::Dynamic)
-            continue;
-        for (int edge = state.bodies[at].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = state.contacts[edge >> 1];
-            if ((contact.flags & (contact_flag::touching | contact_flag::trigger)) == contact_flag::touching)
-                add(other_body(contact, at));
-        }
-        for (int edge = state.bodies[at].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
-        {
-            const JointRecord& joint = state.joints[edge >> 1];
-            add(joint.body_a == at ? joint.body_b : joint.body_a);
-        }
-    }
-    return island;
-}
-
 void wake_body(SceneData& scene, int body)
 {
     SceneState& state = scene.state;
@@ -100,30 +69,19 @@ void wake_body(SceneData& scene, int body)
     std::vector<std::int32_t> stack{body};
     enter_awake(scene, body);
     ++scene.report.woken;
-    const auto visit = [&](int other)
-    {
-        if (other == none || state.bodies[other].type != BodyType::Dynamic || !state.bodies[other].enabled ||
-            is_awake(state, other))
-            return;
-        enter_awake(scene, other);
-        ++scene.report.woken;
-        stack.push_back(other);
-    };
     while (!stack.empty())
     {
         const int at = stack.back();
         stack.pop_back();
-        for (int edge = state.bodies[at].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = state.contacts[edge >> 1];
-            if ((contact.flags & (contact_flag::touching | contact_flag::trigger)) == contact_flag::touching)
-                visit(other_body(contact, at));
-        }
-        for (int edge = state.bodies[at].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
-        {
-            const JointRecord& joint = state.joints[edge >> 1];
-            visit(joint.body_a == at ? joint.body_b : joint.body_a);
-        }
+        for_each_neighbour(state, at,
+                           [&](int other)
+                           {
+                               if (is_awake(state, other))
+                                   return;
+                               enter_awake(scene, other);
+                               ++scene.report.woken;
+                               stack.push_back(other);
+                           });
     }
 }
 

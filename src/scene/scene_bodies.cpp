@@ -542,7 +542,11 @@ void Body::set_awake(bool awake)
         t.wake();
         return;
     }
-    for (const std::int32_t body : island_of(m_data->state, t.slot))
+    const internal::SceneState& state = m_data->state;
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(state.bodies.capacity()));
+    std::vector<std::int32_t> island;
+    gather_island(state, t.slot, seen, island, [](int) { return true; });
+    for (const std::int32_t body : island)
     {
         if (internal::is_awake(m_data->state, body))
             sleep_body(*m_data, body);

@@ -85,23 +85,19 @@ public:
     // The box around the bodies of each awake island.
     void islands() const
     {
-        std::vector<FloatBox> boxes(static_cast<std::size_t>(m_state.bodies.capacity()));
-        for (const std::int32_t body : m_state.awake_bodies)
+        std::vector<std::uint8_t> seen(static_cast<std::size_t>(m_state.bodies.capacity()));
+        std::vector<std::int32_t> island;
+        for (const std::int32_t first : m_state.awake_bodies)
         {
-            const int label = m_state.bodies[body].island;
-            if (label == none || m_state.bodies[body].type != BodyType::Dynamic)
+            if (seen[static_cast<std::size_t>(first)] != 0 || m_state.bodies[first].type != BodyType::Dynamic)
                 continue;
-            for_each_leaf(m_state, body,
-                          [&](int shape)
-                          {
-                              FloatBox& b = boxes[static_cast<std::size_t>(label)];
-                              b = unite(b, m_state.broad_phase.box(shape));
-                          });
-        }
-        for (const FloatBox& b : boxes)
-        {
-            if (b.lx <= b.ux)
-                draw_box(b, DrawRole::Island);
+            island.clear();
+            gather_island(m_state, first, seen, island, [](int) { return true; });
+            FloatBox box;
+            for (const std::int32_t body : island)
+                for_each_leaf(m_state, body, [&](int shape) { box = unite(box, m_state.broad_phase.box(shape)); });
+            if (box.lx <= box.ux)
+                draw_box(box, DrawRole::Island);
         }
     }
 

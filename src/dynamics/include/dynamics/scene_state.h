@@ -35,7 +35,6 @@ struct BodyRecord
     std::int32_t last_shape = none;
     std::int32_t first_joint = none;   ///< edge: joint * 2 + side
     std::int32_t first_contact = none; ///< edge: contact * 2 + side
-    std::int32_t island = none;        ///< label: the least body of the island, valid while awake
 };
 
 /// The first half is what neighbours read: a cache line.
@@ -322,7 +321,7 @@ struct SceneState
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
-    bool graph_dirty = true;                ///< touching contacts, joints or sleep changed since the islands were labelled
+    bool graph_dirty = true;                ///< touching contacts, joints or sleep changed since units were built
     Vec2 gravity{};
     double time = 0;
     std::uint64_t step_count = 0;

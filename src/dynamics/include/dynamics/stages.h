@@ -28,7 +28,10 @@ void build_units(StepContext& ctx);
 void solve_units(StepContext& ctx);
 
 /// New poses and velocities, deferred impulses, triggers, sleep.
-void commit_and_sleep(StepContext& ctx);
+void commit(StepContext& ctx);
+
+/// The last of it: who comes to rest, and which islands fall asleep.
+void settle_bodies(StepContext& ctx);
 
 /// Whose paths update_triggers will ask for.
 void mark_traced(StepContext& ctx);

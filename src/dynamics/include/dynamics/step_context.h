@@ -358,7 +358,8 @@ struct Scratch
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
     std::vector<FlierSeed> flier_seeds;
-    std::vector<float> least_sleep; ///< s, of each island, at the place of its label
+    std::vector<std::int32_t> tired; ///< bodies that have been quiet for long enough, by island
+    std::vector<std::uint8_t> seen;  ///< of these, by body slot; all 0 between steps
     std::vector<std::int32_t> order;
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
