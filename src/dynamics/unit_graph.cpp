@@ -626,43 +626,6 @@ public:
         }
     }
 
-    // A stable counting sort of items by unit: fills `sorted` and calls set_range(unit, first, count). Where unit_of says none, the item is left out.
-    template <class Item, class UnitOf, class SetRange>
-    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, const UnitOf& unit_of, const SetRange& set_range)
-    {
-        const TaskHooks& tasks = ctx.scene.def.tasks;
-        std::vector<std::int32_t>& units = scratch.unit_of_item;
-        units.resize(items.size());
-        for_each_in_parts(tasks, items.size(), items_per_task, [&](std::size_t i) { units[i] = unit_of(items[i]); });
-        std::vector<std::int32_t>& starts = scratch.unit_starts;
-        starts.assign(scratch.units.size() + 1, 0);
-        std::int32_t last = 0;
-        bool in_order = true;
-        for (const std::int32_t unit : units)
-        {
-            in_order &= last <= unit; // not where it is left out
-            last = unit;
-            if (unit != none)
-                ++starts[static_cast<std::size_t>(unit) + 1];
-        }
-        for (std::size_t u = 0; u < scratch.units.size(); ++u)
-        {
-            set_range(scratch.units[u], starts[u], starts[u + 1]);
-            starts[u + 1] += starts[u];
-        }
-        sorted.resize(static_cast<std::size_t>(starts.back()));
-        if (in_order)
-        {
-            for_each_in_parts(tasks, items.size(), items_per_task, [&](std::size_t i) { sorted[i] = items[i]; });
-            return;
-        }
-        for (std::size_t i = 0; i < items.size(); ++i)
-        {
-            if (units[i] != none)
-                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(units[i])]++)] = items[i];
-        }
-    }
-
     // Bodies in flight meet things at their own time; a row would stop them early.
     [[nodiscard]] bool gets_row(const Link& l) const { return l.solved && !in_flight(l.a) && !in_flight(l.b); }
     [[nodiscard]] bool in_flight(std::int32_t place) const
@@ -670,18 +633,18 @@ public:
         return place >= 0 && scratch.flight[static_cast<std::size_t>(place)] != earthbound;
     }
 
+    // On all threads: what follows goes by these alone.
+    void find_units_of_links()
+    {
+        scratch.unit_of_link.resize(scratch.links.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), items_per_task,
+                          [&](std::size_t i) { scratch.unit_of_link[i] = unit_of_row(scratch.links[i]); });
+    }
+
     void sort_links()
     {
         sort_by_unit(
-            scratch.links, scratch.solved_links,
-            [&](const Link& l)
-            {
-                if (gets_row(l))
-                    return unit_of_link(l);
-                if (l.solved)
-                    leave_row(l.contact);
-                return none;
-            },
+            scratch.links, scratch.solved_links, scratch.unit_starts[0], [&](std::size_t i) { return scratch.unit_of_link[i]; },
             [](Unit& unit, int first, int count)
             {
                 unit.first_link = first;
@@ -692,7 +655,8 @@ public:
     void sort_joints()
     {
         sort_by_unit(
-            scratch.joint_links, scratch.solved_joints, [&](const JointLink& j) { return unit_of_link(j); },
+            scratch.joint_links, scratch.solved_joints, scratch.unit_starts[1],
+            [&](std::size_t i) { return unit_of_link(scratch.joint_links[i]); },
             [](Unit& unit, int first, int count)
             {
                 unit.first_joint = first;
@@ -703,10 +667,9 @@ public:
     // By unit, and of a unit by where they lie in the plane: threads that take parts of a unit seldom meet in one body.
     void sort_bodies()
     {
-        std::vector<std::int32_t>& places = scratch.order;
-        sort_by_cell(places);
         sort_by_unit(
-            places, scratch.solved_bodies, [&](int i) { return scratch.unit_of[static_cast<std::size_t>(i)]; },
+            scratch.in_plane, scratch.solved_bodies, scratch.unit_starts[1],
+            [&](std::size_t i) { return scratch.unit_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
             [](Unit& unit, int first, int count)
             {
                 unit.first_state = first;
@@ -714,10 +677,10 @@ public:
             });
     }
 
-private:
     // Places in awake_bodies, by counting.
-    void sort_by_cell(std::vector<std::int32_t>& places)
+    void sort_by_cell()
     {
+        std::vector<std::int32_t>& places = scratch.in_plane;
         const auto cell_of = [&](std::int32_t body) { return static_cast<std::size_t>(state.bodies[body].plane_cell); };
         std::int32_t starts[plane_cells + 1] = {};
         for (const std::int32_t body : state.awake_bodies)
@@ -727,6 +690,42 @@ private:
         places.resize(state.awake_bodies.size());
         for (std::size_t i = 0; i < places.size(); ++i)
             places[static_cast<std::size_t>(starts[cell_of(state.awake_bodies[i])]++)] = static_cast<std::int32_t>(i);
+    }
+
+private:
+    // None where it gets no row.
+    [[nodiscard]] std::int32_t unit_of_row(const Link& l) const
+    {
+        if (gets_row(l))
+            return unit_of_link(l);
+        if (l.solved)
+            leave_row(l.contact);
+        return none;
+    }
+
+    // A stable counting sort of items by unit_of(index): fills `sorted` and calls set_range(unit, first, count). Where unit_of says none, the item is
+    // left out.
+    template <class Item, class UnitOf, class SetRange>
+    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, std::vector<std::int32_t>& starts,
+                      const UnitOf& unit_of, const SetRange& set_range)
+    {
+        starts.assign(scratch.units.size() + 1, 0);
+        for (std::size_t i = 0; i < items.size(); ++i)
+        {
+            if (const std::int32_t unit = unit_of(i); unit != none)
+                ++starts[static_cast<std::size_t>(unit) + 1];
+        }
+        for (std::size_t u = 0; u < scratch.units.size(); ++u)
+        {
+            set_range(scratch.units[u], starts[u], starts[u + 1]);
+            starts[u + 1] += starts[u];
+        }
+        sorted.resize(static_cast<std::size_t>(starts.back()));
+        for (std::size_t i = 0; i < items.size(); ++i)
+        {
+            if (const std::int32_t unit = unit_of(i); unit != none)
+                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(unit)]++)] = items[i];
+        }
     }
 
     StepContext& ctx;
@@ -747,8 +746,15 @@ void gather_unit_graph(StepContext& ctx)
 void build_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
-    graph.link_units();
-    graph.number_units();
+    const TaskHooks& tasks = ctx.scene.def.tasks;
+    run_both(
+        tasks,
+        [&]
+        {
+            graph.link_units();
+            graph.number_units();
+        },
+        [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
     if (graph.link_deflected())
     {
@@ -758,9 +764,14 @@ void build_unit_graph(StepContext& ctx)
     graph.count_members();
     graph.choose_slices();
     graph.batch_heaps();
-    graph.sort_links();
-    graph.sort_joints();
-    graph.sort_bodies();
+    graph.find_units_of_links();
+    run_both(
+        tasks, [&] { graph.sort_links(); },
+        [&]
+        {
+            graph.sort_joints();
+            graph.sort_bodies();
+        });
 }
 
 } // namespace carom::internal

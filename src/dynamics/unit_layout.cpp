@@ -52,9 +52,26 @@ public:
 
     void fill_states()
     {
-        for_items(
-            m_scratch.state_bodies.size(), [](const Unit& unit) { return unit.first_state; },
-            [&](const StepContext& unit_ctx, const Unit& unit, std::int32_t i) { fill_state(unit_ctx, unit, i); });
+        run_tasks(m_ctx.scene.def.tasks, state_tasks(), [&](int task) { fill_some_states(task); });
+    }
+
+    // Side by side: neither reads what the other writes.
+    void fill_states_and_place_rows()
+    {
+        run_tasks(m_ctx.scene.def.tasks, 1 + state_tasks(),
+                  [&](int task)
+                  {
+                      if (task == 0)
+                          place_rows();
+                      else
+                          fill_some_states(task - 1);
+                  });
+        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.color_masks.size(), items_per_task,
+                          [&](std::size_t s)
+                          {
+                              if (m_scratch.color_masks[s] != 0)
+                                  unbind(static_cast<std::int32_t>(s));
+                          });
     }
 
     // --- fliers and laws --------------------------------------------------------------------------------------------------------------
@@ -66,9 +83,14 @@ public:
         m_scratch.event_times.assign(m_scratch.fliers.size(), 1e300);
         m_scratch.flier_of_state.assign(m_scratch.state_bodies.size(), none);
         m_scratch.versions.assign(m_scratch.state_bodies.size(), 0);
-        for_items(
-            m_scratch.fliers.size(), [](const Unit& unit) { return unit.first_flier; },
-            [&](const StepContext& unit_ctx, const Unit&, std::int32_t i) { add_flier(unit_ctx, i); });
+        const auto count = static_cast<std::int32_t>(m_scratch.fliers.size());
+        run_tasks(m_ctx.scene.def.tasks, tasks_for(count),
+                  [&](int task)
+                  {
+                      for_items(
+                          task, count, [](const Unit& unit) { return unit.first_flier; },
+                          [&](const StepContext& unit_ctx, const Unit&, std::int32_t i) { add_flier(unit_ctx, i); });
+                  });
     }
 
     void add_laws()
@@ -86,20 +108,6 @@ public:
             }
             unit.law_count = static_cast<std::int32_t>(m_scratch.laws.size()) - unit.first_law;
         }
-    }
-
-    // --- rows -------------------------------------------------------------------------------------------------------------------------
-
-    void place_rows()
-    {
-        m_scratch.color_masks.assign(m_scratch.state_bodies.size(), 0);
-        m_scratch.row_links.clear();
-        m_scratch.lane_links.clear();
-        m_scratch.impact_rows.clear();
-        m_scratch.cores.clear();
-        m_scratch.bin_starts.clear();
-        for (Unit& unit : m_scratch.units)
-            place_rows_of(unit);
     }
 
     // --- joints -----------------------------------------------------------------------------------------------------------------------
@@ -141,30 +149,35 @@ public:
     }
 
 private:
-    // Items stand unit by unit; on all threads, with the step of the item's unit.
-    template <class First, class Visit>
-    void for_items(std::size_t total, const First& first_of, const Visit& visit)
+    [[nodiscard]] static int tasks_for(std::int32_t items) { return (items + items_per_task - 1) / items_per_task; }
+    [[nodiscard]] int state_tasks() const { return tasks_for(static_cast<std::int32_t>(m_scratch.state_bodies.size())); }
+
+    void fill_some_states(int task)
     {
-        const auto count = static_cast<std::int32_t>(total);
+        for_items(
+            task, static_cast<std::int32_t>(m_scratch.state_bodies.size()), [](const Unit& unit) { return unit.first_state; },
+            [&](const StepContext& unit_ctx, const Unit& unit, std::int32_t i) { fill_state(unit_ctx, unit, i); });
+    }
+
+    // Those of a task, with the step of the item's unit. Items stand unit by unit.
+    template <class First, class Visit>
+    void for_items(int task, std::int32_t count, const First& first_of, const Visit& visit)
+    {
         const std::vector<Unit>& units = m_scratch.units;
-        run_tasks(m_ctx.scene.def.tasks, (count + items_per_task - 1) / items_per_task,
-                  [&](int task)
-                  {
-                      const std::int32_t begin = task * items_per_task;
-                      const std::int32_t end = std::min(begin + items_per_task, count);
-                      auto unit = std::upper_bound(units.begin(), units.end(), begin,
-                                                   [&](std::int32_t i, const Unit& u) { return i < first_of(u); }) -
-                                  1;
-                      for (std::int32_t i = begin; i < end; ++unit)
-                      {
-                          const std::int32_t last = unit + 1 != units.end() ? std::min(end, first_of(*(unit + 1))) : end;
-                          if (last <= i)
-                              continue;
-                          const StepContext unit_ctx = unit->slices > 1 ? sliced(m_ctx, unit->slices) : m_ctx;
-                          for (; i < last; ++i)
-                              visit(unit_ctx, *unit, i);
-                      }
-                  });
+        const std::int32_t begin = task * items_per_task;
+        const std::int32_t end = std::min(begin + items_per_task, count);
+        auto unit =
+            std::upper_bound(units.begin(), units.end(), begin, [&](std::int32_t i, const Unit& u) { return i < first_of(u); }) -
+            1;
+        for (std::int32_t i = begin; i < end; ++unit)
+        {
+            const std::int32_t last = unit + 1 != units.end() ? std::min(end, first_of(*(unit + 1))) : end;
+            if (last <= i)
+                continue;
+            const StepContext unit_ctx = unit->slices > 1 ? sliced(m_ctx, unit->slices) : m_ctx;
+            for (; i < last; ++i)
+                visit(unit_ctx, *unit, i);
+        }
     }
 
     // The first state stands for every body that does not move, so that units share nothing; then the dynamic bodies in awake order, then copies
@@ -352,6 +365,18 @@ private:
             m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
     }
 
+    void place_rows()
+    {
+        m_scratch.color_masks.assign(m_scratch.state_bodies.size(), 0);
+        m_scratch.row_links.clear();
+        m_scratch.lane_links.clear();
+        m_scratch.impact_rows.clear();
+        m_scratch.cores.clear();
+        m_scratch.bin_starts.clear();
+        for (Unit& unit : m_scratch.units)
+            place_rows_of(unit);
+    }
+
     void place_rows_of(Unit& unit)
     {
         unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
@@ -406,12 +431,7 @@ private:
         }
         std::uint64_t colors = 0;
         for (std::int32_t s = unit.first_state; s < unit.first_state + unit.state_count; ++s)
-        {
-            const std::uint64_t of_state = m_scratch.color_masks[as_index(s)];
-            if (of_state != 0)
-                unbind(s);
-            colors |= of_state;
-        }
+            colors |= m_scratch.color_masks[as_index(s)];
         unit.colors = static_cast<std::int32_t>(std::bit_width(colors));
     }
 
@@ -427,7 +447,7 @@ private:
     // All of its bodies may move along every axis, or along none.
     [[nodiscard]] bool is_uniform(const Unit& unit) const
     {
-        for (std::int32_t s = unit.first_state; s < unit.first_state + unit.state_count; ++s)
+        for (std::int32_t s = unit.first_state; m_scratch.has_uneven && s < unit.first_state + unit.state_count; ++s)
         {
             if (!gives_evenly(s))
                 return false;
@@ -585,7 +605,10 @@ private:
 
     [[nodiscard]] bool gives_evenly(std::int32_t state) const
     {
-        const Vec2 inverse_mass = m_scratch.constants[as_index(state)].inverse_mass;
+        const int body = m_scratch.state_bodies[as_index(state)];
+        if (!m_scratch.has_uneven || body == none)
+            return true;
+        const Vec2 inverse_mass = m_state.sims[as_index(body)].inverse_mass;
         return inverse_mass.x == inverse_mass.y;
     }
 
@@ -659,10 +682,9 @@ void lay_out_units(StepContext& ctx)
 {
     UnitLayout layout(ctx);
     layout.place_states();
-    layout.fill_states();
+    layout.fill_states_and_place_rows();
     layout.add_fliers();
     layout.add_laws();
-    layout.place_rows();
     layout.place_joints();
     layout.make_room();
     layout.count();

@@ -25,6 +25,20 @@ void run_tasks(const TaskHooks& hooks, int count, const Task& task)
         const_cast<Task*>(&task));
 }
 
+/// Calls both, side by side where there are threads.
+template <class One, class Other>
+void run_both(const TaskHooks& hooks, const One& one, const Other& other)
+{
+    run_tasks(hooks, 2,
+              [&](int task)
+              {
+                  if (task == 0)
+                      one();
+                  else
+                      other();
+              });
+}
+
 /// Calls work(first, last) for parts of 0 ... count, a task each.
 template <class Work>
 void run_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, const Work& work)

@@ -316,9 +316,10 @@ struct Scratch
     std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
     std::vector<UnitTally> tallies;
-    std::vector<std::int32_t> unit_starts;
-    std::vector<std::int32_t> unit_of_item; ///< of those that are sorted by unit
-    std::vector<Link> solved_links;         ///< those that get rows, by unit
+    std::vector<std::int32_t> unit_starts[2]; ///< for two that sort by unit side by side
+    std::vector<std::int32_t> unit_of_link;   ///< none: it gets no row
+    std::vector<std::int32_t> in_plane;       ///< places in awake_bodies, in the order of the plane
+    std::vector<Link> solved_links;           ///< those that get rows, by unit
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
