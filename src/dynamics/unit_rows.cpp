@@ -110,7 +110,7 @@ void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 
 void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
-    const Scratch& scratch = ctx.scratch;
+    Scratch& scratch = ctx.scratch;
     contact_bins(scratch, unit)
         .for_each(crew,
                   [&](int g)

@@ -43,7 +43,7 @@ void clear_sums(WideRow& row)
 
 void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
 {
-    for (std::uint32_t* lanes : {&row.may_hit, &row.untold, &row.edge_of_b, &row.nearest, &row.kept, &row.followed})
+    for (std::uint32_t* lanes : {&row.loaded, &row.may_hit, &row.untold, &row.edge_of_b, &row.nearest, &row.kept, &row.followed})
         *lanes &= ~(1u << i);
     const Contact& contact = ctx.state.contacts[states.contact];
     const Manifold& m = contact.manifold;
@@ -80,8 +80,7 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
         p.normal_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].normal;
         p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
     }
-    if ((contact.flags & contact_flag::loaded) == 0)
-        row.may_hit |= 1u << i;
+    ((contact.flags & contact_flag::loaded) != 0 ? row.loaded : row.may_hit) |= 1u << i;
     if ((contact.flags & contact_flag::touching) == 0)
         row.untold |= 1u << i;
     if (is_kept(contact))
@@ -144,6 +143,7 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
         p.k.v[i] = 1;
         p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
     }
+    row.loaded &= ~(1u << i);
     row.may_hit &= ~(1u << i);
     row.untold &= ~(1u << i);
     row.fixed_a |= 1u << i;

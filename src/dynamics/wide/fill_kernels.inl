@@ -113,7 +113,8 @@ void fill(WideRow& row, const Contact* contacts, const ContactImpulses* impulses
     fill_impulses(row, impulses);
     const I8 flags = as_ints(flag_bits);
     const unsigned filled = bits(load(row.contact) >= I8{});
-    row.may_hit = filled & ~lanes_with(flags, contact_flag::loaded);
+    row.loaded = filled & lanes_with(flags, contact_flag::loaded);
+    row.may_hit = filled & ~row.loaded;
     row.untold = filled & ~lanes_with(flags, contact_flag::touching);
     row.kept = lanes_with(flags, contact_flag::kept) & ~lanes_with(flags, contact_flag::fresh);
     row.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);

@@ -381,7 +381,7 @@ void follow_contacts(const LaneInts& contacts, int count, Contact* into, const F
 }
 
 // Impulses of a point, side by side in a row, one after the other in a contact's.
-void take_impulses(const WideRow& row, Contact* contacts, ContactImpulses* impulses)
+void take_impulses(WideRow& row, Contact* contacts, ContactImpulses* impulses)
 {
     static_assert(sizeof(PointImpulses) == sizeof(F4) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
                   offsetof(PointImpulses, total_normal) == 8);
@@ -396,16 +396,10 @@ void take_impulses(const WideRow& row, Contact* contacts, ContactImpulses* impul
         { return reinterpret_cast<char*>(row.contact.v[i] < 0 ? unused + i : impulses[row.contact.v[i]].points + k); };
         scatter4(at, normal_impulse, load(p.tangent_impulse), load(p.total_impulse), load(p.total_tangent));
     }
-    const unsigned bears = bits(loaded);
-    for (int i = 0; i < lane_count; ++i)
-    {
-        if (row.contact.v[i] < 0)
-            continue;
-        std::uint32_t& flags = contacts[row.contact.v[i]].flags;
-        const std::uint32_t now = (flags & ~contact_flag::loaded) | ((bears >> i & 1u) != 0 ? contact_flag::loaded : 0);
-        if (now != flags)
-            flags = now;
-    }
+    const unsigned bears = bits(loaded & (load(row.contact) >= I8{}));
+    for (unsigned changed = bears ^ row.loaded; changed != 0; changed &= changed - 1)
+        contacts[row.contact.v[std::countr_zero(changed)]].flags ^= contact_flag::loaded;
+    row.loaded = bears;
 }
 
 } // namespace follows

@@ -7,6 +7,7 @@
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_rows.h"
 
+#include <bit>
 #include <cstddef>
 
 namespace carom::internal::CAROM_ISA {

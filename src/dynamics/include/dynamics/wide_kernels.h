@@ -86,7 +86,7 @@ struct WideKernels
     void (*follow_contacts)(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene,
                             FollowedContacts& found);
     /// Impulses of all lanes, and to their contacts whether they bear a load.
-    void (*take_impulses)(const WideRow& row, Contact* contacts, ContactImpulses* impulses);
+    void (*take_impulses)(WideRow& row, Contact* contacts, ContactImpulses* impulses);
     /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
     /// Of eight pairs, a bit for each that stays as it is for sure: its fat boxes meet, and it has a contact if and only if it may meet in the step.

@@ -49,6 +49,7 @@ struct WideRow
     WidePoint points[2];
     std::int32_t count;    ///< points, the same in all lanes
     std::uint32_t may_hit; ///< lanes that bore nothing when the step began and have not been struck
+    std::uint32_t loaded;  ///< lanes whose contact has contact_flag::loaded
     std::uint32_t untold;  ///< lanes that did not touch when the step began and whose touch is not told
     std::uint32_t fixed_a; ///< lanes whose body a does not give way; what all threads read, none writes
     std::uint32_t fixed_b;
