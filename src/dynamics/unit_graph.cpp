@@ -265,10 +265,11 @@ public:
     {
         const JointRecord& joint = state.joints[index];
         const auto place = [&](int body) { return body == none ? none : place_of(body); };
-        const auto is_enabled = [&](int body) { return body == none || state.bodies[body].enabled; };
+        const auto takes_part = [&](int body, std::int32_t at)
+        { return at != none || body == none || state.bodies[body].enabled; };
         const std::int32_t a = place(joint.body_a);
         const std::int32_t b = place(joint.body_b);
-        if ((a < 0 && b < 0) || !is_enabled(joint.body_a) || !is_enabled(joint.body_b))
+        if ((a < 0 && b < 0) || !takes_part(joint.body_a, a) || !takes_part(joint.body_b, b))
             return;
         JointLink& link = links.emplace_back();
         link.joint = index;

@@ -592,7 +592,7 @@ private:
         const std::int32_t color = free_color(unit, j.a, j.b);
         if (color == color_limit)
             return false;
-        m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, unit.first_state, {j.joint, j.a, j.b}});
+        m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, {j.joint, j.a, j.b}});
         return true;
     }
 

@@ -74,14 +74,23 @@ void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int 
         std::span(ctx.scratch.joint_lanes).subspan(as_index(unit.first_joint_lane), as_index(unit.joint_lane_count));
     const auto of_group = [&](int g)
     { return std::ranges::lower_bound(lanes, (unit.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
-    for (auto l = of_group(first), end = of_group(last); l != end; ++l)
+    auto l = of_group(first);
+    for (int g = unit.first_wide_joint + first; g < unit.first_wide_joint + last; ++g)
     {
-        WideJoint& group = ctx.scratch.wide_joints[as_index(l->lane / lane_count)];
-        if (l->lane % lane_count == 0)
-            group = empty_wide_joint(l->fixed);
-        fill_joint_lane(ctx, l->place.joint, l->place.a, l->place.b, group, l->lane % lane_count);
+        WideJoint& group = ctx.scratch.wide_joints[as_index(g)];
+        std::ranges::fill(group.a.v, unit.first_state);
+        std::ranges::fill(group.b.v, unit.first_state);
+        std::ranges::fill(group.joint.v, none);
+        for (; l != lanes.end() && l->lane / lane_count == g; ++l)
+        {
+            const int i = l->lane % lane_count;
+            group.a.v[i] = l->place.a;
+            group.b.v[i] = l->place.b;
+            group.joint.v[i] = l->place.joint;
+            group.turns = l->bin % 2; // the same in all lanes
+        }
+        fill_wide_joint(ctx, group);
     }
-    wide_kernels().prepare_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint + first, last - first);
 }
 
 void commit_joint(const StepContext& ctx, const JointWork& work)

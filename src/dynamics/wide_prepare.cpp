@@ -154,18 +154,6 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
 
 bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }
 
-WideJoint empty_wide_joint(std::int32_t fixed)
-{
-    WideJoint empty{};
-    for (int i = 0; i < lane_count; ++i)
-    {
-        empty.a.v[i] = empty.b.v[i] = fixed;
-        empty.joint.v[i] = none;
-    }
-    empty.fixed_a = empty.fixed_b = (1u << lane_count) - 1;
-    return empty;
-}
-
 namespace {
 
 constexpr float no_limit = 1e9f; // rad
@@ -196,34 +184,20 @@ void fill_angle(const StepContext& ctx, const JointRecord& joint, float start, W
 
 } // namespace
 
-void fill_joint_lane(const StepContext& ctx, std::int32_t index, std::int32_t a, std::int32_t b, WideJoint& wide, int i)
+void fill_wide_joint(const StepContext& ctx, WideJoint& wide)
 {
-    const JointRecord& joint = ctx.state.joints[index];
-    const JointArms arms = joint_arms(ctx.state, joint);
-    wide.a.v[i] = a;
-    wide.b.v[i] = b;
-    wide.joint.v[i] = index;
-    wide.inverse_mass_a.v[i] = constants_of(ctx, a).inverse_mass.x;
-    wide.inverse_mass_b.v[i] = constants_of(ctx, b).inverse_mass.x;
-    wide.inverse_inertia_a.v[i] = constants_of(ctx, a).inverse_inertia;
-    wide.inverse_inertia_b.v[i] = constants_of(ctx, b).inverse_inertia;
-    wide.start.ax.v[i] = arms.a.x;
-    wide.start.ay.v[i] = arms.a.y;
-    wide.start.bx.v[i] = arms.b.x;
-    wide.start.by.v[i] = arms.b.y;
-    wide.start.gap_x.v[i] = arms.gap.x;
-    wide.start.gap_y.v[i] = arms.gap.y;
-    wide.impulse_x.v[i] = joint.impulses[slot_x];
-    wide.impulse_y.v[i] = joint.impulses[slot_y];
-    const auto gives_way = [&](std::int32_t s)
-    { return constants_of(ctx, s).inverse_mass.x != 0 || constants_of(ctx, s).inverse_inertia != 0; };
-    if (gives_way(a))
-        wide.fixed_a &= ~(1u << i);
-    if (gives_way(b))
-        wide.fixed_b &= ~(1u << i);
-    fill_angle(ctx, joint, has_angle(joint) ? hinge_angle(ctx.state, joint) : 0, wide.angle, i);
-    if (!only_holds(joint))
-        wide.turns = 1;
+    wide_kernels().fill_joints(wide, &ctx.state.joints[0], ctx.state.sims.data(), ctx.scratch.constants.data());
+    if (wide.turns == 0)
+        return;
+    wide.angle = {};
+    for (int i = 0; i < lane_count; ++i)
+    {
+        if (wide.joint.v[i] == none)
+            continue;
+        const JointRecord& joint = ctx.state.joints[wide.joint.v[i]];
+        fill_angle(ctx, joint, hinge_angle(ctx.state, joint), wide.angle, i);
+    }
+    wide.angle.now = wide.angle.start;
 }
 
 void commit_wide_joint(const StepContext& ctx, const WideJoint& wide)
@@ -233,13 +207,17 @@ void commit_wide_joint(const StepContext& ctx, const WideJoint& wide)
         if (wide.joint.v[i] == none)
             continue;
         JointRecord& joint = ctx.state.joints[wide.joint.v[i]];
+        forget_impulses(joint);
         joint.impulses[slot_x] = wide.impulse_x.v[i];
         joint.impulses[slot_y] = wide.impulse_y.v[i];
+        joint.force = {wide.sum_x.v[i] / ctx.dt, wide.sum_y.v[i] / ctx.dt};
+        joint.torque = 0;
+        if (wide.turns == 0)
+            continue;
         joint.impulses[slot_spring] = wide.angle.spring_impulse.v[i];
         joint.impulses[slot_motor] = wide.angle.motor_impulse.v[i];
         joint.impulses[slot_lower] = wide.angle.lower_impulse.v[i];
         joint.impulses[slot_upper] = wide.angle.upper_impulse.v[i];
-        joint.force = {wide.sum_x.v[i] / ctx.dt, wide.sum_y.v[i] / ctx.dt};
         joint.torque = wide.angle.torque_sum.v[i] / ctx.dt;
     }
 }

@@ -5,6 +5,70 @@
 
 namespace joints {
 
+// What empty lanes read, and where anchors in the world stand.
+constexpr JointRecord nothing{};
+constexpr BodySim world{};
+
+CAROM_INLINE void fill_masses(WideJoint& j, const StateConstants* constants)
+{
+    F8 mass_a, mass_b, inertia_a, inertia_b, unused_y, unused;
+    gather4([&](int i) { return reinterpret_cast<const char*>(constants + j.a.v[i]); }, mass_a, unused_y, inertia_a, unused);
+    gather4([&](int i) { return reinterpret_cast<const char*>(constants + j.b.v[i]); }, mass_b, unused_y, inertia_b, unused);
+    store(j.inverse_mass_a, mass_a);
+    store(j.inverse_mass_b, mass_b);
+    store(j.inverse_inertia_a, inertia_a);
+    store(j.inverse_inertia_b, inertia_b);
+    j.fixed_a = bits((mass_a == all(0)) & (inertia_a == all(0)));
+    j.fixed_b = bits((mass_b == all(0)) & (inertia_b == all(0)));
+}
+
+// Anchors of eight bodies from their centers of mass, world axes.
+CAROM_INLINE void place_anchors(const BodySim* const (&sims)[lane_count], F8 x, F8 y, LaneFloats& arm_x, LaneFloats& arm_y)
+{
+    static_assert(offsetof(BodySim, rotation) == 16 && offsetof(BodySim, local_center) == 24);
+    F8 c, s, center_x, center_y;
+    gather4([&](int i) { return reinterpret_cast<const char*>(sims[i]) + 16; }, c, s, center_x, center_y);
+    x -= center_x;
+    y -= center_y;
+    store(arm_x, c * x - s * y);
+    store(arm_y, s * x + c * y);
+}
+
+// All but a, b, joint and turns, which say what goes there, and angles where it turns.
+void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const StateConstants* constants)
+{
+    static_assert(offsetof(JointRecord, anchor_b) == offsetof(JointRecord, anchor_a) + 8 && slot_x == 0 && slot_y == 1);
+    const JointRecord* of_lane[lane_count];
+    const BodySim* a[lane_count];
+    const BodySim* b[lane_count];
+    const auto sim_of = [&](std::int32_t body) { return body < 0 ? &world : sims + body; };
+    for (int i = 0; i < lane_count; ++i)
+    {
+        of_lane[i] = j.joint.v[i] < 0 ? &nothing : joints + j.joint.v[i];
+        a[i] = sim_of(of_lane[i]->body_a);
+        b[i] = sim_of(of_lane[i]->body_b);
+    }
+    F8 ax, ay, bx, by, impulse_x, impulse_y, unused_x, unused_y;
+    gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->anchor_a); }, ax, ay, bx, by);
+    gather4([&](int i) { return reinterpret_cast<const char*>(of_lane[i]->impulses); }, impulse_x, impulse_y, unused_x, unused_y);
+    store(j.impulse_x, impulse_x);
+    store(j.impulse_y, impulse_y);
+    store(j.sum_x, all(0));
+    store(j.sum_y, all(0));
+    place_anchors(a, ax, ay, j.start.ax, j.start.ay);
+    place_anchors(b, bx, by, j.start.bx, j.start.by);
+    for (int i = 0; i < lane_count; ++i)
+    { // in double: both anchors may be far out
+        const WideArms& arms = j.start;
+        const double x = a[i]->center.x + static_cast<double>(arms.ax.v[i]);
+        const double y = a[i]->center.y + static_cast<double>(arms.ay.v[i]);
+        j.start.gap_x.v[i] = static_cast<float>(b[i]->center.x + static_cast<double>(arms.bx.v[i]) - x);
+        j.start.gap_y.v[i] = static_cast<float>(b[i]->center.y + static_cast<double>(arms.by.v[i]) - y);
+    }
+    j.now = j.start;
+    fill_masses(j, constants);
+}
+
 struct Hinge
 {
     F8 mass_a, mass_b, inertia_a, inertia_b;
@@ -154,15 +218,6 @@ CAROM_INLINE void hold_angle(Hinge& h, WideAngle& t, const JointSoftness& s, boo
     drive(h, t, mass);
     limit(h, t.lower_impulse, mass, angle - load(t.lower), 1, s, use_bias);
     limit(h, t.upper_impulse, mass, load(t.upper) - angle, -1, s, use_bias);
-}
-
-void prepare(WideJoint* joints, std::int32_t count)
-{
-    for (WideJoint* j = joints; j < joints + count; ++j)
-    {
-        j->now = j->start;
-        j->angle.now = j->angle.start;
-    }
 }
 
 void warm_start(WideJoint* joints, std::int32_t count, BodyState* states)

@@ -68,7 +68,7 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
 
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
-                             joints::prepare,   joints::warm_start,   joints::solve,   joints::relax,
+                             joints::fill,   joints::warm_start,   joints::solve,   joints::relax,
                              follows::follow,        follows::follow_contacts, follows::take_impulses, states::move,
                              pairs::stay};
 

@@ -11,6 +11,7 @@
 #include "geometry/leaf.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -275,26 +276,25 @@ struct JointRecord
     bool enable_motor = false;
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
+    float hertz = 0; ///< of the soft limits, or of the spring along the free axis
+    float limit_restitution = 0;
     std::int32_t next[2] = {none, none};
-    std::int32_t previous[2] = {none, none};
     Vec2 anchor_a{};
     Vec2 anchor_b{};
+    float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
+    float torque = 0;                 ///< over the last step, to be read; so is force
+    Vec2 force{};
+    std::int32_t previous[2] = {none, none};
     Vec2 axis_a{1, 0};
     float reference_angle = 0;
     float stiffness = 0; ///< spring
     float damping = 0;
     float lower = 0; ///< limits: angle, translation, or length
     float upper = 0; ///< spring: its length
-    float limit_restitution = 0;
     float motor_speed = 0;
     float max_motor = 0;
-    float hertz = 0; ///< of the soft limits, or of the spring along the free axis
     float damping_ratio = 0;
     float spring_target = 0;
-    float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
-    // Read-back over the last step.
-    Vec2 force{};
-    float torque = 0;
 };
 
 inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }

@@ -176,9 +176,8 @@ struct JointPlace
 /// A hinge among the wide ones.
 struct JointLane
 {
-    std::int32_t bin;   ///< by color, and by whether it does something about its angle
-    std::int32_t lane;  ///< group * lane_count + lane
-    std::int32_t fixed; ///< the unit's state of what does not move
+    std::int32_t bin;  ///< by color, and by whether it does something about its angle
+    std::int32_t lane; ///< group * lane_count + lane
     JointPlace place;
 };
 

@@ -28,8 +28,8 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
 /// A hinge that bounces off no limit; its bodies must be able to move along every axis.
 [[nodiscard]] bool fits_joint_lane(const JointRecord& joint);
 
-[[nodiscard]] WideJoint empty_wide_joint(std::int32_t fixed);
-void fill_joint_lane(const StepContext& ctx, std::int32_t joint, std::int32_t a, std::int32_t b, WideJoint& wide, int lane);
+/// `wide` has a, b, joint and turns of each lane.
+void fill_wide_joint(const StepContext& ctx, WideJoint& wide);
 void commit_wide_joint(const StepContext& ctx, const WideJoint& wide);
 
 } // namespace carom::internal
