@@ -1,5 +1,6 @@
 // Stage 1, sweep: paths and boxes. Reads velocities and forces, writes fat boxes of the moving layer.
 
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
@@ -78,6 +79,17 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
                   });
 }
 
+// What sweep_body will read.
+[[gnu::always_inline]] inline void prefetch_body(const SceneState& state, int body)
+{
+    prefetch(state.sims[static_cast<std::size_t>(body)]);
+    const int shape = state.bodies[body].first_shape;
+    if (shape == none)
+        return;
+    __builtin_prefetch(&state.shapes[shape]); // the first line: leaves but for arcs
+    state.broad_phase.prefetch_place(shape);
+}
+
 // True where all are sound.
 bool sweep_all(StepContext& ctx)
 {
@@ -91,7 +103,11 @@ bool sweep_all(StepContext& ctx)
                                                           moved.boxes.clear();
                                                           moved.unsound.clear();
                                                           for (std::size_t i = first; i < last; ++i)
+                                                          {
+                                                              if (i + turns_ahead < last)
+                                                                  prefetch_body(ctx.state, bodies[i + turns_ahead]);
                                                               sweep_body(ctx, bodies[i], scratch.motion[i], moved);
+                                                          }
                                                       });
     MovedBoxes& all = scratch.moved;
     all.items.clear();

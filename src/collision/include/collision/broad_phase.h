@@ -6,6 +6,7 @@
 // Boxes without bounds (half-spaces) stand in a list of their own.
 
 #include "collision/box_tree.h"
+#include "core/prefetch.h"
 
 #include <cstdint>
 #include <span>
@@ -91,6 +92,13 @@ public:
     [[nodiscard]] const BoxPath& path(int item) const { return m_places[static_cast<std::size_t>(item)].path; }
     [[nodiscard]] bool moves(int item) const { return m_places[static_cast<std::size_t>(item)].layer == Layer::Moving; }
     [[nodiscard]] ItemTraits traits(int item) const { return m_places[static_cast<std::size_t>(item)].traits; }
+
+    /// Asks memory for all that decides about the item's pairs.
+    [[gnu::always_inline]] void prefetch_place(int item) const
+    {
+        if (item < static_cast<int>(m_places.size()))
+            prefetch(m_places[static_cast<std::size_t>(item)]);
+    }
 
     /// By item.
     [[nodiscard]] const BoxPlace* places() const { return m_places.data(); }

@@ -96,10 +96,10 @@ struct BodyState
 };
 static_assert(sizeof(BodyState) == 32);
 
-/// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces.
+/// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces. The first cache line is all that boxes and
+/// contacts read, but for arcs.
 struct alignas(64) ShapeRecord
 {
-    Leaf leaf{}; ///< first: what every contact reads
     std::int32_t body = none;
     std::int32_t owner = none;      ///< the public shape: itself, or the chain
     std::int32_t next_piece = none; ///< of a chain: its first piece; of a piece: the next
@@ -108,6 +108,7 @@ struct alignas(64) ShapeRecord
     bool trigger = false;
     bool yields_material = false;
     bool has_curve = false; ///< of restitution, in SceneState::curves
+    Leaf leaf{};
     float density = 0;
     float friction = 0;
     float restitution = 0;
@@ -119,6 +120,8 @@ struct alignas(64) ShapeRecord
     Filter filter{};
     Field field{};
 };
+
+static_assert(offsetof(ShapeRecord, leaf) + offsetof(Leaf, arc_radius) <= 64);
 
 struct ManifoldPoint
 {
