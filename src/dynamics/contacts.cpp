@@ -1,6 +1,7 @@
 // Stage 3, contacts: manifolds of awake pairs, begins and ends. The first pass writes only to its own contact and may run on any thread; the
 // second goes through the results in order.
 
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
@@ -213,7 +214,10 @@ public:
     void run(std::vector<ContactNews>& news)
     {
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
+        {
+            prefetch_later(i);
             update(i);
+        }
         for (const Waiting& w : m_waiting)
         {
             for (int i = 0; i < w.count; ++i)
@@ -228,6 +232,20 @@ public:
     }
 
 private:
+    // First who touches, then what is kept of them and where they are.
+    [[gnu::always_inline]] void prefetch_later(std::size_t i) const
+    {
+        const SceneState& state = m_ctx.state;
+        if (i + 2 * turns_ahead < m_contacts.size())
+            prefetch(state.contacts[m_contacts[i + 2 * turns_ahead]]);
+        if (i + turns_ahead >= m_contacts.size())
+            return;
+        const std::int32_t index = m_contacts[i + turns_ahead];
+        prefetch(state.kept_manifolds[static_cast<std::size_t>(index)]);
+        for (const std::int32_t body : {state.contacts[index].body_a, state.contacts[index].body_b})
+            __builtin_prefetch(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
+    }
+
     void update(std::size_t i)
     {
         const std::int32_t index = m_contacts[i];
