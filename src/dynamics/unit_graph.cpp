@@ -3,6 +3,7 @@
 
 #include "dynamics/unit_graph.h"
 
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
@@ -198,6 +199,8 @@ public:
         for (std::size_t i = first; i < last; ++i)
         {
             const std::int32_t index = state.awake_contacts[i];
+            if (i + turns_ahead < last)
+                prefetch(state.contacts[state.awake_contacts[i + turns_ahead]]);
             leave_lane(state, index);
             Contact& contact = state.contacts[index];
             contact.wide = none;

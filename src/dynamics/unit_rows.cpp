@@ -1,5 +1,6 @@
 #include "dynamics/unit_rows.h"
 
+#include "core/prefetch.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
 #include "dynamics/unit_bins.h"
@@ -29,6 +30,17 @@ void for_each_place(Crew& crew, std::int32_t begin, std::int32_t count, const Vi
                });
 }
 
+// The contact of a lane that is filled later.
+[[gnu::always_inline]] inline void prefetch_lane(const StepContext& ctx, std::size_t lane)
+{
+    const Scratch& scratch = ctx.scratch;
+    if (lane >= scratch.lane_links.size() || scratch.lane_links[lane] == none)
+        return;
+    const std::int32_t contact = scratch.solved_links[as_index(scratch.lane_links[lane])].contact;
+    prefetch(ctx.state.contacts[contact]);
+    prefetch(ctx.state.impulses[as_index(contact)]);
+}
+
 // The unit's g-th.
 void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
 {
@@ -38,6 +50,7 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
     row.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
+        prefetch_lane(ctx, as_index(first_lane + i) + 2 * turns_ahead);
         const std::int32_t link = scratch.lane_links[as_index(first_lane + i)];
         if (link == none)
         {
