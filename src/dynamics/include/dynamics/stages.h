@@ -21,7 +21,7 @@ void find_deflected_pairs(StepContext& ctx);
 /// Manifolds of awake contacts; begins and ends of touching; wakes what is touched.
 void update_contacts(StepContext& ctx);
 
-/// Islands, units, states, colours and rows.
+/// Units, states, colours and rows.
 void build_units(StepContext& ctx);
 
 /// All sub-steps of all units.
