@@ -26,13 +26,6 @@ namespace {
 
 constexpr std::size_t bodies_per_task = 512;
 
-// Written once: threads that read it do not wait for each other.
-void raise(std::atomic<bool>& flag)
-{
-    if (!flag.load(std::memory_order_relaxed))
-        flag.store(true, std::memory_order_relaxed);
-}
-
 Rotation renormalized(Rotation q)
 {
     const float l = std::sqrt(q.c * q.c + q.s * q.s);

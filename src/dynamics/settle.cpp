@@ -130,9 +130,11 @@ void put_islands_to_sleep(StepContext& ctx)
         bool all_tired = true;
         const auto belongs = [&](int other)
         {
-            const bool is_one = is_awake(state, other) && is_tired(state, other);
-            all_tired &= is_one || !is_awake(state, other);
-            return is_one;
+            if (!is_awake(state, other))
+                return false;
+            const bool tired_too = is_tired(state, other);
+            all_tired &= tired_too;
+            return tired_too;
         };
         const auto first = static_cast<std::ptrdiff_t>(tired.size());
         gather_island(state, body, seen, tired, belongs);
@@ -158,8 +160,8 @@ void settle_bodies(StepContext& ctx)
                           const std::int32_t body = state.awake_bodies[i];
                           BodySim& sim = state.sims[static_cast<std::size_t>(body)];
                           settle_or_stir(ctx, body, sim);
-                          if (sim.sleep_time >= time_to_sleep && !any_tired.load(std::memory_order_relaxed))
-                              any_tired.store(true, std::memory_order_relaxed);
+                          if (sim.sleep_time >= time_to_sleep)
+                              raise(any_tired);
                           if (!ctx.scene.keep_forces)
                           {
                               sim.force = {};

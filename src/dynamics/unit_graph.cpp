@@ -321,7 +321,6 @@ public:
             if (j.a >= 0 && j.b >= 0)
                 link(scratch.parent, j.a, j.b);
         }
-        state.graph_dirty = false;
     }
 
     // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
@@ -776,6 +775,7 @@ void build_unit_graph(StepContext& ctx)
             graph.sort_joints();
             graph.sort_bodies();
         });
+    ctx.state.graph_dirty = false;
 }
 
 } // namespace carom::internal

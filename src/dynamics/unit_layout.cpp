@@ -66,12 +66,7 @@ public:
                       else
                           fill_some_states(task - 1);
                   });
-        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.color_masks.size(), items_per_task,
-                          [&](std::size_t s)
-                          {
-                              if (m_scratch.color_masks[s] != 0)
-                                  unbind(static_cast<std::int32_t>(s));
-                          });
+        unbind_all(m_scratch.color_masks);
     }
 
     // --- fliers and laws --------------------------------------------------------------------------------------------------------------
@@ -131,16 +126,7 @@ public:
     }
 
     // What held each state when the rows were placed holds it still.
-    void bind_as_before()
-    {
-        const std::vector<std::uint8_t>& bound = m_scratch.kept_units.bound;
-        for_each_in_parts(m_ctx.scene.def.tasks, bound.size(), items_per_task,
-                          [&](std::size_t s)
-                          {
-                              if (bound[s] != 0)
-                                  unbind(static_cast<std::int32_t>(s));
-                          });
-    }
+    void bind_as_before() { unbind_all(m_scratch.kept_units.bound); }
 
     void count()
     {
@@ -492,6 +478,18 @@ private:
         return color;
     }
 
+    // States whose number is not 0, on all threads.
+    template <class Number>
+    void unbind_all(const std::vector<Number>& bound)
+    {
+        for_each_in_parts(m_ctx.scene.def.tasks, bound.size(), items_per_task,
+                          [&](std::size_t s)
+                          {
+                              if (bound[s] != 0)
+                                  unbind(static_cast<std::int32_t>(s));
+                          });
+    }
+
     void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
 
     // Eight lanes to a group, each of one colour and one number of points; from cell to cell they go on without a gap.
@@ -606,7 +604,7 @@ private:
     [[nodiscard]] bool gives_evenly(std::int32_t state) const
     {
         const int body = m_scratch.state_bodies[as_index(state)];
-        if (!m_scratch.has_uneven || body == none)
+        if (body == none)
             return true;
         const Vec2 inverse_mass = m_state.sims[as_index(body)].inverse_mass;
         return inverse_mass.x == inverse_mass.y;

@@ -42,26 +42,12 @@ CAROM_INLINE void fill_impulses(WideRow& row, const ContactImpulses* impulses)
     }
 }
 
-CAROM_INLINE void fill_masses(WideRow& row, const StateConstants* constants)
-{
-    static_assert(offsetof(StateConstants, inverse_mass) == 0 && offsetof(StateConstants, inverse_inertia) == 8);
-    F8 mass_a, mass_b, inertia_a, inertia_b, unused_y, unused;
-    gather4([&](int i) { return reinterpret_cast<const char*>(constants + row.a.v[i]); }, mass_a, unused_y, inertia_a, unused);
-    gather4([&](int i) { return reinterpret_cast<const char*>(constants + row.b.v[i]); }, mass_b, unused_y, inertia_b, unused);
-    store(row.inverse_mass_a, mass_a);
-    store(row.inverse_mass_b, mass_b);
-    store(row.inverse_inertia_a, inertia_a);
-    store(row.inverse_inertia_b, inertia_b);
-    store(row.stiff, (mass_a == all(0)) | (mass_b == all(0)));
-}
-
 CAROM_INLINE void prepare_row(WideRow& row)
 {
     const F8 mass = load(row.inverse_mass_a) + load(row.inverse_mass_b);
     const F8 ia = load(row.inverse_inertia_a);
     const F8 ib = load(row.inverse_inertia_b);
-    row.fixed_a = bits((load(row.inverse_mass_a) == all(0)) & (ia == all(0)));
-    row.fixed_b = bits((load(row.inverse_mass_b) == all(0)) & (ib == all(0)));
+    mark_fixed(row);
     for (int i = 0; i < row.count; ++i)
     {
         WidePoint& p = row.points[i];
@@ -108,6 +94,7 @@ void fill(WideRow& row, const Contact* contacts, const ContactImpulses* impulses
     store(row.nx, nx);
     store(row.ny, ny);
     fill_masses(row, constants);
+    store(row.stiff, (load(row.inverse_mass_a) == all(0)) | (load(row.inverse_mass_b) == all(0)));
     for (int k = 0; k < row.count; ++k)
         fill_point(row.points[k], of_lane, k, nx, ny);
     fill_impulses(row, impulses);

@@ -9,19 +9,6 @@ namespace joints {
 constexpr JointRecord nothing{};
 constexpr BodySim world{};
 
-CAROM_INLINE void fill_masses(WideJoint& j, const StateConstants* constants)
-{
-    F8 mass_a, mass_b, inertia_a, inertia_b, unused_y, unused;
-    gather4([&](int i) { return reinterpret_cast<const char*>(constants + j.a.v[i]); }, mass_a, unused_y, inertia_a, unused);
-    gather4([&](int i) { return reinterpret_cast<const char*>(constants + j.b.v[i]); }, mass_b, unused_y, inertia_b, unused);
-    store(j.inverse_mass_a, mass_a);
-    store(j.inverse_mass_b, mass_b);
-    store(j.inverse_inertia_a, inertia_a);
-    store(j.inverse_inertia_b, inertia_b);
-    j.fixed_a = bits((mass_a == all(0)) & (inertia_a == all(0)));
-    j.fixed_b = bits((mass_b == all(0)) & (inertia_b == all(0)));
-}
-
 // Anchors of eight bodies from their centers of mass, world axes.
 CAROM_INLINE void place_anchors(const BodySim* const (&sims)[lane_count], F8 x, F8 y, LaneFloats& arm_x, LaneFloats& arm_y)
 {
@@ -67,6 +54,7 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
     }
     j.now = j.start;
     fill_masses(j, constants);
+    mark_fixed(j);
 }
 
 struct Hinge

@@ -57,6 +57,28 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v,
     scatter4([&](int i) { return (fixed >> i & 1u) != 0 ? reinterpret_cast<char*>(unused + i) : at(i); }, v.x, v.y, v.w, v.flags);
 }
 
+// Of the states of a row or a hinge.
+template <class Wide>
+CAROM_INLINE void fill_masses(Wide& wide, const StateConstants* constants)
+{
+    static_assert(offsetof(StateConstants, inverse_mass) == 0 && offsetof(StateConstants, inverse_inertia) == 8);
+    F8 mass_a, mass_b, inertia_a, inertia_b, unused_y, unused;
+    gather4([&](int i) { return reinterpret_cast<const char*>(constants + wide.a.v[i]); }, mass_a, unused_y, inertia_a, unused);
+    gather4([&](int i) { return reinterpret_cast<const char*>(constants + wide.b.v[i]); }, mass_b, unused_y, inertia_b, unused);
+    store(wide.inverse_mass_a, mass_a);
+    store(wide.inverse_mass_b, mass_b);
+    store(wide.inverse_inertia_a, inertia_a);
+    store(wide.inverse_inertia_b, inertia_b);
+}
+
+// Whose bodies do not give way.
+template <class Wide>
+CAROM_INLINE void mark_fixed(Wide& wide)
+{
+    wide.fixed_a = bits((load(wide.inverse_mass_a) == all(0)) & (load(wide.inverse_inertia_a) == all(0)));
+    wide.fixed_b = bits((load(wide.inverse_mass_b) == all(0)) & (load(wide.inverse_inertia_b) == all(0)));
+}
+
 #include "fill_kernels.inl"
 #include "contact_kernels.inl"
 #include "joint_kernels.inl"

@@ -5,6 +5,7 @@
 
 #include "carom/scene.h"
 
+#include <atomic>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,6 +24,13 @@ void run_tasks(const TaskHooks& hooks, int count, const Task& task)
     hooks.run(
         hooks.user, count, [](void* context, int index) { (*static_cast<const Task*>(context))(index); },
         const_cast<Task*>(&task));
+}
+
+/// Of tasks that run side by side any may raise a flag. Written once: threads that read it do not wait for each other.
+inline void raise(std::atomic<bool>& flag)
+{
+    if (!flag.load(std::memory_order_relaxed))
+        flag.store(true, std::memory_order_relaxed);
 }
 
 /// Calls both, side by side where there are threads.
