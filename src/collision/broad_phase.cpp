@@ -107,6 +107,27 @@ void BroadPhase::fit_moving(const TaskHooks& tasks)
     m_past.resize(static_cast<std::size_t>(block_count()));
 }
 
+void BroadPhase::choose_all_but(Layer layer, std::span<const std::int32_t> left_out, std::vector<std::uint8_t>& chosen) const
+{
+    const std::vector<BoxTree>& trees = m_forests[static_cast<std::size_t>(layer)].trees;
+    const auto blocks_before = [&](std::int32_t tree)
+    {
+        std::size_t blocks = 0;
+        for (std::int32_t t = 0; t < tree; ++t)
+            blocks += static_cast<std::size_t>(trees[static_cast<std::size_t>(t)].block_count());
+        return blocks;
+    };
+    chosen.assign(blocks_before(static_cast<std::int32_t>(trees.size())), BoxTree::all_lanes);
+    for (const std::int32_t item : left_out)
+    {
+        const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
+        if (leaf.tree < 0 || m_places[static_cast<std::size_t>(item)].layer != layer)
+            continue;
+        const auto block = static_cast<std::size_t>(leaf.index / BoxTree::arity);
+        chosen[blocks_before(leaf.tree) + block] &= static_cast<std::uint8_t>(~(1u << (leaf.index % BoxTree::arity)));
+    }
+}
+
 void BroadPhase::note_changes(int block)
 {
     const BoxTree& tree = m_forests[0].trees[0];

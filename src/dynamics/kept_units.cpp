@@ -14,17 +14,12 @@ namespace carom::internal {
 
 namespace {
 
-bool all_grounded(const Scratch& scratch)
-{
-    return std::all_of(scratch.flight.begin(), scratch.flight.end(), [](std::int32_t kind) { return kind == earthbound; });
-}
-
 // Large enough for everything in them to go by links alone.
 bool is_plain(const Unit& unit)
 {
     const bool has_joints = unit.joint_count > 0 || unit.joint_lane_count > 0;
     return unit.dynamic_count > (has_joints ? UnitEnergy::most_bodies : precise_limit) && unit.row_count == 0 &&
-           unit.core_count == 0 && !unit.heap;
+           unit.core_count == 0 && !unit.heap && !unit.alone;
 }
 
 // Who bears a load matters to rows and heaps only.
@@ -53,7 +48,7 @@ bool units_stay(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
     const KeptUnits& kept = scratch.kept_units;
-    return kept.are_plain && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven && all_grounded(scratch) &&
+    return kept.are_plain && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() &&
            bodies_stay(ctx) && are_same(kept.links, scratch.links) && kept.joints == scratch.joint_links;
 }
 

@@ -68,6 +68,12 @@ void fall(const StepContext& ctx, std::int32_t index)
         s.delta_rotation = Rotation::from_angle(angle);
 }
 
+void fall(const StepContext& ctx, const Unit& unit)
+{
+    for (std::int32_t s = unit.first_state + 1; s <= unit.first_state + unit.dynamic_count; ++s)
+        fall(ctx, s);
+}
+
 void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew)
 {
     const Unit& unit = ctx.scratch.units[u];
@@ -154,10 +160,9 @@ void solve_small(StepContext& ctx)
                   {
                       const Unit& unit = scratch.units[u];
                       if (unit.alone)
-                          fall(ctx, unit.first_state + 1);
-                      if (unit.alone || is_large(unit))
-                          continue;
-                      solve(ctx, u, energy, alone);
+                          fall(ctx, unit);
+                      else if (!is_large(unit))
+                          solve(ctx, u, energy, alone);
                   }
               });
 }

@@ -32,9 +32,10 @@ constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t joints_per_task = 1024;
 constexpr std::size_t bodies_per_task = 1024;
 constexpr std::size_t items_per_task = 4096;
+constexpr std::size_t fliers_per_task = 256;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr float calm_swing = 0.1f;           // rad, in a step
-constexpr int heap_bodies = 256;             // in a batch
+constexpr int batch_bodies = 256;            // of heaps, or of bodies that are alone
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
 
@@ -108,6 +109,22 @@ bool is_closed(const StepContext& ctx, int index, int body)
     { return b == none ? Position(anchor) : transform(ctx.state.sims[static_cast<std::size_t>(b)].pose(), anchor); };
     const Vec2 gap = world(joint.body_b, joint.anchor_b) - world(joint.body_a, joint.anchor_a);
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
+}
+
+// Calls visit(first, last, unit) where items that follow each other are of one unit, not none. Neighbours mostly are.
+template <class UnitOf, class Visit>
+void for_each_run(std::size_t count, const UnitOf& unit_of, const Visit& visit)
+{
+    for (std::size_t first = 0; first < count;)
+    {
+        const std::int32_t unit = unit_of(first);
+        std::size_t last = first + 1;
+        while (last < count && unit_of(last) == unit)
+            ++last;
+        if (unit != none)
+            visit(first, last, unit);
+        first = last;
+    }
 }
 
 // --- the graph --------------------------------------------------------------------------------------------------------------------
@@ -237,6 +254,16 @@ public:
         }
     }
 
+    void list_fliers()
+    {
+        scratch.flying.clear();
+        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
+        {
+            if (scratch.flight[i] != earthbound)
+                scratch.flying.push_back(static_cast<std::int32_t>(i));
+        }
+    }
+
     void leave_row(std::int32_t contact) const
     {
         forget_impulses(state, contact);
@@ -327,19 +354,19 @@ public:
     // way.
     void ground_crowds()
     {
-        std::vector<std::int32_t> fliers(scratch.units.size(), 0);
-        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
-        {
-            if (scratch.flight[i] != earthbound)
-                ++fliers[static_cast<std::size_t>(scratch.unit_of[i])];
-        }
-        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
-        {
-            if (scratch.flight[i] == earthbound || fliers[static_cast<std::size_t>(scratch.unit_of[i])] <= precise_limit)
-                continue;
-            if (!shoots(state.awake_bodies[i]))
-                std::swap(scratch.flight[i], scratch.grounded[i]);
-        }
+        for (const std::int32_t place : scratch.flying)
+            ++tally_of(place).unloaded;
+        std::erase_if(scratch.flying,
+                      [&](std::int32_t place)
+                      {
+                          const bool grounds = tally_of(place).unloaded > precise_limit && !shoots(body_at(place));
+                          if (grounds)
+                              std::swap(scratch.flight[static_cast<std::size_t>(place)],
+                                        scratch.grounded[static_cast<std::size_t>(place)]);
+                          else
+                              ++tally_of(place).fliers;
+                          return grounds;
+                      });
     }
 
     // Goes half its size or more in a sub-step, also as its neighbours see it.
@@ -358,20 +385,10 @@ public:
         return shoots;
     }
 
-    // What units are made of, before anything is laid out.
-    void count_members()
+    // Who bears matters to heaps.
+    void count_contacts()
     {
-        std::vector<UnitTally>& tallies = scratch.tallies;
-        tallies.assign(scratch.units.size(), {});
-        for (std::size_t i = 0; i < scratch.unit_of.size(); ++i)
-        {
-            if (scratch.unit_of[i] == none)
-                continue;
-            UnitTally& t = tally(scratch.unit_of[i]);
-            ++t.bodies;
-            t.fliers += scratch.flight[i] != earthbound ? 1 : 0;
-        }
-        if (state.joints.count() == 0) // who bears matters to heaps
+        if (state.joints.count() == 0)
             return;
         for (const Link& l : scratch.links)
         {
@@ -384,6 +401,8 @@ public:
     }
 
     [[nodiscard]] UnitTally& tally(std::int32_t unit) { return scratch.tallies[static_cast<std::size_t>(unit)]; }
+    [[nodiscard]] UnitTally& tally_of(std::int32_t place) { return tally(scratch.unit_of[static_cast<std::size_t>(place)]); }
+    [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
     template <class AnyLink>
     [[nodiscard]] std::int32_t unit_of_link(const AnyLink& l) const
     {
@@ -396,12 +415,13 @@ public:
         const auto slice = [&](std::int32_t unit, float rate, float most_turn, int limit)
         {
             const auto wanted = static_cast<int>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
-            std::int32_t& slices = scratch.units[static_cast<std::size_t>(unit)].slices;
+            std::int32_t& slices = tally(unit).slices;
             slices = std::max(slices, wanted);
         };
-        const bool has_small = std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
-                                           [](const UnitTally& t) { return t.bodies <= precise_limit; });
-        for (const Link& l : has_small ? std::span(scratch.links) : std::span<Link>{})
+        const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
+                              std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
+                                          [](const UnitTally& t) { return t.bodies <= precise_limit; });
+        for (const Link& l : may_turn ? std::span(scratch.links) : std::span<Link>{})
         {
             if (l.solved && tally(unit_of_link(l)).bodies <= precise_limit)
                 slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn,
@@ -422,49 +442,77 @@ public:
         }
     }
 
-    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others.
-    void batch_heaps()
+    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So do bodies that are alone, for they are many.
+    void form_units()
     {
-        std::vector<std::int32_t>& place = scratch.order; // of each unit, among those that remain
-        place.resize(scratch.units.size());
-        std::int32_t count = 0;
-        std::int32_t batch = none;
-        int bodies = 0;
-        for (std::size_t u = 0; u < scratch.units.size(); ++u)
+        std::vector<std::int32_t>& unit_of_group = scratch.order;
+        unit_of_group.clear();
+        scratch.units.clear();
+        Batch heaps;
+        Batch lone;
+        for (const UnitTally& t : scratch.tallies)
         {
-            const bool heap = is_heap(static_cast<std::int32_t>(u));
-            if (heap && batch != none && bodies < heap_bodies)
+            const bool heap = is_heap(t);
+            const bool alone = t.bodies == 1 && t.fliers == 1 && is_alone(t.first);
+            Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
+            if (batch == nullptr || batch->unit == none || batch->bodies >= batch_bodies)
             {
-                bodies += scratch.tallies[u].bodies;
-                place[u] = batch;
-                continue;
+                Unit& unit = scratch.units.emplace_back();
+                unit.slices = heap ? 1 : t.slices;
+                unit.heap = heap;
+                unit.alone = alone;
+                if (batch != nullptr)
+                    *batch = {static_cast<std::int32_t>(scratch.units.size()) - 1, 0};
             }
-            if (heap)
-            {
-                batch = count;
-                bodies = scratch.tallies[u].bodies;
-            }
-            place[u] = count;
-            scratch.units[static_cast<std::size_t>(count)] = scratch.units[u];
-            scratch.units[static_cast<std::size_t>(count)].heap = heap;
-            if (heap)
-                scratch.units[static_cast<std::size_t>(count)].slices = 1;
-            ++count;
+            if (batch != nullptr)
+                batch->bodies += t.bodies;
+            unit_of_group.push_back(batch != nullptr ? batch->unit : static_cast<std::int32_t>(scratch.units.size()) - 1);
         }
-        ctx.report.units = static_cast<int>(scratch.units.size());
-        if (count == static_cast<std::int32_t>(scratch.units.size()))
+        ctx.report.units = static_cast<int>(scratch.tallies.size());
+        if (scratch.units.size() == scratch.tallies.size())
             return;
-        scratch.units.resize(static_cast<std::size_t>(count));
         for (std::int32_t& u : scratch.unit_of)
-            u = u == none ? none : place[static_cast<std::size_t>(u)];
+            u = u == none ? none : unit_of_group[static_cast<std::size_t>(u)];
+    }
+
+    struct Batch
+    {
+        std::int32_t unit = none;
+        int bodies = 0;
+    };
+
+    [[nodiscard]] bool is_alone(std::int32_t place) const
+    {
+        const int body = body_at(place);
+        const BodyRecord& record = state.bodies[body];
+        return scratch.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none && meets_nothing(record) &&
+               is_free_of_loads(body) && !ctx.scene.def.record_substeps;
+    }
+
+    [[nodiscard]] bool is_free_of_loads(int body) const
+    {
+        const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+        return sim.force == Vec2{} && sim.torque == 0 && force_law_of(ctx, body) == nullptr;
+    }
+
+    // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
+    [[nodiscard]] bool meets_nothing(const BodyRecord& record) const
+    {
+        for (int edge = record.first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if (contact.manifold.count > 0 ||
+                (contact.flags & (contact_flag::trigger | contact_flag::plain)) != contact_flag::plain)
+                return false;
+        }
+        return true;
     }
 
     // What joints hold exactly otherwise is held softly here, as in piles: where it lies on something, for four joints a contact bears a load; and where
     // all joints brake or damp what they hold, and none of it turns fast near something that it may meet. None holds to what does not move.
-    [[nodiscard]] bool is_heap(std::int32_t unit)
+    [[nodiscard]] bool is_heap(const UnitTally& t) const
     {
-        const UnitTally& t = tally(unit);
-        const bool calm = scratch.units[static_cast<std::size_t>(unit)].slices == 1;
+        const bool calm = t.slices == 1;
         const bool lies = 4 * t.bearing >= t.joints && calm;
         const bool wearies = t.damped == t.joints && (t.contacts == 0 || (calm && ctx.dt * t.swing < calm_swing));
         return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && !t.hangs && t.fliers == 0 && (lies || wearies);
@@ -511,27 +559,11 @@ public:
     // two would meet in different times. True where units have become one.
     bool link_deflected()
     {
-        std::vector<TreeLeaf>& reaches = scratch.reaches;
-        reaches.clear();
-        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
-        for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), items_per_task,
-                          [&](std::size_t i) { note_deflected(scratch.links[i]); });
-        for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
-        {
-            if (scratch.is_deflected[i] == 0)
-                continue;
-            const int body = state.awake_bodies[i];
-            const Position c = state.sims[static_cast<std::size_t>(body)].center;
-            const double r =
-                static_cast<double>(scratch.motion[i]) + static_cast<double>(state.sims[static_cast<std::size_t>(body)].extent);
-            reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), static_cast<std::int32_t>(i)});
-        }
+        find_deflected();
         scratch.may_be_struck = scratch.is_deflected;
-        if (reaches.empty())
+        if (scratch.reaches.empty())
             return false;
-        scratch.reach_tree.build(reaches);
-        const auto keeps_its_way = [&](std::int32_t shape) { return scratch.is_deflected[place_of_shape(shape)] == 0; };
-        state.broad_phase.choose_items(Layer::Moving, keeps_its_way, scratch.keeps_its_way);
+        scratch.reach_tree.build(scratch.reaches);
         using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
         const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
         const std::span<Meetings> parts =
@@ -544,6 +576,47 @@ public:
                 linked |= link(scratch.parent, place, other);
         }
         return linked;
+    }
+
+    // What flies and may be deflected by what it meets on its way; where it may come then, and whose boxes keep their way.
+    void find_deflected()
+    {
+        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const auto place = static_cast<std::size_t>(scratch.flying[i]);
+                              scratch.is_deflected[place] = may_be_deflected(place) ? 1 : 0;
+                          });
+        scratch.reaches.clear();
+        std::vector<std::int32_t>& shapes = scratch.order;
+        shapes.clear();
+        for (const std::int32_t place : scratch.flying)
+        {
+            if (scratch.is_deflected[static_cast<std::size_t>(place)] == 0)
+                continue;
+            const int body = body_at(place);
+            const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+            const double r =
+                static_cast<double>(scratch.motion[static_cast<std::size_t>(place)]) + static_cast<double>(sim.extent);
+            const Position c = sim.center;
+            scratch.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), place});
+            for_each_leaf(state, body, [&](int shape) { shapes.push_back(shape); });
+        }
+        if (!shapes.empty())
+            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
+    }
+
+    [[nodiscard]] bool may_be_deflected(std::size_t place) const
+    {
+        if (scratch.motion[place] <= ctx.scene.tolerances.speculation)
+            return false;
+        const auto deflects = [&](int edge)
+        { return is_solved(state.contacts[edge >> 1]) && !stays_apart(ctx, state.contacts[edge >> 1]); };
+        int edge = state.bodies[state.awake_bodies[place]].first_contact;
+        while (edge != none && !deflects(edge))
+            edge = state.contacts[edge >> 1].next[edge & 1];
+        return edge != none;
     }
 
     // Of bodies in different units, by place; notes what else may be struck.
@@ -586,31 +659,11 @@ public:
         return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
     }
 
-    // Whoever flies may be, by what it meets on its way.
-    void note_deflected(const Link& l) const
-    {
-        const bool a_may = may_be_deflected(l.a);
-        const bool b_may = may_be_deflected(l.b);
-        if (!l.solved || (!a_may && !b_may) || stays_apart(ctx, state.contacts[l.contact]))
-            return;
-        const auto note = [&](std::int32_t place)
-        { std::atomic_ref(scratch.is_deflected[static_cast<std::size_t>(place)]).store(1, std::memory_order_relaxed); };
-        if (a_may)
-            note(l.a);
-        if (b_may)
-            note(l.b);
-    }
-
-    [[nodiscard]] bool may_be_deflected(std::int32_t place) const
-    {
-        return in_flight(place) && scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
-    }
-
-    // Units in the order of their first body; every dynamic body gets its unit.
+    // What must be solved together, in the order of its first body; every dynamic body gets its unit, and is counted there.
     void number_units()
     {
         const std::size_t n = state.awake_bodies.size();
-        scratch.units.clear();
+        scratch.tallies.clear();
         scratch.unit_of.assign(n, none);
         for (std::size_t i = 0; i < n; ++i)
         {
@@ -619,14 +672,18 @@ public:
             const auto root = static_cast<std::size_t>(find_root(scratch.parent, static_cast<std::int32_t>(i)));
             if (root == i)
             {
-                scratch.unit_of[i] = static_cast<std::int32_t>(scratch.units.size());
-                scratch.units.emplace_back();
+                scratch.unit_of[i] = static_cast<std::int32_t>(scratch.tallies.size());
+                scratch.tallies.emplace_back().first = static_cast<std::int32_t>(i);
             }
             else
             {
                 scratch.unit_of[i] = scratch.unit_of[root];
             }
         }
+        for_each_run(
+            n, [&](std::size_t i) { return scratch.unit_of[i]; },
+            [&](std::size_t first, std::size_t last, std::int32_t unit)
+            { tally(unit).bodies += static_cast<std::int32_t>(last - first); });
     }
 
     // Bodies in flight meet things at their own time; a row would stop them early.
@@ -713,22 +770,23 @@ private:
                       const UnitOf& unit_of, const SetRange& set_range)
     {
         starts.assign(scratch.units.size() + 1, 0);
-        for (std::size_t i = 0; i < items.size(); ++i)
-        {
-            if (const std::int32_t unit = unit_of(i); unit != none)
-                ++starts[static_cast<std::size_t>(unit) + 1];
-        }
+        for_each_run(items.size(), unit_of,
+                     [&](std::size_t first, std::size_t last, std::int32_t unit)
+                     { starts[static_cast<std::size_t>(unit) + 1] += static_cast<std::int32_t>(last - first); });
         for (std::size_t u = 0; u < scratch.units.size(); ++u)
         {
             set_range(scratch.units[u], starts[u], starts[u + 1]);
             starts[u + 1] += starts[u];
         }
         sorted.resize(static_cast<std::size_t>(starts.back()));
-        for (std::size_t i = 0; i < items.size(); ++i)
-        {
-            if (const std::int32_t unit = unit_of(i); unit != none)
-                sorted[static_cast<std::size_t>(starts[static_cast<std::size_t>(unit)]++)] = items[i];
-        }
+        for_each_run(items.size(), unit_of,
+                     [&](std::size_t first, std::size_t last, std::int32_t unit)
+                     {
+                         std::int32_t& start = starts[static_cast<std::size_t>(unit)];
+                         for (std::size_t i = first; i < last; ++i)
+                             sorted[static_cast<std::size_t>(start) + i - first] = items[i];
+                         start += static_cast<std::int32_t>(last - first);
+                     });
     }
 
     StepContext& ctx;
@@ -743,6 +801,7 @@ void gather_unit_graph(StepContext& ctx)
     UnitGraph graph(ctx);
     graph.find_fliers();
     graph.gather_links();
+    graph.list_fliers();
     graph.gather_joints();
 }
 
@@ -764,9 +823,9 @@ void build_unit_graph(StepContext& ctx)
         graph.number_units();
         graph.ground_crowds();
     }
-    graph.count_members();
+    graph.count_contacts();
     graph.choose_slices();
-    graph.batch_heaps();
+    graph.form_units();
     graph.find_units_of_links();
     run_both(
         tasks, [&] { graph.sort_links(); },

@@ -172,8 +172,7 @@ private:
     {
         const std::int32_t first = unit.first_state;
         unit.first_state = add_state(none);
-        unit.precise = unit.dynamic_count <= precise_limit && !unit.heap;
-        unit.alone = unit.dynamic_count == 1 && is_alone(m_scratch.solved_bodies[as_index(first)]);
+        unit.precise = (unit.dynamic_count <= precise_limit && !unit.heap) || unit.alone;
         unit.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
         for (std::int32_t i = first; i < first + unit.dynamic_count; ++i)
         {
@@ -183,7 +182,7 @@ private:
             seed_flier(unit, place);
         }
         unit.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - unit.first_flier;
-        m_ctx.report.flight_bodies += unit.alone ? 1 : 0;
+        m_ctx.report.flight_bodies += unit.alone ? unit.dynamic_count : 0;
         copy_kinematic_bodies(unit);
         unit.state_count = static_cast<std::int32_t>(m_scratch.state_bodies.size()) - unit.first_state;
     }
@@ -220,33 +219,6 @@ private:
     {
         return m_scratch.may_be_struck[as_index(place)] != 0 || kind != none ||
                force_law_of(m_ctx, m_state.awake_bodies[as_index(place)]) != nullptr;
-    }
-
-    [[nodiscard]] bool is_alone(std::int32_t place) const
-    {
-        const int body = m_state.awake_bodies[as_index(place)];
-        const BodyRecord& record = m_state.bodies[body];
-        return m_scratch.flight[as_index(place)] == none && record.first_joint == none && meets_nothing(record) &&
-               is_free_of_loads(body) && !m_ctx.scene.def.record_substeps;
-    }
-
-    [[nodiscard]] bool is_free_of_loads(int body) const
-    {
-        const BodySim& sim = m_state.sims[as_index(body)];
-        return sim.force == Vec2{} && sim.torque == 0 && force_law_of(m_ctx, body) == nullptr;
-    }
-
-    // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
-    [[nodiscard]] bool meets_nothing(const BodyRecord& record) const
-    {
-        for (int edge = record.first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = m_state.contacts[edge >> 1];
-            if (contact.manifold.count > 0 ||
-                (contact.flags & (contact_flag::trigger | contact_flag::plain)) != contact_flag::plain)
-                return false;
-        }
-        return true;
     }
 
     // Kinematic bodies are copied into every unit they meet: their path is a function of time alone, and units then share nothing that is

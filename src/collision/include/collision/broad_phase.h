@@ -141,22 +141,8 @@ public:
         return true;
     }
 
-    /// Of the blocks of a layer's trees, one tree after the other, a bit for each item that is chosen.
-    template <class Choose>
-    void choose_items(Layer layer, const Choose& choose, std::vector<std::uint8_t>& chosen) const
-    {
-        chosen.clear();
-        for (const BoxTree& tree : m_forests[static_cast<std::size_t>(layer)].trees)
-        {
-            for (int leaf = 0; leaf < tree.leaf_count(); ++leaf)
-            {
-                if (leaf % BoxTree::arity == 0)
-                    chosen.push_back(0);
-                if (tree.item(leaf) >= 0 && choose(tree.item(leaf)))
-                    chosen.back() |= static_cast<std::uint8_t>(1u << (leaf % BoxTree::arity));
-            }
-        }
-    }
+    /// Of the blocks of a layer's trees, one tree after the other, a bit for each item but those that are left out.
+    void choose_all_but(Layer layer, std::span<const std::int32_t> left_out, std::vector<std::uint8_t>& chosen) const;
 
     /// Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those of a layer: of its trees what was chosen, and what is in
     /// none of them yet.

@@ -60,7 +60,7 @@ struct Unit
     std::int32_t first_joint_bin = 0;
     std::int32_t joint_bin_count = 0; ///< two to a color, of one cell each
     std::int32_t slices = 1;          ///< of each sub-step
-    bool alone = false;               ///< one body with nothing near: it falls
+    bool alone = false;               ///< bodies with nothing near, each by itself: they fall
     bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
     bool heap = false;                ///< figures that are held softly, of several islands
     bool traced = false;              ///< paths of some of its bodies are recorded
@@ -113,10 +113,12 @@ struct ContactPlace
     std::int32_t contact;
 };
 
-/// What a unit is made of.
+/// What must be solved together, counted.
 struct UnitTally
 {
+    std::int32_t first = none; ///< place in awake_bodies of its first body
     std::int32_t bodies = 0;
+    std::int32_t unloaded = 0; ///< that no contact loads; they fly unless they are a crowd
     std::int32_t fliers = 0;
     std::int32_t joints = 0;
     std::int32_t contacts = 0;
@@ -124,6 +126,7 @@ struct UnitTally
     float swing = 0;          ///< rad/s, of the joints' arms
     std::int32_t damped = 0;  ///< of the joints, those that brake or damp what they hold
     bool hangs = false;       ///< a joint holds to what does not move
+    std::int32_t slices = 1;  ///< of each sub-step
 };
 
 inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
@@ -304,6 +307,7 @@ struct Scratch
     std::vector<ContactNews> news;
     std::vector<std::vector<ContactNews>> news_of_task;
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
+    std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
     bool has_kinematic = false;              ///< a kinematic body is awake
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
