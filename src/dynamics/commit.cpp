@@ -238,6 +238,7 @@ void commit(StepContext& ctx)
     scratch.unsound.clear();
     if (scratch.has_kinematic)
         commit_kinematic_bodies(ctx);
+    forget_surroundings(ctx);
     std::atomic<bool> any_unsound{false};
     for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), bodies_per_task,
                       [&](std::size_t i)

@@ -12,6 +12,7 @@
 #include "geometry/surface.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace carom::internal {
 
@@ -75,19 +76,47 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
     return part;
 }
 
-// Most bodies go where nothing rests.
+// Most bodies go where nothing rests, and so do their neighbours: of eight the first who asks looks for all of them.
+bool neighbours_meet_nothing(const StepContext& ctx, int body, const FloatBox& box)
+{
+    const BroadPhase& broad_phase = ctx.state.broad_phase;
+    const int shape = ctx.state.bodies[body].first_shape;
+    const int block = shape != none && broad_phase.has(shape) ? broad_phase.block_of(shape) : -1;
+    if (block < 0)
+        return false;
+    const FloatBox bounds = broad_phase.block_bounds(block);
+    const FloatBox around = grow(bounds, 0.1f * (bounds.ux - bounds.lx + bounds.uy - bounds.ly));
+    if (!contains(around, box))
+        return false;
+    const std::atomic_ref surroundings(ctx.scratch.surroundings[static_cast<std::size_t>(block)]);
+    Surroundings known = surroundings.load(std::memory_order_relaxed);
+    if (known == Surroundings::Unknown)
+    { // others may look at the same time, and find the same
+        const bool clear = broad_phase.query(Layer::Resting, around, [](int) { return false; });
+        known = clear ? Surroundings::Clear : Surroundings::Taken;
+        surroundings.store(known, std::memory_order_relaxed);
+    }
+    return known == Surroundings::Clear;
+}
+
 bool may_meet_walls(const StepContext& ctx, int body, double dx, double dy)
 {
     const SceneState& state = ctx.state;
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     const FloatBox box = box_around(sim.center, static_cast<double>(sim.extent), dx, dy);
-    const bool free = state.broad_phase.query(Layer::Resting, box, [](int) { return false; });
+    const bool free =
+        neighbours_meet_nothing(ctx, body, box) || state.broad_phase.query(Layer::Resting, box, [](int) { return false; });
     const std::vector<std::int32_t>& half_spaces = state.broad_phase.unbounded();
     return !free || std::any_of(half_spaces.begin(), half_spaces.end(),
                                 [&](std::int32_t half_space) { return reaches_half_space(state, half_space, box, 0); });
 }
 
 } // namespace
+
+void forget_surroundings(StepContext& ctx)
+{
+    ctx.scratch.surroundings.assign(static_cast<std::size_t>(ctx.state.broad_phase.block_count()), Surroundings::Unknown);
+}
 
 double free_part_of_path(const StepContext& ctx, int body, double dx, double dy)
 {

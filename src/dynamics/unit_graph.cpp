@@ -681,8 +681,7 @@ public:
             }
         }
         for_each_run(
-            n, [&](std::size_t i) { return scratch.unit_of[i]; },
-            [&](std::size_t first, std::size_t last, std::int32_t unit)
+            n, [&](std::size_t i) { return scratch.unit_of[i]; }, [&](std::size_t first, std::size_t last, std::int32_t unit)
             { tally(unit).bodies += static_cast<std::int32_t>(last - first); });
     }
 
@@ -770,8 +769,7 @@ private:
                       const UnitOf& unit_of, const SetRange& set_range)
     {
         starts.assign(scratch.units.size() + 1, 0);
-        for_each_run(items.size(), unit_of,
-                     [&](std::size_t first, std::size_t last, std::int32_t unit)
+        for_each_run(items.size(), unit_of, [&](std::size_t first, std::size_t last, std::int32_t unit)
                      { starts[static_cast<std::size_t>(unit) + 1] += static_cast<std::int32_t>(last - first); });
         for (std::size_t u = 0; u < scratch.units.size(); ++u)
         {

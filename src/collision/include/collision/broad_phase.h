@@ -161,8 +161,16 @@ public:
         for_each_recent(tree, k, lanes, forest, visit);
     }
 
-    /// Where update_moving has fitted all boxes: blocks of eight neighbours of the moving layer.
+    /// Blocks of eight neighbours of the moving layer: all of it where update_moving has fitted all boxes.
     [[nodiscard]] int block_count() const { return m_forests[0].trees.empty() ? 0 : m_forests[0].trees[0].block_count(); }
+
+    /// Which of these holds an item; -1: none.
+    [[nodiscard]] int block_of(int item) const
+    {
+        const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
+        return moves(item) && leaf.tree == 0 ? leaf.index / BoxTree::arity : -1;
+    }
+    [[nodiscard]] FloatBox block_bounds(int block) const { return m_forests[0].trees[0].block_bounds(block); }
 
     /// Notes what has changed in a block; before anything looks for new overlaps.
     void note_changes(int block);

@@ -289,6 +289,14 @@ struct MovedBoxes
     std::vector<std::int32_t> unsound; ///< bodies that would leave all numbers
 };
 
+/// What rests around eight neighbours and their ways, see stop_at_wall.cpp.
+enum class Surroundings : std::uint8_t
+{
+    Unknown,
+    Clear,
+    Taken
+};
+
 struct Scratch
 {
     std::vector<float> motion;         ///< how far any point of an awake body may move in this step, by place in awake_bodies
@@ -362,8 +370,9 @@ struct Scratch
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
     std::vector<FlierSeed> flier_seeds;
-    std::vector<std::int32_t> tired; ///< bodies that have been quiet for long enough, by island
-    std::vector<std::uint8_t> seen;  ///< of these, by body slot; all 0 between steps
+    std::vector<Surroundings> surroundings; ///< of each block of the moving layer
+    std::vector<std::int32_t> tired;        ///< bodies that have been quiet for long enough, by island
+    std::vector<std::uint8_t> seen;         ///< of these, by body slot; all 0 between steps
     std::vector<std::int32_t> order;
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
