@@ -66,7 +66,7 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     for_each_leaf(state, body,
                   [&](int shape)
                   {
-                      const FloatBox tight = round_outwards(leaf_bounds(leaf_view(state, shape), sim.pose()));
+                      const FloatBox tight = outer_bounds(leaf_view(state, shape), sim.pose());
                       const BoxPath path{tight, shift, any_way};
                       state.broad_phase.set_path(shape, path);
                       const FloatBox needed = grow(swept(path), 0.25f * margin);

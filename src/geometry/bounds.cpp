@@ -9,23 +9,40 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Collects the extremes of points in coordinates relative to the pose's position.
-struct Extremes
+// Collects the extremes of points in coordinates relative to the pose's position, of two at once: x and y of one, then of the other.
+class Extremes
 {
-    float lx = infinity;
-    float ly = infinity;
-    float ux = -infinity;
-    float uy = -infinity;
-
-    void add(Vec2 p, float r)
+public:
+    void add(F4 points, float r) { add(points, F4{r, r, r, r}); }
+    void add(F4 points, F4 r)
     {
-        lx = std::min(lx, p.x - r);
-        ly = std::min(ly, p.y - r);
-        ux = std::max(ux, p.x + r);
-        uy = std::max(uy, p.y + r);
+        m_low = least(m_low, points - r);
+        m_high = greatest(m_high, points + r);
     }
-    [[nodiscard]] Box at(Position p) const { return {{p.x + lx, p.y + ly}, {p.x + ux, p.y + uy}}; }
+    void add(Vec2 p, float r) { add(F4{p.x, p.y, p.x, p.y}, r); }
+    [[nodiscard]] Box at(Position p) const
+    {
+        const F4 low = least(m_low, swap_halves(m_low));
+        const F4 high = greatest(m_high, swap_halves(m_high));
+        return {{p.x + low[0], p.y + low[1]}, {p.x + high[0], p.y + high[1]}};
+    }
+
+private:
+    F4 m_low = {infinity, infinity, infinity, infinity};
+    F4 m_high = -m_low;
 };
+
+F4 rotate_both(Rotation q, F4 points)
+{
+    return F4{q.c, q.c, q.c, q.c} * points + F4{-q.s, q.s, -q.s, q.s} * __builtin_shufflevector(points, points, 1, 0, 3, 2);
+}
+
+// An odd one comes with the one before it once more.
+void add_polygon(Extremes& e, const LeafView& v, Rotation q)
+{
+    for (int i = 0; i < v.leaf->count; i += 2)
+        e.add(rotate_both(q, load4(&v.points[std::min(i, v.leaf->count - 2)].x)), v.leaf->r0);
+}
 
 // The four compass points of the circle that lie on the arc, and its ends.
 void add_arc(Extremes& e, const Leaf& leaf, Rotation q)
@@ -53,18 +70,20 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
     {
     case LeafType::HalfSpace: return {{-1e30, -1e30}, {1e30, 1e30}};
     case LeafType::Circle: e.add(rotate(q, leaf.p0), leaf.r0); break;
-    case LeafType::Polygon:
-        for (int i = 0; i < leaf.count; ++i)
-            e.add(rotate(q, v.points[i]), leaf.r0);
-        break;
+    case LeafType::Polygon: add_polygon(e, v, q); break;
     case LeafType::Capsule:
     case LeafType::Segment:
-        e.add(rotate(q, leaf.p0), leaf.r0);
-        e.add(rotate(q, leaf.p1), leaf.r1);
+        e.add(rotate_both(q, F4{leaf.p0.x, leaf.p0.y, leaf.p1.x, leaf.p1.y}), F4{leaf.r0, leaf.r0, leaf.r1, leaf.r1});
         break;
     case LeafType::Arc: add_arc(e, leaf, q); break;
     }
     return e.at(pose.position);
+}
+
+FloatBox outer_bounds(const LeafView& view, const Pose& pose)
+{
+    const Box b = leaf_bounds(view, pose);
+    return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y);
 }
 
 float leaf_extent(const LeafView& v, Vec2 from)

@@ -39,10 +39,10 @@ struct ItemTraits
 /// The box around all that it covers.
 [[nodiscard]] inline FloatBox swept(const BoxPath& p)
 {
-    FloatBox s = p.box;
-    (p.shift.x < 0 ? s.lx : s.ux) += p.shift.x;
-    (p.shift.y < 0 ? s.ly : s.uy) += p.shift.y;
-    return grow(s, p.any_way);
+    const F4 shift = {p.shift.x, p.shift.y, p.shift.x, p.shift.y};
+    const F4 low = least(shift, F4{});
+    const F4 high = greatest(shift, F4{});
+    return grow(box_of(load4(&p.box.lx) + __builtin_shufflevector(low, high, 0, 1, 6, 7)), p.any_way);
 }
 
 /// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.

@@ -22,6 +22,11 @@ CAROM_INLINE F4 load4(const float* p)
 
 CAROM_INLINE void store4(float* p, F4 v) { std::memcpy(p, &v, sizeof v); }
 
+CAROM_INLINE F4 least(F4 a, F4 b) { return a < b ? a : b; }
+CAROM_INLINE F4 greatest(F4 a, F4 b) { return a > b ? a : b; }
+CAROM_INLINE F4 magnitude(F4 a) { return greatest(a, -a); }
+CAROM_INLINE F4 swap_halves(F4 a) { return __builtin_shufflevector(a, a, 2, 3, 0, 1); }
+
 /// A bit for each lane of a comparison that holds.
 CAROM_INLINE unsigned bits(I4 mask)
 {

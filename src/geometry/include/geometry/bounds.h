@@ -5,8 +5,6 @@
 #include "core/float4.h"
 #include "geometry/leaf.h"
 
-#include <cmath>
-
 namespace carom::internal {
 
 struct FloatBox
@@ -23,30 +21,39 @@ struct FloatBox
     const F4 y = load4(&b.lx);
     return bits(__builtin_shufflevector(x, y, 0, 1, 4, 5) <= __builtin_shufflevector(y, x, 2, 3, 6, 7)) == 15;
 }
-[[nodiscard]] constexpr bool contains(const FloatBox& outer, const FloatBox& inner)
+[[nodiscard]] inline bool contains(const FloatBox& outer, const FloatBox& inner)
 {
-    return (outer.lx <= inner.lx) & (outer.ly <= inner.ly) & (inner.ux <= outer.ux) & (inner.uy <= outer.uy);
+    const F4 x = load4(&outer.lx);
+    const F4 y = load4(&inner.lx);
+    return bits(__builtin_shufflevector(x, y, 0, 1, 6, 7) <= __builtin_shufflevector(y, x, 0, 1, 6, 7)) == 15;
 }
 [[nodiscard]] constexpr FloatBox unite(const FloatBox& a, const FloatBox& b)
 {
     return {a.lx < b.lx ? a.lx : b.lx, a.ly < b.ly ? a.ly : b.ly, a.ux > b.ux ? a.ux : b.ux, a.uy > b.uy ? a.uy : b.uy};
 }
 
+[[nodiscard]] inline FloatBox box_of(F4 bounds)
+{
+    FloatBox box;
+    store4(&box.lx, bounds);
+    return box;
+}
+
 /// By the spacing of floats there, whether the conversion rounded or not: no branches.
 [[nodiscard]] inline FloatBox round_outwards(double lx, double ly, double ux, double uy)
 {
-    const auto down = [](double v)
-    {
-        const auto f = static_cast<float>(v);
-        return f - 0x1p-23f * std::fabs(f);
-    };
-    return {down(lx), down(ly), -down(-ux), -down(-uy)};
+    constexpr float spacing = 0x1p-23f;
+    const F4 b = {static_cast<float>(lx), static_cast<float>(ly), static_cast<float>(ux), static_cast<float>(uy)};
+    return box_of(b + F4{-spacing, -spacing, spacing, spacing} * magnitude(b));
 }
 [[nodiscard]] inline FloatBox round_outwards(const Box& b) { return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y); }
-[[nodiscard]] constexpr FloatBox grow(const FloatBox& b, float m) { return {b.lx - m, b.ly - m, b.ux + m, b.uy + m}; }
+[[nodiscard]] inline FloatBox grow(const FloatBox& b, float m) { return box_of(load4(&b.lx) + F4{-m, -m, m, m}); }
 
 /// Tight box of a leaf whose body's frame has this pose. A half-space gives an infinite one.
 [[nodiscard]] Box leaf_bounds(const LeafView& view, const Pose& pose);
+
+/// The same in floats, rounded outwards.
+[[nodiscard]] FloatBox outer_bounds(const LeafView& view, const Pose& pose);
 
 /// Largest distance of any point of the leaf from a point of the body's frame.
 [[nodiscard]] float leaf_extent(const LeafView& view, Vec2 from);
