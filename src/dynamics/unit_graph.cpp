@@ -210,9 +210,9 @@ public:
     // Writes to its own contacts, and grounds bodies, which others may do as well.
     void gather_some(std::size_t first, std::size_t last, SomeLinks& some) const
     {
-        std::vector<Link>& links = some.links;
-        links.clear();
         some.touching = 0;
+        some.links.resize(last - first);
+        Link* next = some.links.data();
         for (std::size_t i = first; i < last; ++i)
         {
             const std::int32_t index = state.awake_contacts[i];
@@ -234,7 +234,7 @@ public:
                 contact.color = none;
                 continue;
             }
-            Link& l = links.emplace_back(); // filled where it stands: a copy would wait for its bytes
+            Link& l = *next++; // filled where it stands: a copy would wait for its bytes
             l.contact = index;
             l.a = a;
             l.b = b;
@@ -249,9 +249,10 @@ public:
             }
             l.plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
             l.round = (contact.flags & contact_flag::round) != 0;
-            l.points = static_cast<std::uint8_t>(contact.manifold.count);
-            l.color = static_cast<std::int8_t>(contact.color);
+            l.points = static_cast<std::int16_t>(contact.manifold.count);
+            l.color = static_cast<std::int16_t>(contact.color);
         }
+        some.links.resize(static_cast<std::size_t>(next - some.links.data()));
     }
 
     void list_fliers()

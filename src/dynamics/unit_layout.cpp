@@ -28,6 +28,7 @@ constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
 constexpr int most_cells = plane_cells;
 constexpr int cells_to_a_thread = 4;
+constexpr int cell_bits = 40; // behind the point
 constexpr int links_worth_cells = worth_all_threads * lane_count;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
@@ -301,14 +302,15 @@ private:
         if (!is_dynamic(unit, i))
             return;
         c = state_constants(unit_ctx, body);
-        m_state.sims[as_index(body)].crowded = !unit.precise;
+        if (BodySim& sim = m_state.sims[as_index(body)]; sim.crowded == unit.precise)
+            sim.crowded = !unit.precise;
         if (unit.alone)
             s.flags |= body_flag::alone;
     }
 
     [[nodiscard]] static bool is_dynamic(const Unit& unit, std::int32_t s)
     {
-        return s > unit.first_state && s <= unit.first_state + unit.dynamic_count;
+        return static_cast<std::uint32_t>(s - unit.first_state - 1) < static_cast<std::uint32_t>(unit.dynamic_count);
     }
 
     void add_flier(const StepContext& unit_ctx, std::int32_t i)
@@ -376,15 +378,19 @@ private:
         const bool uniform = wide && is_uniform(unit);
         const std::span<Link> links = links_of(unit);
         for (Link& l : links)
-            l.color = keeps_color(unit, l) ? l.color : none;
+        {
+            if (!keeps_color(unit, l))
+                l.color = none;
+        }
+        m_cells_to_a_state = (static_cast<std::uint64_t>(unit.cells) << cell_bits) / static_cast<std::uint64_t>(unit.dynamic_count);
         for (Link& l : links)
         {
-            const int color = l.color != none ? l.color : free_color(unit, l.a, l.b);
-            l.color = static_cast<std::int8_t>(color);
-            l.in_lane = wide && color != color_limit && l.plain && (uniform || give_evenly(l));
-            l.cell = cell_of(unit, l);
-            ++place_for(unit, l);
-            if (color == color_limit)
+            if (l.color == none)
+                l.color = static_cast<std::int16_t>(free_color(unit, l.a, l.b));
+            l.in_lane = wide && l.color != color_limit && l.plain && (uniform || give_evenly(l));
+            l.bin = bin_of(unit, l);
+            ++place_for(l);
+            if (l.color == color_limit)
                 m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
         }
         std::uint64_t colors = 0;
@@ -414,20 +420,23 @@ private:
     }
 
     // Where in the unit: states stand in the order of the plane.
-    [[nodiscard]] static std::uint8_t cell_of(const Unit& unit, const Link& l)
+    [[nodiscard]] int cell_of(const Unit& unit, const Link& l) const
     {
         if (unit.cells == 1)
             return 0;
         const std::int32_t place = (is_dynamic(unit, l.a) ? l.a : l.b) - unit.first_state - 1;
-        return static_cast<std::uint8_t>(std::int64_t{place} * unit.cells / unit.dynamic_count);
+        return static_cast<int>(static_cast<std::uint64_t>(place) * m_cells_to_a_state >> cell_bits);
     }
 
-    // Of how many go there; then of where the next one goes. Lanes by bin, that is color and number of points, and by cell; rows by color.
-    [[nodiscard]] std::int32_t& place_for(const Unit& unit, const Link& l)
+    // Lanes by color and number of points, and by cell; rows by color.
+    [[nodiscard]] std::int16_t bin_of(const Unit& unit, const Link& l) const
     {
-        return l.in_lane ? m_bins[(2 * as_index(l.color) + (l.points == 2 ? 0 : 1)) * as_index(unit.cells) + l.cell]
-                         : m_row_bins[l.color];
+        return l.in_lane ? static_cast<std::int16_t>((2 * l.color + (l.points == 2 ? 0 : 1)) * unit.cells + cell_of(unit, l))
+                         : l.color;
     }
+
+    // Of how many go there; then of where the next one goes.
+    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.in_lane ? m_bins[l.bin] : m_row_bins[l.bin]; }
 
     // Those that what moves of the two has already.
     [[nodiscard]] std::uint64_t colors_at(const Unit& unit, std::int32_t a, std::int32_t b) const
@@ -501,7 +510,7 @@ private:
         for (std::int32_t i = unit.first_link; i < unit.first_link + unit.link_count; ++i)
         {
             const Link& l = m_scratch.solved_links[as_index(i)];
-            const std::int32_t place = place_for(unit, l)++;
+            const std::int32_t place = place_for(l)++;
             (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(place)] = i;
             if (l.in_lane && l.round && l.points == 1)
                 add_core(unit, l, place);
@@ -631,6 +640,7 @@ private:
     SceneState& m_state;
     Scratch& m_scratch;
     std::int32_t m_groups = 0; ///< of wide joints
+    std::uint64_t m_cells_to_a_state = 0; ///< of a unit, times 2^cell_bits
     std::int32_t m_bins[2 * color_limit * most_cells] = {};
     std::int32_t m_row_bins[color_limit + 1] = {};
 };
