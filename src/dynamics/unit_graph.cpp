@@ -446,6 +446,7 @@ public:
     // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So do bodies that are alone, for they are many.
     void form_units()
     {
+        find_alone();
         std::vector<std::int32_t>& unit_of_group = scratch.order;
         unit_of_group.clear();
         scratch.units.clear();
@@ -454,7 +455,7 @@ public:
         for (const UnitTally& t : scratch.tallies)
         {
             const bool heap = is_heap(t);
-            const bool alone = t.bodies == 1 && t.fliers == 1 && is_alone(t.first);
+            const bool alone = t.bodies == 1 && t.fliers == 1 && scratch.is_alone[static_cast<std::size_t>(t.first)] != 0;
             Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
             if (batch == nullptr || batch->unit == none || batch->bodies >= batch_bodies)
             {
@@ -481,6 +482,19 @@ public:
         std::int32_t unit = none;
         int bodies = 0;
     };
+
+    // Of what flies.
+    void find_alone()
+    {
+        scratch.is_alone.resize(state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              const bool alone = tally_of(place).bodies == 1 && is_alone(place);
+                              scratch.is_alone[static_cast<std::size_t>(place)] = alone ? 1 : 0;
+                          });
+    }
 
     [[nodiscard]] bool is_alone(std::int32_t place) const
     {
@@ -583,29 +597,39 @@ public:
     void find_deflected()
     {
         scratch.is_deflected.assign(state.awake_bodies.size(), 0);
-        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
-                          [&](std::size_t i)
-                          {
-                              const auto place = static_cast<std::size_t>(scratch.flying[i]);
-                              scratch.is_deflected[place] = may_be_deflected(place) ? 1 : 0;
-                          });
+        const std::span<SomeReaches> parts = find_in_parts(
+            ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
+            [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
         scratch.reaches.clear();
         std::vector<std::int32_t>& shapes = scratch.order;
         shapes.clear();
-        for (const std::int32_t place : scratch.flying)
+        for (const SomeReaches& some : parts)
         {
-            if (scratch.is_deflected[static_cast<std::size_t>(place)] == 0)
-                continue;
-            const int body = body_at(place);
-            const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-            const double r =
-                static_cast<double>(scratch.motion[static_cast<std::size_t>(place)]) + static_cast<double>(sim.extent);
-            const Position c = sim.center;
-            scratch.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), place});
-            for_each_leaf(state, body, [&](int shape) { shapes.push_back(shape); });
+            scratch.reaches.insert(scratch.reaches.end(), some.reaches.begin(), some.reaches.end());
+            shapes.insert(shapes.end(), some.shapes.begin(), some.shapes.end());
         }
         if (!shapes.empty())
             state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
+    }
+
+    void find_reaches(std::size_t first, std::size_t last, SomeReaches& some) const
+    {
+        some.reaches.clear();
+        some.shapes.clear();
+        for (std::size_t i = first; i < last; ++i)
+        {
+            const std::int32_t item = scratch.flying[i];
+            const auto place = static_cast<std::size_t>(item);
+            if (!may_be_deflected(place))
+                continue;
+            scratch.is_deflected[place] = 1;
+            const int body = body_at(item);
+            const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+            const double r = static_cast<double>(scratch.motion[place]) + static_cast<double>(sim.extent);
+            const Position c = sim.center;
+            some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
+            for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });
+        }
     }
 
     [[nodiscard]] bool may_be_deflected(std::size_t place) const

@@ -106,6 +106,13 @@ struct SomeLinks
     int touching = 0;
 };
 
+/// Where what may be deflected may come, and its leaves.
+struct SomeReaches
+{
+    std::vector<TreeLeaf> reaches;
+    std::vector<std::int32_t> shapes;
+};
+
 /// Where a contact should stand among the awake ones.
 struct ContactPlace
 {
@@ -324,6 +331,8 @@ struct Scratch
     std::vector<Link> links;
     std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
     std::vector<TreeLeaf> reaches;          ///< of these
+    std::vector<SomeReaches> reaches_of_task;
+    std::vector<std::uint8_t> is_alone; ///< of what flies, by place in awake_bodies: nothing is near
     BoxTree reach_tree;
     std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
