@@ -125,7 +125,7 @@ FloatBox fat_box(const SceneData& scene, int shape)
     const SceneState& state = scene.state;
     const ShapeRecord& record = state.shapes[shape];
     const BodySim& sim = state.sims[static_cast<std::size_t>(record.body)];
-    const FloatBox tight = outer_bounds(leaf_view(state, shape), sim.pose());
+    const FloatBox tight = box_of(outer_bounds(leaf_view(state, shape), sim.pose()));
     return state.bodies[record.body].type == BodyType::Static ? tight : grow(tight, scene.tolerances.box_margin);
 }
 

@@ -28,16 +28,18 @@ void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)
 // How far a point may come by turning, by the bend of its parabola, and any way that a force law may push.
 float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shift)
 {
-    const float gained = ctx.dt * sim.inverse_inertia * std::fabs(sim.torque) + greatest_spin_of_law(ctx, body);
+    const bool has_laws = ctx.scene.law_count > 0;
+    const float gained = ctx.dt * sim.inverse_inertia * std::fabs(sim.torque) + (has_laws ? greatest_spin_of_law(ctx, body) : 0);
     const float angle = (std::fabs(sim.angular_velocity) + gained) * ctx.dt;
     const float bend = 0.5f * length(shift - ctx.dt * sim.velocity);
-    return sim.extent * (angle < 2 ? angle : 2.0f) + bend + greatest_shift_of_law(ctx, body);
+    return sim.extent * (angle < 2 ? angle : 2.0f) + bend + (has_laws ? greatest_shift_of_law(ctx, body) : 0);
 }
 
 // A fat box that held a fast path is far too wide for a body that has slowed down.
-bool too_wide(const FloatBox& fat, const FloatBox& needed, float margin)
+bool too_wide(F4 fat, F4 needed, float margin)
 {
-    return (fat.ux - fat.lx) > (needed.ux - needed.lx) + 8 * margin || (fat.uy - fat.ly) > (needed.uy - needed.ly) + 8 * margin;
+    const auto size = [](F4 box) { return swap_halves(box) - box; };
+    return (bits(size(fat) > size(needed) + 8 * margin) & 3) != 0;
 }
 
 // Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
@@ -63,19 +65,19 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
         return;
     }
     const float margin = ctx.scene.tolerances.box_margin;
+    const Pose pose = sim.pose();
     for_each_leaf(state, body,
                   [&](int shape)
                   {
-                      const FloatBox tight = outer_bounds(leaf_view(state, shape), sim.pose());
-                      const BoxPath path{tight, shift, any_way};
-                      state.broad_phase.set_path(shape, path);
-                      const FloatBox needed = grow(swept(path), 0.25f * margin);
-                      const FloatBox& fat = state.broad_phase.box(shape);
+                      const F4 tight = outer_bounds(leaf_view(state, shape), pose);
+                      state.broad_phase.set_path(shape, {box_of(tight), shift, any_way});
+                      const F4 needed = grown(swept(tight, shift, any_way), 0.25f * margin);
+                      const F4 fat = load4(&state.broad_phase.box(shape).lx);
                       if (contains(fat, needed) && !too_wide(fat, needed, margin))
                           return;
                       moved.items.push_back(shape);
                       // What moves farther than its margin gets a new box in the next step anyhow.
-                      moved.boxes.push_back(grow(needed, motion < margin ? margin : 0));
+                      moved.boxes.push_back(box_of(grown(needed, motion < margin ? margin : 0)));
                   });
 }
 

@@ -80,10 +80,10 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
     return e.at(pose.position);
 }
 
-FloatBox outer_bounds(const LeafView& view, const Pose& pose)
+F4 outer_bounds(const LeafView& view, const Pose& pose)
 {
     const Box b = leaf_bounds(view, pose);
-    return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y);
+    return rounded_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y);
 }
 
 float leaf_extent(const LeafView& v, Vec2 from)

@@ -135,7 +135,7 @@ private:
     void draw_leaf(DrawRole role, const LeafView& v, const Pose& pose) const
     {
         const Leaf& leaf = *v.leaf;
-        if (leaf.type != LeafType::HalfSpace && !overlaps(outer_bounds(v, pose), m_view))
+        if (leaf.type != LeafType::HalfSpace && !overlaps(box_of(outer_bounds(v, pose)), m_view))
             return;
         const Position p0 = transform(pose, leaf.p0);
         switch (leaf.type)

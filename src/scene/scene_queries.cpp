@@ -109,7 +109,7 @@ std::vector<ShapeId> sorted_unique(std::vector<ShapeId> ids)
 std::vector<ShapeId> overlap_leaf(const SceneState& state, const LeafView& leaf, const Pose& pose, const QueryFilter& filter)
 {
     std::vector<ShapeId> ids;
-    const FloatBox box = outer_bounds(leaf, pose);
+    const FloatBox box = box_of(outer_bounds(leaf, pose));
     visit_box(state, filter, box,
               [&](int shape)
               {

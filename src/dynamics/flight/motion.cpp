@@ -336,7 +336,7 @@ bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
     for_each_leaf(span.state, f.body,
                   [&](int own)
                   {
-                      const FloatBox soon = grow(outer_bounds(leaf_view(span.state, own), pose), ahead);
+                      const FloatBox soon = box_of(grown(outer_bounds(leaf_view(span.state, own), pose), ahead));
                       const FloatBox foreseen =
                           grow(swept(span.state.broad_phase.path(own)), span.ctx.scene.tolerances.box_margin);
                       leaves |= !contains(foreseen, soon);

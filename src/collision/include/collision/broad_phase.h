@@ -36,13 +36,16 @@ struct ItemTraits
     bool unbounded = false; ///< a half-space
 };
 
+[[nodiscard]] inline F4 swept(F4 box, Vec2 way, float any_way)
+{
+    const F4 shift = {way.x, way.y, way.x, way.y};
+    return grown(box + __builtin_shufflevector(least(shift, F4{}), greatest(shift, F4{}), 0, 1, 6, 7), any_way);
+}
+
 /// The box around all that it covers.
 [[nodiscard]] inline FloatBox swept(const BoxPath& p)
 {
-    const F4 shift = {p.shift.x, p.shift.y, p.shift.x, p.shift.y};
-    const F4 low = least(shift, F4{});
-    const F4 high = greatest(shift, F4{});
-    return grow(box_of(load4(&p.box.lx) + __builtin_shufflevector(low, high, 0, 1, 6, 7)), p.any_way);
+    return box_of(swept(load4(&p.box.lx), p.shift, p.any_way));
 }
 
 /// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.

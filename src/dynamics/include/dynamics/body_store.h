@@ -10,15 +10,13 @@ namespace carom::internal {
 template <class Visit>
 void for_each_leaf(const SceneState& state, int body, Visit&& visit)
 {
-    for (int shape = state.bodies[body].first_shape; shape != none; shape = state.shapes[shape].next_shape)
+    for (int shape = state.bodies[body].first_shape; shape != none;)
     {
-        if (state.shapes[shape].has_leaf)
-        {
+        const ShapeRecord& record = state.shapes[shape];
+        const int next = record.next_piece != none ? record.next_piece : state.shapes[record.owner].next_shape;
+        if (record.has_leaf)
             visit(shape);
-            continue;
-        }
-        for (int piece = state.shapes[shape].next_piece; piece != none; piece = state.shapes[piece].next_piece)
-            visit(piece);
+        shape = next;
     }
 }
 

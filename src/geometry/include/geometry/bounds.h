@@ -21,11 +21,13 @@ struct FloatBox
     const F4 y = load4(&b.lx);
     return bits(__builtin_shufflevector(x, y, 0, 1, 4, 5) <= __builtin_shufflevector(y, x, 2, 3, 6, 7)) == 15;
 }
+[[nodiscard]] inline bool contains(F4 outer, F4 inner)
+{
+    return bits(__builtin_shufflevector(outer, inner, 0, 1, 6, 7) <= __builtin_shufflevector(inner, outer, 0, 1, 6, 7)) == 15;
+}
 [[nodiscard]] inline bool contains(const FloatBox& outer, const FloatBox& inner)
 {
-    const F4 x = load4(&outer.lx);
-    const F4 y = load4(&inner.lx);
-    return bits(__builtin_shufflevector(x, y, 0, 1, 6, 7) <= __builtin_shufflevector(y, x, 0, 1, 6, 7)) == 15;
+    return contains(load4(&outer.lx), load4(&inner.lx));
 }
 [[nodiscard]] constexpr FloatBox unite(const FloatBox& a, const FloatBox& b)
 {
@@ -40,20 +42,25 @@ struct FloatBox
 }
 
 /// By the spacing of floats there, whether the conversion rounded or not: no branches.
-[[nodiscard]] inline FloatBox round_outwards(double lx, double ly, double ux, double uy)
+[[nodiscard]] inline F4 rounded_outwards(double lx, double ly, double ux, double uy)
 {
     constexpr float spacing = 0x1p-23f;
     const F4 b = {static_cast<float>(lx), static_cast<float>(ly), static_cast<float>(ux), static_cast<float>(uy)};
-    return box_of(b + F4{-spacing, -spacing, spacing, spacing} * magnitude(b));
+    return b + F4{-spacing, -spacing, spacing, spacing} * magnitude(b);
+}
+[[nodiscard]] inline FloatBox round_outwards(double lx, double ly, double ux, double uy)
+{
+    return box_of(rounded_outwards(lx, ly, ux, uy));
 }
 [[nodiscard]] inline FloatBox round_outwards(const Box& b) { return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y); }
-[[nodiscard]] inline FloatBox grow(const FloatBox& b, float m) { return box_of(load4(&b.lx) + F4{-m, -m, m, m}); }
+[[nodiscard]] inline F4 grown(F4 box, float m) { return box + F4{-m, -m, m, m}; }
+[[nodiscard]] inline FloatBox grow(const FloatBox& b, float m) { return box_of(grown(load4(&b.lx), m)); }
 
 /// Tight box of a leaf whose body's frame has this pose. A half-space gives an infinite one.
 [[nodiscard]] Box leaf_bounds(const LeafView& view, const Pose& pose);
 
-/// The same in floats, rounded outwards.
-[[nodiscard]] FloatBox outer_bounds(const LeafView& view, const Pose& pose);
+/// The same in floats, rounded outwards: lx, ly, ux, uy.
+[[nodiscard]] F4 outer_bounds(const LeafView& view, const Pose& pose);
 
 /// Largest distance of any point of the leaf from a point of the body's frame.
 [[nodiscard]] float leaf_extent(const LeafView& view, Vec2 from);
