@@ -49,10 +49,6 @@ std::string to_text(double value)
 std::string to_text(Vec2 value) { return "(" + to_text(value.x) + ", " + to_text(value.y) + ")"; }
 std::string to_text(Position value) { return "(" + to_text(value.x) + ", " + to_text(value.y) + ")"; }
 
-// Comparisons that stay true under every floating-point flag: a NaN compares false with everything.
-bool is_finite(float value) { return value >= -3.402823466e38f && value <= 3.402823466e38f; }
-bool is_finite(double value) { return value >= -1.7976931348623157e308 && value <= 1.7976931348623157e308; }
-
 bool Checker::positive(const char* field, float value) const
 {
     return (is_finite(value) && value > 0) || refuse(function, field, to_text(value), "must be finite and > 0");

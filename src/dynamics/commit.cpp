@@ -130,9 +130,9 @@ void commit_state(const StepContext& ctx, std::int32_t index)
         s.flags |= body_flag::unsound;
         return;
     }
-    if (crowded || may_have_passed(ctx, s, body))
+    const double part = crowded || may_have_passed(ctx, s, body) ? free_part_of_path(ctx, body, x, y) : 1;
+    if (part < 1)
     {
-        const double part = free_part_of_path(ctx, body, x, y);
         s.velocity *= without_work(ctx, s, index, (1 - part) * x, (1 - part) * y);
         x *= part;
         y *= part;
