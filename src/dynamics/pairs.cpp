@@ -11,6 +11,7 @@
 #include "dynamics/wide_kernels.h"
 
 #include <algorithm>
+#include <bit>
 #include <span>
 
 namespace carom::internal {
@@ -94,6 +95,27 @@ void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
                     });
 }
 
+// Of a block of the moving layer.
+void offer_new_overlaps(const StepContext& ctx, int block, Pairs& pairs)
+{
+    const BroadPhase& boxes = ctx.state.broad_phase;
+    const auto offer = [&](int shape, int other) { offer_pair(ctx, shape, other, pairs); };
+    const auto offer_all = [&](int other, std::uint64_t hits)
+    {
+        for (; hits != 0; hits &= hits - 1)
+        {
+            const int bit = std::countr_zero(hits);
+            offer(boxes.moving_item(block * BoxTree::arity + bit / BoxTree::arity),
+                  boxes.moving_item(other * BoxTree::arity + bit % BoxTree::arity));
+        }
+    };
+    using OfferAll = decltype(offer_all);
+    const auto note = [](const void* context, std::int32_t other, std::uint64_t hits)
+    { (*static_cast<const OfferAll*>(context))(other, hits); };
+    wide_kernels().new_overlaps(boxes.moving_blocks(), block, {&offer_all, note});
+    boxes.for_each_new_overlap_at_rest(block, offer);
+}
+
 void look_around_moved(StepContext& ctx)
 {
     BroadPhase& boxes = ctx.state.broad_phase;
@@ -106,8 +128,7 @@ void look_around_moved(StepContext& ctx)
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
                                 for (std::size_t k = first; k < last; ++k)
-                                    boxes.for_each_new_overlap(static_cast<int>(k), [&](int shape, int other)
-                                                               { offer_pair(ctx, shape, other, pairs); });
+                                    offer_new_overlaps(ctx, static_cast<int>(k), pairs);
                             });
     }
     else

@@ -597,9 +597,9 @@ public:
     void find_deflected()
     {
         scratch.is_deflected.assign(state.awake_bodies.size(), 0);
-        const std::span<SomeReaches> parts = find_in_parts(
-            ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
-            [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
+        const std::span<SomeReaches> parts =
+            find_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
+                          [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
         scratch.reaches.clear();
         std::vector<std::int32_t>& shapes = scratch.order;
         shapes.clear();

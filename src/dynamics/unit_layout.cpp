@@ -382,7 +382,8 @@ private:
             if (!keeps_color(unit, l))
                 l.color = none;
         }
-        m_cells_to_a_state = (static_cast<std::uint64_t>(unit.cells) << cell_bits) / static_cast<std::uint64_t>(unit.dynamic_count);
+        m_cells_to_a_state =
+            (static_cast<std::uint64_t>(unit.cells) << cell_bits) / static_cast<std::uint64_t>(unit.dynamic_count);
         for (Link& l : links)
         {
             if (l.color == none)
@@ -639,7 +640,7 @@ private:
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    std::int32_t m_groups = 0; ///< of wide joints
+    std::int32_t m_groups = 0;            ///< of wide joints
     std::uint64_t m_cells_to_a_state = 0; ///< of a unit, times 2^cell_bits
     std::int32_t m_bins[2 * color_limit * most_cells] = {};
     std::int32_t m_row_bins[color_limit + 1] = {};

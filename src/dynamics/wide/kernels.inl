@@ -92,6 +92,6 @@ extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              joints::fill,   joints::warm_start,   joints::solve,   joints::relax,
                              follows::follow,        follows::follow_contacts, follows::take_impulses, states::move,
-                             pairs::stay};
+                             pairs::stay,            pairs::new_overlaps};
 
 } // namespace carom::internal::CAROM_ISA

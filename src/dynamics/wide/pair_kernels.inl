@@ -1,4 +1,5 @@
-// Which pairs of boxes stay as they are, eight at a time; fate_of in pairs.cpp has the same for one. Part of kernels.inl.
+// Which pairs of boxes stay as they are, eight at a time; fate_of in pairs.cpp has the same for one. And which boxes have come to overlap, one against
+// eight neighbours. Part of kernels.inl.
 
 namespace pairs {
 
@@ -56,6 +57,101 @@ std::uint32_t stay(const BoxPair* eight, const BoxPlace* places, float box_margi
     const I8 has_contact = load(contacts) >= I8{};
     const I8 near = least_gap(a, b) <= select(both_move & ~has_contact, all(0.5f * box_margin), all(box_margin));
     return bits(plain & one_moves & meet & (near == has_contact));
+}
+
+// --- new overlaps -------------------------------------------------------------------------------------------------------------------------
+
+struct Bounds
+{
+    float lx, ly, ux, uy;
+};
+
+CAROM_INLINE Bounds bounds_of(const BoxBlock& k, int i) { return {k.lx[i], k.ly[i], k.ux[i], k.uy[i]}; }
+
+CAROM_INLINE F8 load_eight(const float* p)
+{
+    F8 v;
+    std::memcpy(&v, __builtin_assume_aligned(p, 32), sizeof v);
+    return v;
+}
+
+// A bit for each box of the block that overlaps.
+CAROM_INLINE unsigned overlapping(const BoxBlock& k, const Bounds& b)
+{
+    static_assert(alignof(BoxBlock) == 32 && BoxBlock::size == lane_count);
+    return bits((load_eight(k.lx) <= all(b.ux)) & (load_eight(k.ux) >= all(b.lx)) & (load_eight(k.ly) <= all(b.uy)) &
+                (load_eight(k.uy) >= all(b.ly)));
+}
+
+// Around the boxes of a block that have changed.
+CAROM_INLINE Bounds around(const BoxBlock& k, unsigned changed)
+{
+    Bounds all = bounds_of(k, std::countr_zero(changed));
+    for (unsigned lanes = changed & (changed - 1); lanes != 0; lanes &= lanes - 1)
+    {
+        const Bounds b = bounds_of(k, std::countr_zero(lanes));
+        all = {b.lx < all.lx ? b.lx : all.lx, b.ly < all.ly ? b.ly : all.ly, b.ux > all.ux ? b.ux : all.ux,
+               b.uy > all.uy ? b.uy : all.uy};
+    }
+    return all;
+}
+
+// What boxes of block k, a bit for each, have come to overlap in block o. Of two that have changed the first in the tree finds the other.
+CAROM_INLINE std::uint64_t new_between(const MovingBlocks& tree, std::int32_t k, std::int32_t o, unsigned near)
+{
+    const BlockPast& past = tree.past[o];
+    std::uint64_t boxes = 0;
+    for (; near != 0; near &= near - 1)
+    {
+        const int i = std::countr_zero(near);
+        const unsigned later = o > k ? ~0u : o == k ? ~0u << (i + 1) : 0;
+        const unsigned mine = (later | ~past.changed) & (o == k ? ~(1u << i) : ~0u);
+        unsigned hits = mine & overlapping(tree.levels[0][o], bounds_of(tree.levels[0][k], i));
+        if (hits != 0)
+            hits &= ~overlapping(past.before, bounds_of(tree.past[k].before, i));
+        boxes |= std::uint64_t{hits} << (i * lane_count);
+    }
+    return boxes;
+}
+
+// Down the tree with all that have changed in the block at once.
+void new_overlaps(const MovingBlocks& tree, std::int32_t k, const OverlapSink& sink)
+{
+    const unsigned changed = tree.past[k].changed;
+    if (changed == 0)
+        return;
+    const auto look_at = [&](std::int32_t o, unsigned near)
+    {
+        if (const std::uint64_t boxes = new_between(tree, k, o, near); boxes != 0)
+            sink.note(sink.context, o, boxes);
+    };
+    const BoxBlock& own = tree.levels[0][k];
+    const Bounds all = around(own, changed);
+    struct Entry
+    {
+        std::int32_t level;
+        std::int32_t block;
+    };
+    Entry stack[BoxTree::arity * BoxTree::max_levels];
+    int depth = 0;
+    if (tree.level_count == 1)
+        look_at(0, changed);
+    else
+        stack[depth++] = {tree.level_count - 1, 0};
+    while (depth > 0)
+    {
+        const Entry e = stack[--depth];
+        const BoxBlock& nodes = tree.levels[e.level][e.block];
+        for (unsigned hits = overlapping(nodes, all); hits != 0; hits &= hits - 1)
+        {
+            const int i = std::countr_zero(hits);
+            const std::int32_t node = e.block * lane_count + i;
+            if (e.level > 1)
+                stack[depth++] = {e.level - 1, node};
+            else if (const unsigned near = changed & overlapping(own, bounds_of(nodes, i)); near != 0)
+                look_at(node, near);
+        }
+    }
 }
 
 } // namespace pairs

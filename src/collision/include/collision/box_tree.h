@@ -101,6 +101,10 @@ public:
     [[nodiscard]] int block_count() const { return m_items.empty() ? 0 : static_cast<int>(m_levels[0].size()); }
     [[nodiscard]] const BoxBlock& block(int i) const { return m_levels[0][static_cast<std::size_t>(i)]; }
 
+    /// Level 0 are the leaves; node i of a level covers block i of the level below.
+    [[nodiscard]] int level_count() const { return static_cast<int>(m_levels.size()); }
+    [[nodiscard]] const BoxBlock* level(int i) const { return m_levels[static_cast<std::size_t>(i)].data(); }
+
     [[nodiscard]] FloatBox block_bounds(int i) const
     {
         return m_levels.size() > 1 ? m_levels[1][static_cast<std::size_t>(i / arity)].box(i % arity) : block(i).bounds();

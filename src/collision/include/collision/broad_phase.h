@@ -43,10 +43,7 @@ struct ItemTraits
 }
 
 /// The box around all that it covers.
-[[nodiscard]] inline FloatBox swept(const BoxPath& p)
-{
-    return box_of(swept(load4(&p.box.lx), p.shift, p.any_way));
-}
+[[nodiscard]] inline FloatBox swept(const BoxPath& p) { return box_of(swept(load4(&p.box.lx), p.shift, p.any_way)); }
 
 /// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.
 [[nodiscard]] inline float least_gap(const BoxPath& a, const BoxPath& b)
@@ -72,6 +69,21 @@ struct alignas(64) BoxPlace
     FloatBox before{};
 };
 static_assert(sizeof(BoxPlace) == 64);
+
+/// Eight neighbours of the moving layer, when pairs were last looked for.
+struct BlockPast
+{
+    BoxBlock before;
+    unsigned changed = 0; ///< a bit for each whose box is another one now
+};
+
+/// The tree of the moving layer, its levels from the leaves up, and what its blocks of leaves were.
+struct MovingBlocks
+{
+    const BoxBlock* levels[BoxTree::max_levels];
+    std::int32_t level_count;
+    const BlockPast* past;
+};
 
 class BroadPhase
 {
@@ -178,25 +190,25 @@ public:
     /// Notes what has changed in a block; before anything looks for new overlaps.
     void note_changes(int block);
 
-    /// Calls visit(item, other), once for each two, where the box of an item of this block has changed and overlaps one that it did not before.
+    /// For kernels that look for what has come to overlap among these; leaf i of block k stands for moving_item(8 k + i).
+    [[nodiscard]] MovingBlocks moving_blocks() const
+    {
+        const BoxTree& tree = m_forests[0].trees[0];
+        MovingBlocks blocks{{}, tree.level_count(), m_past.data()};
+        for (int level = 0; level < tree.level_count(); ++level)
+            blocks.levels[level] = tree.level(level);
+        return blocks;
+    }
+    [[nodiscard]] std::int32_t moving_item(int leaf) const { return m_forests[0].trees[0].item(leaf); }
+
+    /// Calls visit(item, other) where the box of an item of this block has changed and overlaps one of the resting layer that it did not before.
     template <class Visit>
-    void for_each_new_overlap(int k, const Visit& visit) const
+    void for_each_new_overlap_at_rest(int k, const Visit& visit) const
     {
         const BoxTree& tree = m_forests[0].trees[0];
         const BlockPast& own = m_past[static_cast<std::size_t>(k)];
         if (own.changed == 0)
             return;
-        tree.for_each_block_overlap(k, own.changed, tree,
-                                    [&](int o, unsigned near)
-                                    {
-                                        for (; near != 0; near &= near - 1)
-                                        {
-                                            const int i = std::countr_zero(near);
-                                            for (unsigned hits = new_overlaps(tree, k, i, o); hits != 0; hits &= hits - 1)
-                                                visit(tree.item(k * BoxTree::arity + i),
-                                                      tree.item(o * BoxTree::arity + std::countr_zero(hits)));
-                                        }
-                                    });
         const auto if_new = [&](std::int32_t item, std::int32_t other)
         {
             if (!overlaps(box_before(item), box_before(other)))
@@ -243,23 +255,6 @@ private:
         std::vector<BoxTree> trees;
         std::vector<std::int32_t> recent;
     };
-
-    // Of eight neighbours of the moving layer, when pairs were last looked for.
-    struct BlockPast
-    {
-        BoxBlock before;
-        unsigned changed = 0; ///< a bit for each whose box is another one now
-    };
-
-    // What box i of block k has come to overlap in block o. Of two that have changed the first in the tree finds the other.
-    [[nodiscard]] unsigned new_overlaps(const BoxTree& tree, int k, int i, int o) const
-    {
-        const BlockPast& past = m_past[static_cast<std::size_t>(o)];
-        const unsigned later = o > k ? ~0u : o == k ? ~0u << (i + 1) : 0;
-        const unsigned mine = (later | ~past.changed) & (o == k ? ~(1u << i) : ~0u);
-        const unsigned hits = mine & tree.block(o).overlapping(tree.block(k).box(i));
-        return hits == 0 ? 0 : hits & ~past.before.overlapping(m_past[static_cast<std::size_t>(k)].before.box(i));
-    }
 
     // Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those that no tree holds yet.
     template <class Visit>

@@ -19,10 +19,7 @@ bool refuse(const char* function, const char* field, const std::string& value, c
 
 /// Comparisons that stay true under every floating-point flag: a NaN compares false with everything.
 [[nodiscard]] inline bool is_finite(float value) { return value >= -3.402823466e38f && value <= 3.402823466e38f; }
-[[nodiscard]] inline bool is_finite(double value)
-{
-    return value >= -1.7976931348623157e308 && value <= 1.7976931348623157e308;
-}
+[[nodiscard]] inline bool is_finite(double value) { return value >= -1.7976931348623157e308 && value <= 1.7976931348623157e308; }
 [[nodiscard]] inline bool is_finite(Vec2 v) { return is_finite(v.x) && is_finite(v.y); }
 [[nodiscard]] inline bool is_finite(Position p) { return is_finite(p.x) && is_finite(p.y); }
 

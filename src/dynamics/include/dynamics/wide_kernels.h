@@ -5,6 +5,7 @@
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
+#include <cstdint>
 #include <span>
 
 namespace carom::internal {
@@ -15,6 +16,7 @@ struct BoxPlace;
 struct Contact;
 struct ContactImpulses;
 struct KeptManifold;
+struct MovingBlocks;
 struct StateConstants;
 
 /// Where the manifolds of rows that stay are followed.
@@ -59,6 +61,13 @@ struct FollowedContacts
     std::uint32_t touch_on; ///< touched, and are as near as that
 };
 
+/// Hears of each block some of whose boxes have come to overlap boxes of the one that is asked for: bit 8 i + j for box i of this and j of that.
+struct OverlapSink
+{
+    const void* context;
+    void (*note)(const void* context, std::int32_t block, std::uint64_t boxes);
+};
+
 /// What is done eight at a time, to wide rows and joints, to states and contacts, compiled for one instruction set. Every set does the same, bit for bit.
 struct WideKernels
 {
@@ -91,6 +100,8 @@ struct WideKernels
     std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
     /// Of eight pairs, a bit for each that stays as it is for sure: its fat boxes meet, and it has a contact if and only if it may meet in the step.
     std::uint32_t (*stay)(const BoxPair* pairs, const BoxPlace* places, float box_margin);
+    /// Where boxes of block k have changed and overlap others that they did not before, each two once.
+    void (*new_overlaps)(const MovingBlocks& blocks, std::int32_t k, const OverlapSink& sink);
 };
 
 /// The best that this machine has, or that CAROM_ISA allows (sse2, avx2, avx512); chosen once.
