@@ -87,3 +87,30 @@ TEST(FreeFlight, WhatPressesWeaklyNeitherSinksInNorGains)
     EXPECT_LT(last, 0.9 * start);
     EXPECT_GT(deepest, -1e-3f);
 }
+
+// However many they are, and whoever else falls.
+TEST(FreeFlight, WhatIsAloneFallsAsIfByItself)
+{
+    constexpr int count = 600;
+    const auto throw_ball = [](Scene& scene, int i)
+    {
+        return add_dynamic(scene, {4.0 * (i % 30), 4.0 * (i / 30)}, Circle{.radius = 0.2f}, {},
+                           {0.01f * static_cast<float>(i), 1.0f}, 0.1f * static_cast<float>(i % 7))
+            .body;
+    };
+    Scene all(sleepless());
+    std::vector<BodyId> balls;
+    for (int i = 0; i < count; ++i)
+        balls.push_back(throw_ball(all, i));
+    steps(all, 20);
+    EXPECT_EQ(all.report().units, count);
+    EXPECT_EQ(all.report().flight_bodies, count);
+    for (const int i : {0, 1, 255, 256, 599})
+    {
+        Scene one(sleepless());
+        const BodyId ball = throw_ball(one, i);
+        steps(one, 20);
+        EXPECT_EQ(all.body(balls[static_cast<std::size_t>(i)]).position(), one.body(ball).position()) << i;
+        EXPECT_EQ(all.body(balls[static_cast<std::size_t>(i)]).angle(), one.body(ball).angle()) << i;
+    }
+}

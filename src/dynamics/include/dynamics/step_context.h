@@ -92,8 +92,8 @@ struct Link
     bool plain = false;    ///< neither rolling resistance nor surface speed
     bool round = false;    ///< a circle takes part
     bool in_lane = false;
-    std::int16_t points =
-        0; ///< no bytes here and below: what is written as bytes may be anything, and all is read again after it
+    // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
+    std::int16_t points = 0;
     std::int16_t color = none; ///< that it has from the last step, then of its row
     std::int16_t bin = 0;      ///< where lanes are given out, by color, points and place; of rows the color
 };
