@@ -96,8 +96,10 @@ void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
 }
 
 // Of a block of the moving layer.
-void offer_new_overlaps(const StepContext& ctx, int block, Pairs& pairs)
+void offer_new_overlaps(const StepContext& ctx, const MovingBlocks& moving, int block, Pairs& pairs)
 {
+    if (moving.past[block].changed == 0)
+        return;
     const BroadPhase& boxes = ctx.state.broad_phase;
     const auto offer = [&](int shape, int other) { offer_pair(ctx, shape, other, pairs); };
     const auto offer_all = [&](int other, std::uint64_t hits)
@@ -112,7 +114,7 @@ void offer_new_overlaps(const StepContext& ctx, int block, Pairs& pairs)
     using OfferAll = decltype(offer_all);
     const auto note = [](const void* context, std::int32_t other, std::uint64_t hits)
     { (*static_cast<const OfferAll*>(context))(other, hits); };
-    wide_kernels().new_overlaps(boxes.moving_blocks(), block, {&offer_all, note});
+    wide_kernels().new_overlaps(moving, block, {&offer_all, note});
     boxes.for_each_new_overlap_at_rest(block, offer);
 }
 
@@ -124,11 +126,12 @@ void look_around_moved(StepContext& ctx)
         const auto blocks = static_cast<std::size_t>(boxes.block_count());
         for_each_in_parts(ctx.scene.def.tasks, blocks, blocks_per_task,
                           [&](std::size_t k) { boxes.note_changes(static_cast<int>(k)); });
+        const MovingBlocks moving = boxes.moving_blocks();
         look_on_all_threads(ctx, blocks, blocks_per_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
                                 for (std::size_t k = first; k < last; ++k)
-                                    offer_new_overlaps(ctx, static_cast<int>(k), pairs);
+                                    offer_new_overlaps(ctx, moving, static_cast<int>(k), pairs);
                             });
     }
     else

@@ -35,7 +35,7 @@ constexpr std::size_t items_per_task = 4096;
 constexpr std::size_t fliers_per_task = 256;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr float calm_swing = 0.1f;           // rad, in a step
-constexpr int batch_bodies = 256;            // of heaps, or of bodies that are alone
+constexpr int enough_bodies = 256;           // in a unit of heaps, or of bodies that are alone
 
 // --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
 
@@ -443,7 +443,7 @@ public:
         }
     }
 
-    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So do bodies that are alone, for they are many.
+    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So are bodies that are alone, for they are many.
     void form_units()
     {
         find_alone();
@@ -457,7 +457,7 @@ public:
             const bool heap = is_heap(t);
             const bool alone = t.bodies == 1 && t.fliers == 1 && scratch.is_alone[static_cast<std::size_t>(t.first)] != 0;
             Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
-            if (batch == nullptr || batch->unit == none || batch->bodies >= batch_bodies)
+            if (batch == nullptr || batch->unit == none || batch->bodies >= enough_bodies)
             {
                 Unit& unit = scratch.units.emplace_back();
                 unit.slices = heap ? 1 : t.slices;

@@ -167,13 +167,13 @@ private:
         }
     }
 
-    // The first state stands for every body that does not move, so that units share nothing; then the dynamic bodies in awake order, then copies
-    // of kinematic ones.
+    // The first state stands for every body that does not move, so that units share nothing; then the dynamic bodies in the order of the plane,
+    // then copies of kinematic ones.
     void place_states_of(Unit& unit)
     {
         const std::int32_t first = unit.first_state;
         unit.first_state = add_state(none);
-        unit.precise = (unit.dynamic_count <= precise_limit && !unit.heap) || unit.alone;
+        unit.precise = unit.dynamic_count <= precise_limit && !unit.heap && !unit.alone;
         unit.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
         for (std::int32_t i = first; i < first + unit.dynamic_count; ++i)
         {
@@ -302,8 +302,9 @@ private:
         if (!is_dynamic(unit, i))
             return;
         c = state_constants(unit_ctx, body);
-        if (BodySim& sim = m_state.sims[as_index(body)]; sim.crowded == unit.precise)
-            sim.crowded = !unit.precise;
+        const bool crowded = !unit.precise && !unit.alone;
+        if (BodySim& sim = m_state.sims[as_index(body)]; sim.crowded != crowded)
+            sim.crowded = crowded;
         if (unit.alone)
             s.flags |= body_flag::alone;
     }
@@ -382,8 +383,9 @@ private:
             if (!keeps_color(unit, l))
                 l.color = none;
         }
-        m_cells_to_a_state =
-            (static_cast<std::uint64_t>(unit.cells) << cell_bits) / static_cast<std::uint64_t>(unit.dynamic_count);
+        if (unit.cells > 1)
+            m_cells_to_a_state =
+                (static_cast<std::uint64_t>(unit.cells) << cell_bits) / static_cast<std::uint64_t>(unit.dynamic_count);
         for (Link& l : links)
         {
             if (l.color == none)
@@ -420,7 +422,7 @@ private:
         return true;
     }
 
-    // Where in the unit: states stand in the order of the plane.
+    // Where in the unit: states stand in the order of the plane. Rounded down, it is never one too many.
     [[nodiscard]] int cell_of(const Unit& unit, const Link& l) const
     {
         if (unit.cells == 1)

@@ -37,7 +37,7 @@ F4 rotate_both(Rotation q, F4 points)
     return F4{q.c, q.c, q.c, q.c} * points + F4{-q.s, q.s, -q.s, q.s} * __builtin_shufflevector(points, points, 1, 0, 3, 2);
 }
 
-// An odd one comes with the one before it once more.
+// Of three corners at least; an odd one comes with the one before it once more.
 void add_polygon(Extremes& e, const LeafView& v, Rotation q)
 {
     for (int i = 0; i < v.leaf->count; i += 2)

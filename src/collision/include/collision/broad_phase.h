@@ -156,7 +156,8 @@ public:
         return true;
     }
 
-    /// Of the blocks of a layer's trees, one tree after the other, a bit for each item but those that are left out.
+    /// Of the blocks of a layer's trees, one tree after the other, a bit for each item but those that are left out; and for empty boxes, which nothing
+    /// overlaps.
     void choose_all_but(Layer layer, std::span<const std::int32_t> left_out, std::vector<std::uint8_t>& chosen) const;
 
     /// Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those of a layer: of its trees what was chosen, and what is in
@@ -206,9 +207,7 @@ public:
     void for_each_new_overlap_at_rest(int k, const Visit& visit) const
     {
         const BoxTree& tree = m_forests[0].trees[0];
-        const BlockPast& own = m_past[static_cast<std::size_t>(k)];
-        if (own.changed == 0)
-            return;
+        const unsigned changed = m_past[static_cast<std::size_t>(k)].changed;
         const auto if_new = [&](std::int32_t item, std::int32_t other)
         {
             if (!overlaps(box_before(item), box_before(other)))
@@ -216,9 +215,9 @@ public:
         };
         for (const BoxTree& others : m_forests[1].trees)
             tree.for_each_overlap(
-                k, own.changed, others, [](int) { return BoxTree::all_lanes; },
+                k, changed, others, [](int) { return BoxTree::all_lanes; },
                 [&](int own_leaf, int other) { if_new(tree.item(own_leaf), others.item(other)); });
-        for_each_recent(tree, k, own.changed, m_forests[1], if_new);
+        for_each_recent(tree, k, changed, m_forests[1], if_new);
     }
 
     template <class Test, class Visit>

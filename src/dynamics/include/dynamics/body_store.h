@@ -6,7 +6,8 @@
 
 namespace carom::internal {
 
-/// Calls visit(shape slot) for every leaf of the body: its shapes, and the pieces of its chains.
+/// Calls visit(shape slot) for every leaf of the body: its shapes, and the pieces of its chains. Where it goes next is read before the visit; a piece is
+/// followed by the next one, and the last by what follows its chain.
 template <class Visit>
 void for_each_leaf(const SceneState& state, int body, Visit&& visit)
 {
