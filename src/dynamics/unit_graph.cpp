@@ -694,15 +694,15 @@ public:
         {
             if (scratch.has_kinematic && state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
                 continue;
-            const auto root = static_cast<std::size_t>(find_root(scratch.parent, static_cast<std::int32_t>(i)));
-            if (root == i)
+            const auto parent = static_cast<std::size_t>(scratch.parent[i]); // comes before it, or is it
+            if (parent == i)
             {
                 scratch.unit_of[i] = static_cast<std::int32_t>(scratch.tallies.size());
                 scratch.tallies.emplace_back().first = static_cast<std::int32_t>(i);
             }
             else
             {
-                scratch.unit_of[i] = scratch.unit_of[root];
+                scratch.unit_of[i] = scratch.unit_of[parent];
             }
         }
         for_each_run(
