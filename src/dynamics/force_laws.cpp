@@ -15,29 +15,6 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float most = 1e6f; // m, rad/s: a bound beyond it says no more, and boxes stay finite
-
-} // namespace
-
-float greatest_shift_of_law(const StepContext& ctx, int body)
-{
-    const ForceLaw* law = force_law_of(ctx, body);
-    if (law == nullptr)
-        return 0;
-    const Vec2 inverse_mass = ctx.state.sims[static_cast<std::size_t>(body)].inverse_mass;
-    return std::min(ctx.dt * ctx.dt * law->greatest_force * std::max(inverse_mass.x, inverse_mass.y), most);
-}
-
-float greatest_spin_of_law(const StepContext& ctx, int body)
-{
-    const ForceLaw* law = force_law_of(ctx, body);
-    if (law == nullptr)
-        return 0;
-    return std::min(ctx.dt * law->greatest_torque * ctx.state.sims[static_cast<std::size_t>(body)].inverse_inertia, most);
-}
-
-namespace {
-
 bool takes_part(const SceneState& state, int body, const RawImpact& raw)
 {
     return state.shapes[raw.shape_a].body == body || state.shapes[raw.shape_b].body == body;

@@ -28,11 +28,10 @@ void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)
 // How far a point may come by turning, by the bend of its parabola, and any way that a force law may push.
 float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shift)
 {
-    const bool has_laws = ctx.scene.law_count > 0;
-    const float gained = ctx.dt * sim.inverse_inertia * std::fabs(sim.torque) + (has_laws ? greatest_spin_of_law(ctx, body) : 0);
+    const float gained = ctx.dt * sim.inverse_inertia * std::fabs(sim.torque) + greatest_spin_of_law(ctx, body);
     const float angle = (std::fabs(sim.angular_velocity) + gained) * ctx.dt;
     const float bend = 0.5f * length(shift - ctx.dt * sim.velocity);
-    return sim.extent * (angle < 2 ? angle : 2.0f) + bend + (has_laws ? greatest_shift_of_law(ctx, body) : 0);
+    return sim.extent * (angle < 2 ? angle : 2.0f) + bend + greatest_shift_of_law(ctx, body);
 }
 
 // A fat box that held a fast path is far too wide for a body that has slowed down.

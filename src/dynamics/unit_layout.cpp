@@ -302,9 +302,7 @@ private:
         if (!is_dynamic(unit, i))
             return;
         c = state_constants(unit_ctx, body);
-        const bool crowded = !unit.precise && !unit.alone;
-        if (BodySim& sim = m_state.sims[as_index(body)]; sim.crowded != crowded)
-            sim.crowded = crowded;
+        m_state.sims[as_index(body)].crowded = !unit.precise && !unit.alone;
         if (unit.alone)
             s.flags |= body_flag::alone;
     }

@@ -68,19 +68,12 @@ struct Bounds
 
 CAROM_INLINE Bounds bounds_of(const BoxBlock& k, int i) { return {k.lx[i], k.ly[i], k.ux[i], k.uy[i]}; }
 
-CAROM_INLINE F8 load_eight(const float* p)
-{
-    F8 v;
-    std::memcpy(&v, __builtin_assume_aligned(p, 32), sizeof v);
-    return v;
-}
-
 // A bit for each box of the block that overlaps.
 CAROM_INLINE unsigned overlapping(const BoxBlock& k, const Bounds& b)
 {
     static_assert(alignof(BoxBlock) == 32 && BoxBlock::size == lane_count);
-    return bits((load_eight(k.lx) <= all(b.ux)) & (load_eight(k.ux) >= all(b.lx)) & (load_eight(k.ly) <= all(b.uy)) &
-                (load_eight(k.uy) >= all(b.ly)));
+    return bits((load(k.lx) <= all(b.ux)) & (load(k.ux) >= all(b.lx)) & (load(k.ly) <= all(b.uy)) &
+                (load(k.uy) >= all(b.ly)));
 }
 
 // Around the boxes of a block that have changed.

@@ -144,10 +144,10 @@ public:
         return walk(test_all, 0, [&](std::int32_t leaf) { return visit(m_items[static_cast<std::size_t>(leaf)]); });
     }
 
-    /// Calls visit(other block, lanes) where some of block k, a bit for each of its eight, may overlap what is in a block of another tree: the eight go
-    /// through it together.
-    template <class Visit>
-    void for_each_block_overlap(int k, unsigned lanes, const BoxTree& others, const Visit& visit) const
+    /// Calls visit(own leaf, other leaf) where leaves of block k, a bit for each, overlap those of another tree: of its block o those in lanes_of(o). The
+    /// eight go through it together.
+    template <class LanesOf, class Visit>
+    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const LanesOf& lanes_of, const Visit& visit) const
     {
         FloatBox around;
         for (unsigned l = lanes; l != 0; l &= l - 1)
@@ -155,27 +155,16 @@ public:
         others.query_blocks(around,
                             [&](int other)
                             {
-                                if (const unsigned near = lanes & block(k).overlapping(others.block_bounds(other)); near != 0)
-                                    visit(other, near);
+                                const unsigned asked = lanes_of(other);
+                                unsigned near = lanes & block(k).overlapping(others.block_bounds(other));
+                                for (; asked != 0 && near != 0; near &= near - 1)
+                                {
+                                    const int i = std::countr_zero(near);
+                                    for (unsigned hits = asked & others.block(other).overlapping(block(k).box(i)); hits != 0;
+                                         hits &= hits - 1)
+                                        visit(k * arity + i, other * arity + std::countr_zero(hits));
+                                }
                             });
-    }
-
-    /// Calls visit(own leaf, other leaf) where leaves of block k, a bit for each, overlap those of another tree: of its block o those in lanes_of(o).
-    template <class LanesOf, class Visit>
-    void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const LanesOf& lanes_of, const Visit& visit) const
-    {
-        for_each_block_overlap(k, lanes, others,
-                               [&](int other, unsigned near)
-                               {
-                                   const unsigned asked = lanes_of(other);
-                                   for (; asked != 0 && near != 0; near &= near - 1)
-                                   {
-                                       const int i = std::countr_zero(near);
-                                       for (unsigned hits = asked & others.block(other).overlapping(block(k).box(i)); hits != 0;
-                                            hits &= hits - 1)
-                                           visit(k * arity + i, other * arity + std::countr_zero(hits));
-                                   }
-                               });
     }
 
 private:

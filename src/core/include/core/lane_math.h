@@ -16,12 +16,14 @@ namespace carom::internal {
 using F8 = float __attribute__((vector_size(32)));
 using I8 = std::int32_t __attribute__((vector_size(32)));
 
-CAROM_INLINE F8 load(const LaneFloats& a)
+/// Aligned as LaneFloats are.
+CAROM_INLINE F8 load(const float* eight)
 {
     F8 r;
-    std::memcpy(&r, __builtin_assume_aligned(a.v, 32), sizeof r);
+    std::memcpy(&r, __builtin_assume_aligned(eight, 32), sizeof r);
     return r;
 }
+CAROM_INLINE F8 load(const LaneFloats& a) { return load(a.v); }
 CAROM_INLINE I8 load(const LaneInts& a)
 {
     I8 r;

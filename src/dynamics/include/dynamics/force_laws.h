@@ -5,6 +5,8 @@
 #include "dynamics/scene_data.h"
 #include "dynamics/step_context.h"
 
+#include <algorithm>
+
 namespace carom::internal {
 
 /// Nothing for a body without one.
@@ -16,9 +18,24 @@ namespace carom::internal {
     return law.function != nullptr ? &law : nullptr;
 }
 
+inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a bound beyond it says no more, and boxes stay finite
+
 /// What its law may add to a body's way and to its spin within the step; 0 without a law.
-[[nodiscard]] float greatest_shift_of_law(const StepContext& ctx, int body);
-[[nodiscard]] float greatest_spin_of_law(const StepContext& ctx, int body);
+[[nodiscard]] inline float greatest_shift_of_law(const StepContext& ctx, int body)
+{
+    const ForceLaw* law = force_law_of(ctx, body);
+    if (law == nullptr)
+        return 0;
+    const Vec2 inverse_mass = ctx.state.sims[static_cast<std::size_t>(body)].inverse_mass;
+    return std::min(ctx.dt * ctx.dt * law->greatest_force * std::max(inverse_mass.x, inverse_mass.y), most_of_law);
+}
+[[nodiscard]] inline float greatest_spin_of_law(const StepContext& ctx, int body)
+{
+    const ForceLaw* law = force_law_of(ctx, body);
+    if (law == nullptr)
+        return 0;
+    return std::min(ctx.dt * law->greatest_torque * ctx.state.sims[static_cast<std::size_t>(body)].inverse_inertia, most_of_law);
+}
 
 /// Asks the laws of a unit for the loads of the sub-step k.
 void apply_force_laws(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
