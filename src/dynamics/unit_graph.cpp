@@ -37,32 +37,52 @@ constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr float calm_swing = 0.1f;           // rad, in a step
 constexpr int enough_bodies = 256;           // in a unit of heaps, or of bodies that are alone
 
-// --- union-find over places in awake_bodies ---------------------------------------------------------------------------------------
+// --- union-find over places in awake_bodies, also by several threads at once --------------------------------------------------------
+
+// A parent comes before its children, and only ever gives way to one that comes before it: whatever a thread reads is an ancestor.
+std::atomic_ref<std::int32_t> parent_of(std::vector<std::int32_t>& parent, std::int32_t i)
+{
+    return std::atomic_ref(parent[static_cast<std::size_t>(i)]);
+}
 
 std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i)
 {
     for (;;)
     {
-        const std::int32_t up = parent[static_cast<std::size_t>(i)];
-        const std::int32_t above = parent[static_cast<std::size_t>(up)];
+        const std::int32_t up = parent_of(parent, i).load(std::memory_order_relaxed);
+        const std::int32_t above = parent_of(parent, up).load(std::memory_order_relaxed);
         if (above == up)
             return up;
-        parent[static_cast<std::size_t>(i)] = above;
+        parent_of(parent, i).store(above, std::memory_order_relaxed);
         i = above;
     }
 }
 
-// The lesser place becomes the root: the result does not depend on the order of the links. False where they were linked already.
-bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b)
+// True if it was a root still.
+bool hang(std::vector<std::int32_t>& parent, std::int32_t root, std::int32_t under, bool shared)
 {
-    if (parent[static_cast<std::size_t>(a)] == parent[static_cast<std::size_t>(b)])
-        return false;
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    if (a == b)
-        return false;
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    if (shared)
+        return parent_of(parent, root).compare_exchange_strong(root, under, std::memory_order_relaxed);
+    parent_of(parent, root).store(under, std::memory_order_relaxed);
     return true;
+}
+
+// The lesser place becomes the root: which ones are roots in the end does not depend on the order of the links. False where they were linked already.
+// `shared`: by threads side by side.
+bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b, bool shared)
+{
+    const auto above = [&](std::int32_t i) { return parent_of(parent, i).load(std::memory_order_relaxed); };
+    if (above(a) == above(b))
+        return false;
+    for (;;)
+    {
+        a = find_root(parent, a);
+        b = find_root(parent, b);
+        if (a == b)
+            return false;
+        if (hang(parent, std::max(a, b), std::min(a, b), shared))
+            return true;
+    }
 }
 
 void reset_parents(StepContext& ctx)
@@ -339,16 +359,21 @@ public:
     void link_units()
     {
         reset_parents(ctx);
-        for (const Link& l : scratch.links)
-        {
-            if (l.a >= 0 && l.b >= 0)
-                link(scratch.parent, l.a, l.b);
-        }
-        for (const JointLink& j : scratch.joint_links)
-        {
-            if (j.a >= 0 && j.b >= 0)
-                link(scratch.parent, j.a, j.b);
-        }
+        link_all(scratch.links);
+        link_all(scratch.joint_links);
+    }
+
+    template <class AnyLink>
+    void link_all(const std::vector<AnyLink>& links)
+    {
+        const TaskHooks& tasks = ctx.scene.def.tasks;
+        const bool shared = tasks.worker_count > 1;
+        for_each_in_parts(tasks, links.size(), items_per_task,
+                          [&](std::size_t i)
+                          {
+                              if (links[i].a >= 0 && links[i].b >= 0)
+                                  link(scratch.parent, links[i].a, links[i].b, shared);
+                          });
     }
 
     // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
@@ -413,34 +438,56 @@ public:
     // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
     void choose_slices()
     {
-        const auto slice = [&](std::int32_t unit, float rate, float most_turn, int limit)
-        {
-            const auto wanted = static_cast<int>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
-            std::int32_t& slices = tally(unit).slices;
-            slices = std::max(slices, wanted);
-        };
         const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
                               std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
                                           [](const UnitTally& t) { return t.bodies <= precise_limit; });
-        for (const Link& l : may_turn ? std::span(scratch.links) : std::span<Link>{})
+        if (may_turn)
+            for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), contacts_per_task,
+                              [&](std::size_t i) { slice_at_contact(scratch.links[i]); });
+        find_swings();
+        for (std::size_t i = 0; i < scratch.joint_links.size(); ++i)
         {
-            if (l.solved && tally(unit_of_link(l)).bodies <= precise_limit)
-                slice(unit_of_link(l), turn_rate(state.contacts[l.contact]), slice_turn,
-                      l.a >= 0 && l.b >= 0 ? hinge_slice_limit : slice_limit);
-        }
-        for (const JointLink& j : scratch.joint_links)
-        {
-            const std::int32_t unit = unit_of_link(j);
-            UnitTally& t = tally(unit);
+            const JointLink& j = scratch.joint_links[i];
+            UnitTally& t = tally(unit_of_link(j));
             ++t.joints;
             t.hangs |= j.a < 0 || j.b < 0;
             t.damped += j.damped ? 1 : 0;
-            if (t.bodies > UnitEnergy::most_bodies)
-                continue;
-            const float swing = swing_rate(state.joints[j.joint]);
-            t.swing = std::max(t.swing, swing);
-            slice(unit, swing, slice_swing, slice_limit);
+            t.swing = std::max(t.swing, scratch.swings[i]);
         }
+        for (UnitTally& t : scratch.joint_links.empty() ? std::span<UnitTally>{} : std::span(scratch.tallies))
+            t.slices = std::max(t.slices, slices_for(t.swing, slice_swing, slice_limit));
+    }
+
+    [[nodiscard]] std::int32_t slices_for(float rate, float most_turn, int limit) const
+    {
+        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
+    }
+
+    // Others may do so as well: the most that anyone wants.
+    void slice_at_contact(const Link& l)
+    {
+        if (!l.solved || tally(unit_of_link(l)).bodies > precise_limit)
+            return;
+        const float rate = turn_rate(state.contacts[l.contact]);
+        const std::int32_t wanted = slices_for(rate, slice_turn, l.a >= 0 && l.b >= 0 ? hinge_slice_limit : slice_limit);
+        const std::atomic_ref slices(tally(unit_of_link(l)).slices);
+        std::int32_t before = slices.load(std::memory_order_relaxed);
+        while (before < wanted && !slices.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
+        {
+        }
+    }
+
+    // Of joints in small units, on all threads.
+    void find_swings()
+    {
+        scratch.swings.resize(scratch.joint_links.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_links.size(), joints_per_task,
+                          [&](std::size_t i)
+                          {
+                              const JointLink& j = scratch.joint_links[i];
+                              const bool small = tally(unit_of_link(j)).bodies <= UnitEnergy::most_bodies;
+                              scratch.swings[i] = small ? swing_rate(state.joints[j.joint]) : 0;
+                          });
     }
 
     // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So are bodies that are alone, for they are many.
@@ -588,7 +635,7 @@ public:
         for (const Meetings& some : parts)
         {
             for (const auto& [place, other] : some)
-                linked |= link(scratch.parent, place, other);
+                linked |= link(scratch.parent, place, other, false);
         }
         return linked;
     }
@@ -832,14 +879,8 @@ void build_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
     const TaskHooks& tasks = ctx.scene.def.tasks;
-    run_both(
-        tasks,
-        [&]
-        {
-            graph.link_units();
-            graph.number_units();
-        },
-        [&] { graph.sort_by_cell(); });
+    graph.link_units();
+    run_both(tasks, [&] { graph.number_units(); }, [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
     if (graph.link_deflected())
     {

@@ -318,6 +318,7 @@ struct Scratch
     std::vector<std::uint8_t> pair_fates;
     std::vector<std::int32_t> places;   ///< by body slot, as in Link
     std::vector<std::int32_t> placed;   ///< bodies that have one
+    std::vector<float> swings;          ///< of joint_links, see UnitTally::swing
     std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
