@@ -11,11 +11,17 @@ struct Side
 {
     float value;
     bool yields;
-    std::uint64_t user_data;
+    int shape;
 };
 
-float mix(const SceneDef& def, MixedValue what, const Side& a, const Side& b)
+std::uint64_t user_data_of(const SceneData& scene, int shape)
 {
+    return scene.shape_extras[static_cast<std::size_t>(scene.state.shapes[shape].owner)].user_data;
+}
+
+float mix(const SceneData& scene, MixedValue what, const Side& a, const Side& b)
+{
+    const SceneDef& def = scene.def;
     switch (what == MixedValue::Friction ? def.friction_rule : def.restitution_rule)
     {
     case MixRule::Average: return 0.5f * (a.value + b.value);
@@ -24,14 +30,10 @@ float mix(const SceneDef& def, MixedValue what, const Side& a, const Side& b)
     case MixRule::Maximum: return std::max(a.value, b.value);
     case MixRule::Product: return a.value * b.value;
     case MixRule::OtherDecides: return a.yields == b.yields ? 0.5f * (a.value + b.value) : (a.yields ? b.value : a.value);
-    case MixRule::Function: return def.mix_function(what, a.value, a.user_data, b.value, b.user_data);
+    case MixRule::Function:
+        return def.mix_function(what, a.value, user_data_of(scene, a.shape), b.value, user_data_of(scene, b.shape));
     }
     return 0;
-}
-
-std::uint64_t user_data_of(const SceneData& scene, int shape)
-{
-    return scene.shape_extras[static_cast<std::size_t>(scene.state.shapes[shape].owner)].user_data;
 }
 
 float restitution_at(const SceneState& state, const ShapeRecord& shape, float speed)
@@ -73,8 +75,7 @@ float mixed_friction(const SceneData& scene, int shape_a, int shape_b)
 {
     const ShapeRecord& a = scene.state.shapes[shape_a];
     const ShapeRecord& b = scene.state.shapes[shape_b];
-    const float value = mix(scene.def, MixedValue::Friction, {a.friction, a.yields_material, user_data_of(scene, shape_a)},
-                            {b.friction, b.yields_material, user_data_of(scene, shape_b)});
+    const float value = mix(scene, MixedValue::Friction, {a.friction, a.yields_material, shape_a}, {b.friction, b.yields_material, shape_b});
     return value > 0 ? std::min(value, 1e6f) : 0;
 }
 
@@ -82,9 +83,8 @@ float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float 
 {
     const ShapeRecord& a = scene.state.shapes[shape_a];
     const ShapeRecord& b = scene.state.shapes[shape_b];
-    const float value = mix(scene.def, MixedValue::Restitution,
-                            {restitution_at(scene.state, a, speed), a.yields_material, user_data_of(scene, shape_a)},
-                            {restitution_at(scene.state, b, speed), b.yields_material, user_data_of(scene, shape_b)});
+    const float value = mix(scene, MixedValue::Restitution, {restitution_at(scene.state, a, speed), a.yields_material, shape_a},
+                            {restitution_at(scene.state, b, speed), b.yields_material, shape_b});
     return value > 0 ? std::min(value, 1.0f) : 0;
 }
 

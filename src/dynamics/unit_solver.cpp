@@ -4,6 +4,7 @@
 #include "dynamics/unit_solver.h"
 
 #include "core/float4.h"
+#include "core/prefetch.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/contact_store.h"
@@ -677,12 +678,7 @@ private:
         const std::size_t kicks = m_output.kicked_shapes.size();
         for (int i = 0; i < m_unit.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
-        for_each_struck(
-            [&](int g)
-            {
-                for (unsigned lanes = m_struck[g]; lanes != 0; lanes &= lanes - 1)
-                    bounce_lane(m_wide[g], (m_unit.wide_store + g) * lane_count + std::countr_zero(lanes), k);
-            });
+        bounce_lanes(k);
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
             m_output.direct->keep_together();
@@ -707,6 +703,40 @@ private:
         }
     }
 
+    void bounce_lanes(int k)
+    {
+        std::vector<std::int32_t>& lanes = m_output.struck_lanes;
+        lanes.clear();
+        for_each_struck(
+            [&](int g)
+            {
+                for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
+                    lanes.push_back(g * lane_count + std::countr_zero(bits));
+            });
+        for (std::size_t i = 0; i < lanes.size(); ++i)
+        {
+            prefetch_struck(i);
+            bounce_lane(m_wide[lanes[i] / lane_count], m_unit.wide_store * lane_count + lanes[i], k);
+        }
+    }
+
+    // First the contact, then its shapes and where it is.
+    [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
+    {
+        const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
+        const SceneState& state = m_ctx.state;
+        const auto contact_of = [&](std::size_t lane)
+        { return m_wide[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
+        if (i + turns_ahead < lanes.size())
+            prefetch(state.contacts[contact_of(i + turns_ahead)]);
+        if (i + turns_ahead / 2 >= lanes.size())
+            return;
+        const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
+        for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
+            prefetch(state.shapes[shape]);
+        __builtin_prefetch(&state.sims[static_cast<std::size_t>(contact.body_a)]);
+    }
+
     // It bears a load: told once, bounced once.
     void bounce_lane(WideRow& wide, std::int32_t lane, int k)
     {
@@ -718,14 +748,14 @@ private:
                 approach = std::max(approach, wide.points[p].approach.v[lane % lane_count]);
         }
         const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
-        ContactRow row = row_of_lane(m_ctx, lane);
+        ContactRow row = row_of_lane(m_scratch, lane);
         row.hit = strikes ? 0 : 1;
-        const ContactRow before = row;
         if ((wide.untold & bit) != 0)
             begin_touch(row, k);
         wide.untold &= ~bit;
         if (!strikes)
             return;
+        const ContactRow before = row;
         resolve_impact(row, approach, k);
         wide.may_hit &= ~bit;
         put_impulses(m_scratch, row, lane);

@@ -29,6 +29,13 @@ const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
     return ctx.scratch.constants[static_cast<std::size_t>(state)];
 }
 
+// Two points that are not nearly in one place.
+bool are_distinct(const Lane& lane)
+{
+    const float coupling = lane.row.coupling.v[lane.i];
+    return coupling * coupling < 0.999f * (lane.row.points[0].k.v[lane.i] * lane.row.points[1].k.v[lane.i]);
+}
+
 } // namespace
 
 void clear_sums(WideRow& row)
@@ -87,16 +94,27 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
         row.kept |= 1u << i;
 }
 
-ContactRow row_of_lane(const StepContext& ctx, std::int32_t index)
+ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
 {
-    const Lane lane(ctx.scratch, index);
+    const Lane lane(scratch, index);
     const int i = lane.i;
-    const std::int32_t contact = lane.row.contact.v[i];
-    ContactRow row = prepare_row(ctx, contact, manifold_at_start(ctx.state, contact), lane.row.a.v[i], lane.row.b.v[i]);
+    ContactRow row;
+    row.a = lane.row.a.v[i];
+    row.b = lane.row.b.v[i];
+    row.contact = lane.row.contact.v[i];
+    row.count = lane.row.count;
+    row.n = {lane.row.nx.v[i], lane.row.ny.v[i]};
+    row.friction = lane.row.friction.v[i];
+    if (row.count == 2 && are_distinct(lane))
+        row.coupling = lane.row.coupling.v[i];
+    const auto arm = [&](float along, float across) { return along * row.n - across * perp(row.n); };
     for (int k = 0; k < row.count; ++k)
     {
         const WidePoint& from = lane.row.points[k];
         RowPoint& p = row.points[k];
+        p.ra = arm(from.along_a.v[i], from.across_a.v[i]);
+        p.rb = arm(from.along_b.v[i], from.across_b.v[i]);
+        p.normal_mass = 1 / from.k.v[i];
         p.normal_impulse = from.normal_impulse.v[i];
         p.tangent_impulse = from.tangent_impulse.v[i];
         p.total_impulse = from.total_impulse.v[i];

@@ -271,6 +271,7 @@ struct UnitOutput
     std::vector<DeferredImpulse> deferred;
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
     std::vector<std::int32_t> kicked_shapes;
+    std::vector<std::int32_t> struck_lanes; ///< of the unit, in this sub-step
     std::vector<std::int32_t> deflected;  ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;           ///< of each of these
     std::vector<PathPiece> path;          ///< of traced bodies, of each in the order of time

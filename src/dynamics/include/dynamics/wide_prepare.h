@@ -16,8 +16,8 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int l
 /// As bits.
 [[nodiscard]] std::uint32_t filled_lanes(const WideRow& row);
 
-/// The lane as a row of its own, at the start of the step.
-[[nodiscard]] ContactRow row_of_lane(const StepContext& ctx, std::int32_t lane);
+/// The lane as a row of its own: where its points are at the start of the step, what they bear, and the masses along the normal.
+[[nodiscard]] ContactRow row_of_lane(Scratch& scratch, std::int32_t lane);
 
 /// Impulses of such a row go back into its lane.
 void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t lane);
