@@ -75,7 +75,8 @@ float mixed_friction(const SceneData& scene, int shape_a, int shape_b)
 {
     const ShapeRecord& a = scene.state.shapes[shape_a];
     const ShapeRecord& b = scene.state.shapes[shape_b];
-    const float value = mix(scene, MixedValue::Friction, {a.friction, a.yields_material, shape_a}, {b.friction, b.yields_material, shape_b});
+    const float value =
+        mix(scene, MixedValue::Friction, {a.friction, a.yields_material, shape_a}, {b.friction, b.yields_material, shape_b});
     return value > 0 ? std::min(value, 1e6f) : 0;
 }
 

@@ -1,6 +1,7 @@
 // Stage 2, pairs: boxes that moved or are new ask both layers what they overlap. New pairs are sorted, so that contacts are made in an order
 // that depends on nothing but the pairs. Of the pairs those get a contact that may meet in this step: what falls side by side does not.
 
+#include "core/nonzero.h"
 #include "core/pair_set.h"
 #include "core/task_pool.h"
 #include "dynamics/body_path.h"
@@ -327,22 +328,22 @@ void follow_pairs(StepContext& ctx)
     run_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
               [&](std::size_t first, std::size_t last) { find_fates(ctx, first, last); });
     state.parted_pairs.clear();
-    for (std::size_t i = 0; i < fates.size(); ++i)
-    {
-        if (fates[i] == 0)
-            continue;
-        if ((fates[i] & fate::parted) != 0)
-            state.parted_pairs.push_back(pair_key(pairs[i].a, pairs[i].b));
-        if ((fates[i] & fate::gets_contact) != 0)
-            give_contact(ctx, i);
-        if ((fates[i] & fate::loses_contact) != 0)
-            destroy_contact(ctx.scene, pairs[i].contact, ctx.scene.events, 0);
-    }
-    for (std::size_t i = fates.size(); i > 0; --i)
-    {
-        if ((fates[i - 1] & fate::goes) != 0)
-            take_out(state, i - 1);
-    }
+    std::vector<std::int32_t>& going = ctx.scratch.order;
+    going.clear();
+    for_each_nonzero(fates.data(), fates.size(),
+                     [&](std::size_t i)
+                     {
+                         if ((fates[i] & fate::parted) != 0)
+                             state.parted_pairs.push_back(pair_key(pairs[i].a, pairs[i].b));
+                         if ((fates[i] & fate::gets_contact) != 0)
+                             give_contact(ctx, i);
+                         if ((fates[i] & fate::loses_contact) != 0)
+                             destroy_contact(ctx.scene, pairs[i].contact, ctx.scene.events, 0);
+                         if ((fates[i] & fate::goes) != 0)
+                             going.push_back(static_cast<std::int32_t>(i));
+                     });
+    for (auto i = going.rbegin(); i != going.rend(); ++i)
+        take_out(state, static_cast<std::size_t>(*i));
     std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
 }
 

@@ -4,6 +4,7 @@
 #include "dynamics/unit_solver.h"
 
 #include "core/float4.h"
+#include "core/nonzero.h"
 #include "core/prefetch.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_solver.h"
@@ -24,7 +25,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 namespace carom::internal {
 
@@ -685,34 +685,16 @@ private:
         return m_output.kicked_shapes.size() != kicks;
     }
 
-    // Most are not: eight groups are passed over at once.
-    template <class Visit>
-    void for_each_struck(const Visit& visit) const
-    {
-        constexpr int at_once = sizeof(std::uint64_t);
-        for (int first = 0; first < m_unit.wide_count; first += at_once)
-        {
-            const int last = std::min(first + at_once, m_unit.wide_count);
-            std::uint64_t any = 0;
-            std::memcpy(&any, m_struck + first, static_cast<std::size_t>(last - first));
-            for (int g = first; any != 0 && g < last; ++g)
-            {
-                if (m_struck[g] != 0)
-                    visit(g);
-            }
-        }
-    }
-
     void bounce_lanes(int k)
     {
         std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         lanes.clear();
-        for_each_struck(
-            [&](int g)
-            {
-                for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
-                    lanes.push_back(g * lane_count + std::countr_zero(bits));
-            });
+        for_each_nonzero(m_struck, static_cast<std::size_t>(m_unit.wide_count),
+                         [&](std::size_t g)
+                         {
+                             for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
+                                 lanes.push_back(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
+                         });
         for (std::size_t i = 0; i < lanes.size(); ++i)
         {
             prefetch_struck(i);

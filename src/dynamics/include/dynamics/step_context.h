@@ -272,12 +272,12 @@ struct UnitOutput
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
     std::vector<std::int32_t> kicked_shapes;
     std::vector<std::int32_t> struck_lanes; ///< of the unit, in this sub-step
-    std::vector<std::int32_t> deflected;  ///< fliers off the way they set out on, in order
-    std::vector<Reach> reaches;           ///< of each of these
-    std::vector<PathPiece> path;          ///< of traced bodies, of each in the order of time
-    std::vector<std::int32_t> last_piece; ///< of each state of the unit; empty before the first
-    std::vector<RecordedPose> poses;      ///< after each sub-step, when asked for
-    std::unique_ptr<DirectSolve> direct;  ///< of what joints hold, where a unit of this place in the order has had any
+    std::vector<std::int32_t> deflected;    ///< fliers off the way they set out on, in order
+    std::vector<Reach> reaches;             ///< of each of these
+    std::vector<PathPiece> path;            ///< of traced bodies, of each in the order of time
+    std::vector<std::int32_t> last_piece;   ///< of each state of the unit; empty before the first
+    std::vector<RecordedPose> poses;        ///< after each sub-step, when asked for
+    std::unique_ptr<DirectSolve> direct;    ///< of what joints hold, where a unit of this place in the order has had any
     int flight_impacts = 0;
     int bulk_impacts = 0;
     bool capped = false;
