@@ -343,16 +343,6 @@ FollowedScene followed_scene(const StepContext& ctx)
             t.speculation};
 }
 
-Manifold manifold_at_start(const SceneState& state, int index)
-{
-    const Contact& contact = state.contacts[index];
-    Manifold m = contact.manifold;
-    if ((contact.flags & contact_flag::followed) != 0)
-        follow(state.kept_manifolds[static_cast<std::size_t>(index)], sim_of(state, contact.body_a),
-               sim_of(state, contact.body_b), contact, m);
-    return m;
-}
-
 Manifold settled_manifold(const SceneState& state, int index)
 {
     const Contact& contact = state.contacts[index];

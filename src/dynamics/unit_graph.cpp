@@ -453,9 +453,8 @@ public:
             t.hangs |= j.a < 0 || j.b < 0;
             t.damped += j.damped ? 1 : 0;
             t.swing = std::max(t.swing, scratch.swings[i]);
+            t.slices = std::max(t.slices, slices_for(scratch.swings[i], slice_swing, slice_limit));
         }
-        for (UnitTally& t : scratch.joint_links.empty() ? std::span<UnitTally>{} : std::span(scratch.tallies))
-            t.slices = std::max(t.slices, slices_for(t.swing, slice_swing, slice_limit));
     }
 
     [[nodiscard]] std::int32_t slices_for(float rate, float most_turn, int limit) const

@@ -4,7 +4,6 @@
 #include "dynamics/joint_bodies.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/kept_manifold.h"
-#include "dynamics/prepare.h"
 #include "dynamics/scene_data.h"
 
 #include <algorithm>

@@ -44,8 +44,7 @@ inline constexpr float surely = 0.999f;
     return (contact.flags & asked) == contact_flag::kept && contact.manifold.count > 0 && in_crowd(state, contact);
 }
 
-/// A contact's manifold, at the poses of the start of this step, or, between steps, of the last: where its row has followed it, it is followed here now.
-[[nodiscard]] Manifold manifold_at_start(const SceneState& state, int contact);
+/// Between steps, a contact's manifold at the poses of the start of the last: where its row has followed it, it is followed here now.
 [[nodiscard]] Manifold settled_manifold(const SceneState& state, int contact);
 
 /// Writes it into the contact: before poses are lost.
