@@ -26,10 +26,10 @@ namespace {
 constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
 constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
-constexpr int most_cells = plane_cells;
-constexpr int cells_to_a_thread = 4;
-constexpr int cell_bits = 40; // behind the point
-constexpr int links_worth_cells = worth_all_threads * lane_count;
+constexpr int most_parts = plane_cells;
+constexpr int links_to_a_part = 2048; // what rows keep of them stays in a cache
+constexpr std::uint8_t no_part = 255; // of what does not give way
+constexpr int bins_to_a_part = 2 * color_limit;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -327,6 +327,7 @@ private:
     void place_rows()
     {
         m_scratch.color_masks.assign(m_scratch.state_bodies.size(), 0);
+        m_scratch.parts.resize(m_scratch.state_bodies.size());
         m_scratch.row_links.clear();
         m_scratch.lane_links.clear();
         m_scratch.impact_rows.clear();
@@ -342,7 +343,7 @@ private:
         unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
         unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
         unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
-        unit.cells = unit.link_count >= links_worth_cells ? cells_for_threads() : 1;
+        find_parts(unit);
         choose_colors(unit);
         give_out_places(unit);
         place_links(unit);
@@ -355,11 +356,36 @@ private:
         unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - unit.first_impact_row;
     }
 
-    // Each takes some; where lanes stand within a colour changes no result.
-    [[nodiscard]] int cells_for_threads() const
+    // Of whole cells of the plane, and about as many bodies to each.
+    void find_parts(Unit& unit)
     {
-        const int threads = m_ctx.scene.def.tasks.worker_count;
-        return threads > 1 ? std::min(cells_to_a_thread * threads, most_cells) : 1;
+        unit.parts = parts_of(unit);
+        if (unit.parts == 0)
+            return;
+        std::fill_n(m_scratch.parts.begin() + unit.first_state, unit.state_count, no_part);
+        const std::int32_t end = unit.first_state + 1 + unit.dynamic_count;
+        for (std::int32_t first = unit.first_state + 1; first < end;)
+        {
+            std::int32_t last = first + 1;
+            while (last < end && cell_of(last) == cell_of(first))
+                ++last;
+            const std::int32_t middle = (first + last) / 2 - unit.first_state - 1;
+            const auto part = static_cast<std::uint8_t>(std::int64_t{middle} * unit.parts / unit.dynamic_count);
+            std::fill(m_scratch.parts.begin() + first, m_scratch.parts.begin() + last, part);
+            first = last;
+        }
+    }
+
+    [[nodiscard]] std::uint8_t cell_of(std::int32_t state) const
+    {
+        return m_state.bodies[m_scratch.state_bodies[as_index(state)]].plane_cell;
+    }
+
+    // Whatever the number of threads: the order in which rows are solved depends on it.
+    [[nodiscard]] static int parts_of(const Unit& unit)
+    {
+        const auto parts = std::bit_floor(static_cast<unsigned>(unit.link_count / links_to_a_part));
+        return is_wide(unit) && parts > 1 ? std::min(static_cast<int>(parts), most_parts) : 0;
     }
 
     // Not what is looked at anew within the step, sliced, or watched for its energy.
@@ -381,9 +407,6 @@ private:
             if (!keeps_color(unit, l))
                 l.color = none;
         }
-        if (unit.cells > 1)
-            m_cells_to_a_state =
-                (static_cast<std::uint64_t>(unit.cells) << cell_bits) / static_cast<std::uint64_t>(unit.dynamic_count);
         for (Link& l : links)
         {
             if (l.color == none)
@@ -420,19 +443,20 @@ private:
         return true;
     }
 
-    // Where in the unit: states stand in the order of the plane. Rounded down, it is never one too many.
-    [[nodiscard]] int cell_of(const Unit& unit, const Link& l) const
+    // The part in which both bodies lie that give way; what crosses from one to another comes behind all parts.
+    [[nodiscard]] int part_of(const Unit& unit, const Link& l) const
     {
-        if (unit.cells == 1)
+        if (unit.parts == 0)
             return 0;
-        const std::int32_t place = (is_dynamic(unit, l.a) ? l.a : l.b) - unit.first_state - 1;
-        return static_cast<int>(static_cast<std::uint64_t>(place) * m_cells_to_a_state >> cell_bits);
+        const std::uint8_t a = m_scratch.parts[as_index(l.a)];
+        const std::uint8_t b = m_scratch.parts[as_index(l.b)];
+        return a == b || b == no_part ? a : a == no_part ? b : unit.parts;
     }
 
-    // Lanes by color and number of points, and by cell; rows by color.
+    // Lanes by part, color and number of points; rows by color.
     [[nodiscard]] std::int16_t bin_of(const Unit& unit, const Link& l) const
     {
-        return l.in_lane ? static_cast<std::int16_t>((2 * l.color + (l.points == 2 ? 0 : 1)) * unit.cells + cell_of(unit, l))
+        return l.in_lane ? static_cast<std::int16_t>(part_of(unit, l) * bins_to_a_part + 2 * l.color + (l.points == 2 ? 0 : 1))
                          : l.color;
     }
 
@@ -474,21 +498,21 @@ private:
 
     void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
 
-    // Eight lanes to a group, each of one colour and one number of points; from cell to cell they go on without a gap.
+    // Eight lanes to a group, each of one part, one colour and one number of points.
     void give_out_places(Unit& unit)
     {
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
-        const auto groups = [&] { return (lane + lane_count - 1) / lane_count - unit.first_wide; };
+        const auto groups = [&] { return lane / lane_count - unit.first_wide; };
         unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
         unit.bin_count = 2 * unit.colors;
-        for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
+        for (std::int32_t part = 0; part <= unit.parts; ++part)
         {
-            for (std::int32_t cell = 0; cell < unit.cells; ++cell)
+            for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
             {
                 m_scratch.bin_starts.push_back(groups());
-                lane += std::exchange(m_bins[bin * unit.cells + cell], lane);
+                lane += std::exchange(m_bins[part * bins_to_a_part + bin], lane);
+                lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
-            lane = (lane + lane_count - 1) / lane_count * lane_count;
         }
         m_scratch.bin_starts.push_back(groups());
         auto row = unit.first_row;
@@ -501,7 +525,7 @@ private:
 
     void clear_bins(const Unit& unit)
     {
-        std::fill_n(m_bins, unit.bin_count * unit.cells, 0);
+        std::fill_n(m_bins, (unit.parts + 1) * bins_to_a_part, 0);
         std::fill_n(m_row_bins, unit.colors, 0);
         m_row_bins[color_limit] = 0;
     }
@@ -640,9 +664,8 @@ private:
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    std::int32_t m_groups = 0;            ///< of wide joints
-    std::uint64_t m_cells_to_a_state = 0; ///< of a unit, times 2^cell_bits
-    std::int32_t m_bins[2 * color_limit * most_cells] = {};
+    std::int32_t m_groups = 0; ///< of wide joints
+    std::int32_t m_bins[(most_parts + 1) * bins_to_a_part] = {};
     std::int32_t m_row_bins[color_limit + 1] = {};
 };
 

@@ -52,13 +52,14 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_bin = 0; ///< where cells of bins of its wide rows begin, and where the last ends, in Scratch::bin_starts
-    std::int32_t bin_count = 0; ///< two to a color
-    std::int32_t cells = 1;     ///< of a bin: what lies in one part of the unit
+    std::int32_t first_bin =
+        0; ///< where bins of its wide rows begin, part by part, and where the last ends, in Scratch::bin_starts
+    std::int32_t bin_count = 0; ///< of each part, and of what crosses from one to another: two to a color
+    std::int32_t parts = 0;     ///< of the plane, that all threads solve side by side
     std::int32_t first_joint_lane = 0;
     std::int32_t joint_lane_count = 0;
     std::int32_t first_joint_bin = 0;
-    std::int32_t joint_bin_count = 0; ///< two to a color, of one cell each
+    std::int32_t joint_bin_count = 0; ///< two to a color
     std::int32_t slices = 1;          ///< of each sub-step
     bool alone = false;               ///< bodies with nothing near, each by itself: they fall
     bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
@@ -379,6 +380,7 @@ struct Scratch
     std::vector<PathPiece> paths; ///< of all units, by body
     std::vector<Crossing> crossings;
     std::vector<std::uint64_t> color_masks;
+    std::vector<std::uint8_t> parts; ///< of the states of units that have some
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;

@@ -1,7 +1,8 @@
 #pragma once
 
-// Wide rows of a unit stand in bins, two to a colour. A bin is cut into cells: what lies in one part of the plane. Members of a crew take the same cells of
-// all bins, so that each keeps to its own bodies.
+// Wide rows of a unit stand in bins, two to a colour. A large unit is cut into parts of the plane, each with bins of its own: no two parts share a body that
+// gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another comes behind them all, colour
+// by colour.
 
 #include "core/crew.h"
 #include "dynamics/step_context.h"
@@ -11,42 +12,46 @@ namespace carom::internal {
 class UnitBins
 {
 public:
-    UnitBins(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t count, std::int32_t cells)
-        : m_starts(starts.data() + first), m_count(count), m_cells(cells)
+    /// `bins` of each part, and of what crosses.
+    UnitBins(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t parts, std::int32_t bins)
+        : m_starts(starts.data() + first), m_parts(parts), m_bins(bins)
     {}
 
-    /// Calls pass(first, last) for groups, colour by colour: within one no two share a body that gives way.
+    /// Calls pass(first, last) for groups of one bin, of which no two share a body that gives way. What threads do side by side shares none either.
     template <class Pass>
-    void by_color(Crew& crew, const Pass& pass) const
+    void by_color(Crew& crew, const Pass& pass)
     {
-        if (!crew.has_helpers())
-        {
-            of_bins(crew, 0, m_count, pass);
-            return;
-        }
-        for (int bin = 0; bin < m_count;)
-        {
-            int next = bin + 2;
-            if (is_small(bin, next))
-            { // with others as small, one after the other
-                while (next < m_count && is_small(next, next + 2))
-                    next += 2;
-                if (start(bin) < start(next))
-                    pass(start(bin), start(next));
-            }
-            else
-            {
-                of_bins(crew, bin, next, pass);
-            }
-            bin = next;
-        }
+        m_backwards = !m_backwards;
+        if (m_parts > 0)
+            crew.in_parts([&](int member, int members) { solve_parts(member, members, pass); });
+        for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; bin += 2)
+            share_color(crew, bin, pass);
     }
 
-    /// In any order.
+    /// Calls pass(first, last) for groups in any order, each by the member that solves it.
     template <class Pass>
     void all(Crew& crew, const Pass& pass) const
     {
-        of_bins(crew, 0, m_count, pass);
+        const auto those = [&](int first, int last)
+        {
+            if (first < last)
+                pass(first, last);
+        };
+        const int crossing = m_parts * m_bins;
+        const int end = crossing + m_bins;
+        if (is_small(0, end))
+        {
+            those(0, start(end));
+            return;
+        }
+        const auto share_of = [&](int member, int members)
+        { return start(crossing) + Crew::bound(start(end) - start(crossing), member, members); };
+        crew.in_parts(
+            [&](int member, int members)
+            {
+                those(start(bound(member, members)), start(bound(member + 1, members)));
+                those(share_of(member, members), share_of(member + 1, members));
+            });
     }
 
     /// Calls visit(group), each by the member that solves it.
@@ -64,54 +69,74 @@ public:
 private:
     static constexpr int enough_groups = 12; // to share
 
+    // To and fro: a pass begins with the parts that the last one has left in the cache.
     template <class Pass>
-    void of_bins(Crew& crew, int first_bin, int last_bin, const Pass& pass) const
+    void solve_parts(int member, int members, const Pass& pass) const
     {
-        if (!crew.has_helpers() || is_small(first_bin, last_bin))
+        const int first = Crew::bound(m_parts, member, members);
+        const int last = Crew::bound(m_parts, member + 1, members);
+        for (int i = first; i < last; ++i)
         {
-            if (start(first_bin) < start(last_bin))
-                pass(start(first_bin), start(last_bin));
+            const int part = m_backwards ? first + last - 1 - i : i;
+            one_by_one(part * m_bins, (part + 1) * m_bins, pass);
+        }
+    }
+
+    template <class Pass>
+    void one_by_one(int first_bin, int last_bin, const Pass& pass) const
+    {
+        for (int bin = first_bin; bin < last_bin; ++bin)
+        {
+            if (start(bin) < start(bin + 1))
+                pass(start(bin), start(bin + 1));
+        }
+    }
+
+    template <class Pass>
+    void share_color(Crew& crew, int first_bin, const Pass& pass) const
+    {
+        if (!crew.has_helpers() || is_small(first_bin, first_bin + 2))
+        {
+            one_by_one(first_bin, first_bin + 2, pass);
             return;
         }
         crew.in_parts(
-            [&](int part, int parts)
+            [&](int member, int members)
             {
-                for (int bin = first_bin; bin < last_bin; ++bin)
+                for (int bin = first_bin; bin < first_bin + 2; ++bin)
                 {
-                    const int begin = start(bin, part, parts);
-                    const int end = start(bin, part + 1, parts);
+                    const int count = start(bin + 1) - start(bin);
+                    const int begin = start(bin) + Crew::bound(count, member, members);
+                    const int end = start(bin) + Crew::bound(count, member + 1, members);
                     if (begin < end)
                         pass(begin, end);
                 }
             });
     }
 
+    // Where the bins of a member's parts begin.
+    [[nodiscard]] int bound(int member, int members) const { return Crew::bound(m_parts, member, members) * m_bins; }
     [[nodiscard]] bool is_small(int first_bin, int last_bin) const { return start(last_bin) - start(first_bin) < enough_groups; }
-    [[nodiscard]] int start(int bin) const { return m_starts[bin * m_cells]; }
-    // Parts are made of whole cells, where there are any.
-    [[nodiscard]] int start(int bin, int part, int parts) const
-    {
-        return m_cells > 1 ? m_starts[bin * m_cells + Crew::bound(m_cells, part, parts)]
-                           : start(bin) + Crew::bound(start(bin + 1) - start(bin), part, parts);
-    }
+    [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
 
-    const std::int32_t* m_starts; ///< of each cell; and where the last ends
-    int m_count;
-    int m_cells;
+    const std::int32_t* m_starts; ///< and where the last ends
+    int m_parts;
+    int m_bins;
+    bool m_backwards = false;
 };
 
-/// Groups that are worth all threads: with fewer, waiting at the end of each colour costs more than a second thread gains.
-inline constexpr int worth_all_threads = 1536;
-[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.wide_count + unit.wide_joint_count >= worth_all_threads; }
+/// Hinges that are worth all threads: with fewer, waiting at the end of each colour costs more than a second thread gains.
+inline constexpr int worth_all_threads = 1536; // groups
+[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.parts > 0 || unit.wide_joint_count >= worth_all_threads; }
 
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
-    return {scratch.bin_starts, unit.first_bin, unit.bin_count, unit.cells};
+    return {scratch.bin_starts, unit.first_bin, unit.parts, unit.bin_count};
 }
 
 [[nodiscard]] inline UnitBins joint_bins(const Scratch& scratch, const Unit& unit)
 {
-    return {scratch.joint_bin_starts, unit.first_joint_bin, unit.joint_bin_count, 1};
+    return {scratch.joint_bin_starts, unit.first_joint_bin, 0, unit.joint_bin_count};
 }
 
 } // namespace carom::internal
