@@ -2,73 +2,155 @@
 
 namespace contacts {
 
+// How passes read and write: of one group, with F8, or of two that stand one after the other and share no body that gives way, with Twice<F8>. Of two, what is
+// named is the first one's; the second one's is a row further on.
+template <class F>
+struct Rows;
+
+template <>
+struct Rows<F8>
+{
+    static CAROM_INLINE F8 read(const LaneFloats& a) { return load(a); }
+    static CAROM_INLINE I8 read(const LaneInts& a) { return load(a); }
+    static CAROM_INLINE void write(LaneFloats& a, F8 x) { store(a, x); }
+    static CAROM_INLINE Speeds<F8> speeds(const BodyState* states, const LaneInts& index) { return speeds_of(states, index); }
+    static CAROM_INLINE Poses<F8> poses(const BodyState* states, const LaneInts& index) { return poses_of(states, index); }
+    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F8>& v, const std::uint32_t& fixed)
+    {
+        put(states, index, v, fixed);
+    }
+};
+
+template <>
+struct Rows<Twice<F8>>
+{
+    using F = Twice<F8>;
+
+    template <class Field>
+    static CAROM_INLINE Field& next(Field& a)
+    {
+        using Byte = std::conditional_t<std::is_const_v<Field>, const char, char>;
+        return *reinterpret_cast<Field*>(reinterpret_cast<Byte*>(&a) + sizeof(WideRow));
+    }
+
+    static CAROM_INLINE F read(const LaneFloats& a) { return {load(a), load(next(a))}; }
+    static CAROM_INLINE Twice<I8> read(const LaneInts& a) { return {load(a), load(next(a))}; }
+    static CAROM_INLINE void write(LaneFloats& a, F x)
+    {
+        store(a, x.first);
+        store(next(a), x.second);
+    }
+    static CAROM_INLINE Speeds<F> speeds(const BodyState* states, const LaneInts& index)
+    {
+        const Speeds<F8> a = speeds_of(states, index);
+        const Speeds<F8> b = speeds_of(states, next(index));
+        return {{a.x, b.x}, {a.y, b.y}, {a.w, b.w}, {a.flags, b.flags}};
+    }
+    static CAROM_INLINE Poses<F> poses(const BodyState* states, const LaneInts& index)
+    {
+        const Poses<F8> a = poses_of(states, index);
+        const Poses<F8> b = poses_of(states, next(index));
+        return {{a.x, b.x}, {a.y, b.y}, {a.c, b.c}, {a.s, b.s}};
+    }
+    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F>& v, const std::uint32_t& fixed)
+    {
+        put(states, index, {v.x.first, v.y.first, v.w.first, v.flags.first}, fixed);
+        put(states, next(index), {v.x.second, v.y.second, v.w.second, v.flags.second}, next(fixed));
+    }
+};
+
+template <class F>
+CAROM_INLINE F read(const LaneFloats& a)
+{
+    return Rows<F>::read(a);
+}
+
+template <class F>
+CAROM_INLINE void write(LaneFloats& a, F x)
+{
+    Rows<F>::write(a, x);
+}
+
+// Calls pass(group, F()) for groups of a bin, two at a time as long as there are two.
+template <class Pass>
+CAROM_INLINE void for_each_group(std::int32_t count, const Pass& pass)
+{
+    std::int32_t i = 0;
+    for (; i + 1 < count; i += 2)
+        pass(i, Twice<F8>());
+    if (i < count)
+        pass(i, F8());
+}
+
 // The bodies of a group and their relative velocity in the contact's frame.
+template <class F>
 struct Group
 {
-    F8 nx, ny, mass_a, mass_b, inertia_a, inertia_b, mass;
-    Speeds a, b;
-    F8 vn, vt; ///< of b's center against a's
-    F8 pn, pt; ///< impulses of this pass
+    F nx, ny, mass_a, mass_b, inertia_a, inertia_b, mass;
+    Speeds<F> a, b;
+    F vn, vt; ///< of b's center against a's
+    F pn, pt; ///< impulses of this pass
 
     CAROM_INLINE Group(const WideRow& row, const BodyState* states)
     {
-        nx = load(row.nx);
-        ny = load(row.ny);
-        mass_a = load(row.inverse_mass_a);
-        mass_b = load(row.inverse_mass_b);
-        inertia_a = load(row.inverse_inertia_a);
-        inertia_b = load(row.inverse_inertia_b);
+        nx = read<F>(row.nx);
+        ny = read<F>(row.ny);
+        mass_a = read<F>(row.inverse_mass_a);
+        mass_b = read<F>(row.inverse_mass_b);
+        inertia_a = read<F>(row.inverse_inertia_a);
+        inertia_b = read<F>(row.inverse_inertia_b);
         mass = mass_a + mass_b;
-        a = speeds_of(states, row.a);
-        b = speeds_of(states, row.b);
-        const F8 dx = b.x - a.x;
-        const F8 dy = b.y - a.y;
+        a = Rows<F>::speeds(states, row.a);
+        b = Rows<F>::speeds(states, row.b);
+        const F dx = b.x - a.x;
+        const F dy = b.y - a.y;
         vn = dx * nx + dy * ny;
         vt = dy * nx - dx * ny;
-        pn = pt = all(0);
+        pn = pt = all<F>(0);
     }
 
-    CAROM_INLINE F8 normal_speed(const WidePoint& p) const { return vn + load(p.across_b) * b.w - load(p.across_a) * a.w; }
-    CAROM_INLINE F8 tangent_speed(const WidePoint& p) const { return vt + load(p.along_b) * b.w - load(p.along_a) * a.w; }
+    CAROM_INLINE F normal_speed(const WidePoint& p) const { return vn + read<F>(p.across_b) * b.w - read<F>(p.across_a) * a.w; }
+    CAROM_INLINE F tangent_speed(const WidePoint& p) const { return vt + read<F>(p.along_b) * b.w - read<F>(p.along_a) * a.w; }
 
-    CAROM_INLINE void push(const WidePoint& p, F8 impulse)
+    CAROM_INLINE void push(const WidePoint& p, F impulse)
     {
         vn += mass * impulse;
-        a.w -= inertia_a * load(p.across_a) * impulse;
-        b.w += inertia_b * load(p.across_b) * impulse;
+        a.w -= inertia_a * read<F>(p.across_a) * impulse;
+        b.w += inertia_b * read<F>(p.across_b) * impulse;
         pn += impulse;
     }
 
-    CAROM_INLINE void rub(const WidePoint& p, F8 impulse)
+    CAROM_INLINE void rub(const WidePoint& p, F impulse)
     {
         vt += mass * impulse;
-        a.w -= inertia_a * load(p.along_a) * impulse;
-        b.w += inertia_b * load(p.along_b) * impulse;
+        a.w -= inertia_a * read<F>(p.along_a) * impulse;
+        b.w += inertia_b * read<F>(p.along_b) * impulse;
         pt += impulse;
     }
 
     CAROM_INLINE void finish(const WideRow& row, BodyState* states)
     {
-        const F8 px = pn * nx - pt * ny;
-        const F8 py = pn * ny + pt * nx;
+        const F px = pn * nx - pt * ny;
+        const F py = pn * ny + pt * nx;
         a.x -= mass_a * px;
         a.y -= mass_a * py;
         b.x += mass_b * px;
         b.y += mass_b * py;
-        put(states, row.a, a, row.fixed_a);
-        put(states, row.b, b, row.fixed_b);
+        Rows<F>::put_speeds(states, row.a, a, row.fixed_a);
+        Rows<F>::put_speeds(states, row.b, b, row.fixed_b);
     }
 };
 
 // n · (displacement of the anchors): the centers' and, with c and s the cosine and sine of the turn, n · (R r - r).
+template <class F>
 struct Displacement
 {
-    F8 centers, turned_a, turned_b, sin_a, sin_b;
+    F centers, turned_a, turned_b, sin_a, sin_b;
 
-    CAROM_INLINE Displacement(const WideRow& row, const Group& g, const BodyState* states)
+    CAROM_INLINE Displacement(const WideRow& row, const Group<F>& g, const BodyState* states)
     {
-        const Poses a = poses_of(states, row.a);
-        const Poses b = poses_of(states, row.b);
+        const Poses<F> a = Rows<F>::poses(states, row.a);
+        const Poses<F> b = Rows<F>::poses(states, row.b);
         centers = (b.x - a.x) * g.nx + (b.y - a.y) * g.ny;
         turned_a = a.c - 1;
         turned_b = b.c - 1;
@@ -76,111 +158,140 @@ struct Displacement
         sin_b = b.s;
     }
 
-    CAROM_INLINE F8 separation(const WidePoint& p) const
+    CAROM_INLINE F separation(const WidePoint& p) const
     {
-        return load(p.base) + centers + (turned_b * load(p.along_b) + sin_b * load(p.across_b)) -
-               (turned_a * load(p.along_a) + sin_a * load(p.across_a));
+        return read<F>(p.base) + centers + (turned_b * read<F>(p.along_b) + sin_b * read<F>(p.across_b)) -
+               (turned_a * read<F>(p.along_a) + sin_a * read<F>(p.across_a));
     }
 };
 
+template <class F>
 struct Soft
 {
-    F8 bias_rate, give;
+    F bias_rate, give;
 
     CAROM_INLINE Soft(const WideRow& row, const WideSoftness& s)
     {
-        const I8 stiff = load(row.stiff);
-        bias_rate = select(stiff, all(s.stiff.bias_rate), all(s.contact.bias_rate));
-        give = select(stiff, all(1 / s.stiff.mass_scale), all(1 / s.contact.mass_scale));
+        const auto stiff = Rows<F>::read(row.stiff);
+        bias_rate = select(stiff, all<F>(s.stiff.bias_rate), all<F>(s.contact.bias_rate));
+        give = select(stiff, all<F>(1 / s.stiff.mass_scale), all<F>(1 / s.contact.mass_scale));
     }
 };
 
 // What a normal is solved for: its speed should become -bias, give = 1 / mass_scale is the softness.
+template <class F>
 struct Target
 {
-    F8 speed, bias, give;
+    F speed, bias, give;
 };
 
-CAROM_INLINE Target target_of(const Group& g, const WidePoint& p, const Soft& soft, const WideSoftness& s)
+template <class F>
+CAROM_INLINE Target<F> target_of(const Group<F>& g, const WidePoint& p, const Soft<F>& soft, const WideSoftness& s)
 {
-    const F8 separation = load(p.separation);
-    const I8 apart = separation > all(0);
-    return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, all(-s.push_speed))),
-            select(apart, all(1), soft.give)};
+    const F separation = read<F>(p.separation);
+    const auto apart = separation > all<F>(0);
+    return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, all<F>(-s.push_speed))),
+            select(apart, all<F>(1), soft.give)};
 }
 
 // At new poses, which stay until the next sub-step's turn.
-CAROM_INLINE Target relaxed(const Group& g, WidePoint& p, const Displacement& d, const WideSoftness& s)
+template <class F>
+CAROM_INLINE Target<F> relaxed(const Group<F>& g, WidePoint& p, const Displacement<F>& d, const WideSoftness& s)
 {
-    const F8 separation = d.separation(p);
-    store(p.separation, separation);
-    return {g.normal_speed(p), greatest(separation, all(0)) * s.inverse_h, all(1)};
+    const F separation = d.separation(p);
+    write(p.separation, separation);
+    return {g.normal_speed(p), greatest(separation, all<F>(0)) * s.inverse_h, all<F>(1)};
 }
 
-CAROM_INLINE F8 set_normal(Group& g, WidePoint& p, F8 old, F8 impulse)
+template <class F>
+CAROM_INLINE F set_normal(Group<F>& g, WidePoint& p, F old, F impulse)
 {
-    store(p.normal_impulse, impulse);
+    write(p.normal_impulse, impulse);
     g.push(p, impulse - old);
     return impulse;
 }
 
-CAROM_INLINE void solve_normal(Group& g, WidePoint& p, const Target& t)
+template <class F>
+CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const Target<F>& t)
 {
     // k give x + (speed + bias - k old) = 0, x >= 0: softness is compliance beside k.
-    const F8 k = load(p.k);
-    const F8 old = load(p.normal_impulse);
-    set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), all(0)));
+    const F k = read<F>(p.k);
+    const F old = read<F>(p.normal_impulse);
+    set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), all<F>(0)));
 }
 
 // Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account and stacks lean.
 // A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
-CAROM_INLINE void solve_normals(Group& g, WideRow& row, const Target& t1, const Target& t2)
+template <class F>
+CAROM_INLINE void solve_normals(Group<F>& g, WideRow& row, const Target<F>& t1, const Target<F>& t2)
 {
     WidePoint& p = row.points[0];
     WidePoint& q = row.points[1];
-    const F8 k11 = load(p.k);
-    const F8 k22 = load(q.k);
-    const F8 k12 = load(row.coupling);
-    const F8 old1 = load(p.normal_impulse);
-    const F8 old2 = load(q.normal_impulse);
-    const F8 a11 = k11 * t1.give;
-    const F8 a22 = k22 * t2.give;
-    const F8 b1 = t1.speed + t1.bias - (k11 * old1 + k12 * old2);
-    const F8 b2 = t2.speed + t2.bias - (k12 * old1 + k22 * old2);
-    const F8 inverse_det = all(1) / (a11 * a22 - k12 * k12);
-    const F8 both1 = inverse_det * (k12 * b2 - a22 * b1);
-    const F8 both2 = inverse_det * (k12 * b1 - a11 * b2);
-    const F8 only1 = greatest(-b1 / a11, all(0));
-    const F8 only2 = greatest(-b2 / a22, all(0));
-    const I8 second_sinks = k12 * only1 + b2 < all(0);
-    const I8 both = (both1 >= all(0)) & (both2 >= all(0));
-    set_normal(g, p, old1, select(both, both1, select(second_sinks, all(0), only1)));
-    set_normal(g, q, old2, select(both, both2, select(second_sinks, only2, all(0))));
+    const F k11 = read<F>(p.k);
+    const F k22 = read<F>(q.k);
+    const F k12 = read<F>(row.coupling);
+    const F old1 = read<F>(p.normal_impulse);
+    const F old2 = read<F>(q.normal_impulse);
+    const F a11 = k11 * t1.give;
+    const F a22 = k22 * t2.give;
+    const F b1 = t1.speed + t1.bias - (k11 * old1 + k12 * old2);
+    const F b2 = t2.speed + t2.bias - (k12 * old1 + k22 * old2);
+    const F inverse_det = all<F>(1) / (a11 * a22 - k12 * k12);
+    const F both1 = inverse_det * (k12 * b2 - a22 * b1);
+    const F both2 = inverse_det * (k12 * b1 - a11 * b2);
+    const F only1 = greatest(-b1 / a11, all<F>(0));
+    const F only2 = greatest(-b2 / a22, all<F>(0));
+    const auto second_sinks = k12 * only1 + b2 < all<F>(0);
+    const auto both = (both1 >= all<F>(0)) & (both2 >= all<F>(0));
+    set_normal(g, p, old1, select(both, both1, select(second_sinks, all<F>(0), only1)));
+    set_normal(g, q, old2, select(both, both2, select(second_sinks, only2, all<F>(0))));
 }
 
-CAROM_INLINE F8 solve_friction(Group& g, WidePoint& p, F8 friction)
+template <class F>
+CAROM_INLINE F solve_friction(Group<F>& g, WidePoint& p, F friction)
 {
-    const F8 limit = friction * load(p.normal_impulse);
-    const F8 old = load(p.tangent_impulse);
-    const F8 updated = clamp(old - load(p.tangent_mass) * g.tangent_speed(p), -limit, limit);
-    store(p.tangent_impulse, updated);
+    const F limit = friction * read<F>(p.normal_impulse);
+    const F old = read<F>(p.tangent_impulse);
+    const F updated = clamp(old - read<F>(p.tangent_mass) * g.tangent_speed(p), -limit, limit);
+    write(p.tangent_impulse, updated);
     g.rub(p, updated - old);
     return updated;
 }
 
-template <int points>
+template <class F, int points>
 CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftness& s)
 {
-    Group g(row, states);
-    const Soft soft(row, s);
-    const Target t = target_of(g, row.points[0], soft, s);
+    Group<F> g(row, states);
+    const Soft<F> soft(row, s);
+    const Target<F> t = target_of(g, row.points[0], soft, s);
     if (points == 2)
         solve_normals(g, row, t, target_of(g, row.points[1], soft, s));
     else
         solve_normal(g, row.points[0], t);
-    const F8 friction = load(row.friction);
+    const F friction = read<F>(row.friction);
     for (int i = 0; i < points; ++i)
         solve_friction(g, row.points[i], friction);
+    g.finish(row, states);
+}
+
+template <class F, int points>
+CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
+{
+    Group<F> g(row, states);
+    const Displacement<F> d(row, g, states);
+    const Target<F> t = relaxed(g, row.points[0], d, s);
+    if (points == 2)
+        solve_normals(g, row, t, relaxed(g, row.points[1], d, s));
+    else
+        solve_normal(g, row.points[0], t);
+    for (int i = 0; i < points; ++i)
+        write(row.points[i].total_impulse, read<F>(row.points[i].total_impulse) + s.share * read<F>(row.points[i].normal_impulse));
+    const F friction = read<F>(row.friction);
+    for (int i = 0; i < points; ++i)
+    {
+        const F tangent = solve_friction(g, row.points[i], friction);
+        write(row.points[i].total_tangent, read<F>(row.points[i].total_tangent) + s.share * tangent);
+    }
     g.finish(row, states);
 }
 
@@ -216,68 +327,48 @@ CAROM_INLINE std::uint8_t struck_lanes(WideRow& row, const BodySpeeds* before, f
     return static_cast<std::uint8_t>((loaded & row.untold) | (bits(struck) & row.may_hit));
 }
 
-template <int points>
-CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
+template <class F>
+CAROM_INLINE void warm_start_group(WideRow& row, BodyState* states)
 {
-    Group g(row, states);
-    const Displacement d(row, g, states);
-    const Target t = relaxed(g, row.points[0], d, s);
-    if (points == 2)
-        solve_normals(g, row, t, relaxed(g, row.points[1], d, s));
-    else
-        solve_normal(g, row.points[0], t);
-    for (int i = 0; i < points; ++i)
-        store(row.points[i].total_impulse, load(row.points[i].total_impulse) + s.share * load(row.points[i].normal_impulse));
-    const F8 friction = load(row.friction);
-    for (int i = 0; i < points; ++i)
+    Group<F> g(row, states);
+    for (int i = 0; i < row.count; ++i)
     {
-        const F8 tangent = solve_friction(g, row.points[i], friction);
-        store(row.points[i].total_tangent, load(row.points[i].total_tangent) + s.share * tangent);
+        g.push(row.points[i], read<F>(row.points[i].normal_impulse));
+        g.rub(row.points[i], read<F>(row.points[i].tangent_impulse));
     }
     g.finish(row, states);
 }
 
+template <int points>
+void solve_bin(WideRow* rows, std::int32_t count, BodyState* states, WideSoftness s)
+{
+    for_each_group(count, [&](int i, auto lanes) { solve_group<decltype(lanes), points>(rows[i], states, s); });
+}
+
+template <int points>
+void relax_bin(WideRow* rows, std::int32_t count, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
+{
+    for_each_group(count, [&](int i, auto lanes) { relax_group<decltype(lanes), points>(rows[i], states, s); });
+    for (int i = 0; i < count; ++i)
+        struck[i] = struck_lanes<points>(rows[i], before, s.rest_speed);
+}
+
 void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
 {
-    for (WideRow* row = rows; row < rows + count; ++row)
-    {
-        Group g(*row, states);
-        for (int i = 0; i < row->count; ++i)
-        {
-            g.push(row->points[i], load(row->points[i].normal_impulse));
-            g.rub(row->points[i], load(row->points[i].tangent_impulse));
-        }
-        g.finish(*row, states);
-    }
+    for_each_group(count, [&](int i, auto lanes) { warm_start_group<decltype(lanes)>(rows[i], states); });
 }
 
 void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s)
 {
-    for (WideRow* row = rows; row < rows + count; ++row)
-    {
-        if (row->count == 2)
-            solve_group<2>(*row, states, s);
-        else
-            solve_group<1>(*row, states, s);
-    }
+    const auto solve_points = rows->count == 2 ? solve_bin<2> : solve_bin<1>;
+    solve_points(rows, count, states, s);
 }
 
 void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
            std::uint8_t* struck)
 {
-    for (WideRow* row = rows; row < rows + count; ++row, ++struck)
-    {
-        if (row->count == 2)
-        {
-            relax_group<2>(*row, states, s);
-            *struck = struck_lanes<2>(*row, before, s.rest_speed);
-        }
-        else
-        {
-            relax_group<1>(*row, states, s);
-            *struck = struck_lanes<1>(*row, before, s.rest_speed);
-        }
-    }
+    const auto relax_points = rows->count == 2 ? relax_bin<2> : relax_bin<1>;
+    relax_points(rows, count, states, s, before, struck);
 }
 
 } // namespace contacts

@@ -60,7 +60,7 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
 struct Hinge
 {
     F8 mass_a, mass_b, inertia_a, inertia_b;
-    Speeds a, b;
+    Speeds<F8> a, b;
     F8 ax, ay, bx, by; ///< arms now
 
     CAROM_INLINE Hinge(const WideJoint& j, const BodyState* states)
@@ -113,8 +113,8 @@ CAROM_INLINE F8 angle_of(F8 c, F8 s)
 // Bodies have come to new poses.
 CAROM_INLINE void place(WideJoint& j, const BodyState* states)
 {
-    const Poses a = poses_of(states, j.a);
-    const Poses b = poses_of(states, j.b);
+    const Poses<F8> a = poses_of(states, j.a);
+    const Poses<F8> b = poses_of(states, j.b);
     const F8 ax0 = load(j.start.ax);
     const F8 ay0 = load(j.start.ay);
     const F8 bx0 = load(j.start.bx);

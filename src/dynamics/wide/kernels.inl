@@ -14,38 +14,40 @@ namespace carom::internal::CAROM_ISA {
 
 namespace {
 
-// What eight bodies have now.
+// What bodies have now: eight of them, or twice eight.
+template <class F>
 struct Speeds
 {
-    F8 x, y, w, flags;
+    F x, y, w, flags;
 };
 
+template <class F>
 struct Poses
 {
-    F8 x, y, c, s;
+    F x, y, c, s;
 };
 
 static_assert(sizeof(BodyState) == 32 && offsetof(BodyState, delta_position) == 16);
 
 // Of BodyState or BodySpeeds: both begin with them.
 template <class Body>
-CAROM_INLINE Speeds speeds_of(const Body* bodies, const LaneInts& index)
+CAROM_INLINE Speeds<F8> speeds_of(const Body* bodies, const LaneInts& index)
 {
     static_assert(offsetof(Body, velocity) == 0 && offsetof(Body, angular_velocity) == 8);
-    Speeds v;
+    Speeds<F8> v;
     gather4([&](int i) { return reinterpret_cast<const char*>(bodies + index.v[i]); }, v.x, v.y, v.w, v.flags);
     return v;
 }
 
-CAROM_INLINE Poses poses_of(const BodyState* states, const LaneInts& index)
+CAROM_INLINE Poses<F8> poses_of(const BodyState* states, const LaneInts& index)
 {
-    Poses p;
+    Poses<F8> p;
     gather4([&](int i) { return reinterpret_cast<const char*>(states + index.v[i]) + 16; }, p.x, p.y, p.c, p.s);
     return p;
 }
 
 // Several groups, on several threads, may share a body that does not give way: it is not written.
-CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds& v, unsigned fixed)
+CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds<F8>& v, unsigned fixed)
 {
     const auto at = [&](int i) { return reinterpret_cast<char*>(states + index.v[i]); };
     if (fixed == 0)

@@ -31,8 +31,8 @@ std::int32_t move(BodyState* states, std::int32_t count, float h)
     {
         const auto at = [&](int i) { return reinterpret_cast<char*>(states + first + i); };
         const auto pose_at = [&](int i) { return at(i) + 16; };
-        Speeds v;
-        Poses p;
+        Speeds<F8> v;
+        Poses<F8> p;
         gather4(at, v.x, v.y, v.w, v.flags);
         gather4(pose_at, p.x, p.y, p.c, p.s);
         const F8 angle = h * v.w;

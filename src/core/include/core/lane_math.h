@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace carom::internal {
 
@@ -127,5 +128,47 @@ CAROM_INLINE void scatter4(const At& at, F8 x, F8 y, F8 z, F8 w)
     split(2, 6, r2);
     split(3, 7, r3);
 }
+
+/// Two eights in flight: while the one waits for its last result, the other is calculated. A kernel written for F lanes, F8 or Twice<F8>, does the same
+/// to each. V is F8 or I8.
+template <class V>
+struct Twice
+{
+    V first;
+    V second;
+
+    CAROM_INLINE Twice() = default;
+    CAROM_INLINE Twice(V a, V b) : first(a), second(b) {}
+    CAROM_INLINE Twice(float x) : first(all(x)), second(all(x)) {}
+
+    friend CAROM_INLINE Twice operator+(Twice a, Twice b) { return {a.first + b.first, a.second + b.second}; }
+    friend CAROM_INLINE Twice operator-(Twice a, Twice b) { return {a.first - b.first, a.second - b.second}; }
+    friend CAROM_INLINE Twice operator*(Twice a, Twice b) { return {a.first * b.first, a.second * b.second}; }
+    friend CAROM_INLINE Twice operator/(Twice a, Twice b) { return {a.first / b.first, a.second / b.second}; }
+    friend CAROM_INLINE Twice operator&(Twice a, Twice b) { return {a.first & b.first, a.second & b.second}; }
+    friend CAROM_INLINE Twice operator-(Twice a) { return {-a.first, -a.second}; }
+    friend CAROM_INLINE Twice<I8> operator<(Twice a, Twice b) { return {a.first < b.first, a.second < b.second}; }
+    friend CAROM_INLINE Twice<I8> operator>(Twice a, Twice b) { return {a.first > b.first, a.second > b.second}; }
+    friend CAROM_INLINE Twice<I8> operator>=(Twice a, Twice b) { return {a.first >= b.first, a.second >= b.second}; }
+    CAROM_INLINE Twice& operator+=(Twice b) { return *this = *this + b; }
+    CAROM_INLINE Twice& operator-=(Twice b) { return *this = *this - b; }
+};
+
+template <class F>
+CAROM_INLINE F all(float x)
+{
+    if constexpr (std::is_same_v<F, F8>)
+        return all(x);
+    else
+        return F(x);
+}
+
+CAROM_INLINE Twice<F8> select(Twice<I8> mask, Twice<F8> a, Twice<F8> b)
+{
+    return {select(mask.first, a.first, b.first), select(mask.second, a.second, b.second)};
+}
+CAROM_INLINE Twice<F8> least(Twice<F8> a, Twice<F8> b) { return {least(a.first, b.first), least(a.second, b.second)}; }
+CAROM_INLINE Twice<F8> greatest(Twice<F8> a, Twice<F8> b) { return {greatest(a.first, b.first), greatest(a.second, b.second)}; }
+CAROM_INLINE Twice<F8> clamp(Twice<F8> x, Twice<F8> low, Twice<F8> high) { return least(greatest(x, low), high); }
 
 } // namespace carom::internal
