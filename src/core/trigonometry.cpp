@@ -109,7 +109,7 @@ double exponential(double x)
     const double r = (x - static_cast<double>(n) * ln2_high) - static_cast<double>(n) * ln2_low;
     double sum = 1;
     for (int k = 14; k >= 1; --k)
-        sum = 1 + sum * r / k;
+        sum = 1 + sum * (r * (1.0 / k));
     return sum * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52);
 }
 
