@@ -443,7 +443,7 @@ private:
         return true;
     }
 
-    // The part in which both bodies lie that give way; what crosses from one to another comes behind all parts.
+    // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
     [[nodiscard]] int part_of(const Unit& unit, const Link& l) const
     {
         if (unit.parts == 0)

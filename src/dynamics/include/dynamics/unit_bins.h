@@ -1,8 +1,8 @@
 #pragma once
 
 // Wide rows of a unit stand in bins, two to a colour. A large unit is cut into parts of the plane, each with bins of its own: no two parts share a body that
-// gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another comes behind them all, colour
-// by colour.
+// gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another has bins behind all parts' and
+// is solved before them, colour by colour.
 
 #include "core/crew.h"
 #include "dynamics/step_context.h"
@@ -22,10 +22,10 @@ public:
     void by_color(Crew& crew, const Pass& pass)
     {
         m_backwards = !m_backwards;
-        if (m_parts > 0)
-            crew.in_parts([&](int member, int members) { solve_parts(member, members, pass); });
         for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; bin += 2)
             share_color(crew, bin, pass);
+        if (m_parts > 0)
+            crew.in_parts([&](int member, int members) { solve_parts(member, members, pass); });
     }
 
     /// Calls pass(first, last) for groups in any order, each by the member that solves it.
