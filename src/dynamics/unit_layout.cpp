@@ -366,8 +366,9 @@ private:
         const std::int32_t end = unit.first_state + 1 + unit.dynamic_count;
         for (std::int32_t first = unit.first_state + 1; first < end;)
         {
+            const std::uint8_t cell = cell_of(first);
             std::int32_t last = first + 1;
-            while (last < end && cell_of(last) == cell_of(first))
+            while (last < end && cell_of(last) == cell)
                 ++last;
             const std::int32_t middle = (first + last) / 2 - unit.first_state - 1;
             const auto part = static_cast<std::uint8_t>(std::int64_t{middle} * unit.parts / unit.dynamic_count);
@@ -525,7 +526,8 @@ private:
 
     void clear_bins(const Unit& unit)
     {
-        std::fill_n(m_bins, (unit.parts + 1) * bins_to_a_part, 0);
+        for (std::int32_t part = 0; part <= unit.parts; ++part)
+            std::fill_n(m_bins + part * bins_to_a_part, unit.bin_count, 0);
         std::fill_n(m_row_bins, unit.colors, 0);
         m_row_bins[color_limit] = 0;
     }

@@ -204,11 +204,10 @@ CAROM_INLINE Target<F> relaxed(const Group<F>& g, WidePoint& p, const Displaceme
 }
 
 template <class F>
-CAROM_INLINE F set_normal(Group<F>& g, WidePoint& p, F old, F impulse)
+CAROM_INLINE void set_normal(Group<F>& g, WidePoint& p, F old, F impulse)
 {
     write(p.normal_impulse, impulse);
     g.push(p, impulse - old);
-    return impulse;
 }
 
 template <class F>

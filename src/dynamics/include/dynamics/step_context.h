@@ -52,8 +52,7 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_bin =
-        0; ///< where bins of its wide rows begin, part by part, and where the last ends, in Scratch::bin_starts
+    std::int32_t first_bin = 0; ///< of its wide rows, part by part, in Scratch::bin_starts; and where the last ends
     std::int32_t bin_count = 0; ///< of each part, and of what crosses from one to another: two to a color
     std::int32_t parts = 0;     ///< of the plane, that all threads solve side by side
     std::int32_t first_joint_lane = 0;

@@ -22,8 +22,8 @@ public:
     void by_color(Crew& crew, const Pass& pass)
     {
         m_backwards = !m_backwards;
-        for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; bin += 2)
-            share_color(crew, bin, pass);
+        for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; ++bin)
+            share_bin(crew, bin, pass);
         if (m_parts > 0)
             crew.in_parts([&](int member, int members) { solve_parts(member, members, pass); });
     }
@@ -39,7 +39,7 @@ public:
         };
         const int crossing = m_parts * m_bins;
         const int end = crossing + m_bins;
-        if (is_small(0, end))
+        if (start(end) < enough_groups)
         {
             those(0, start(end));
             return;
@@ -92,31 +92,20 @@ private:
         }
     }
 
+    // All members take some of one bin's groups.
     template <class Pass>
-    void share_color(Crew& crew, int first_bin, const Pass& pass) const
+    void share_bin(Crew& crew, int bin, const Pass& pass) const
     {
-        if (!crew.has_helpers() || is_small(first_bin, first_bin + 2))
-        {
-            one_by_one(first_bin, first_bin + 2, pass);
-            return;
-        }
-        crew.in_parts(
-            [&](int member, int members)
-            {
-                for (int bin = first_bin; bin < first_bin + 2; ++bin)
-                {
-                    const int count = start(bin + 1) - start(bin);
-                    const int begin = start(bin) + Crew::bound(count, member, members);
-                    const int end = start(bin) + Crew::bound(count, member + 1, members);
-                    if (begin < end)
-                        pass(begin, end);
-                }
-            });
+        crew.share(start(bin + 1) - start(bin), enough_groups,
+                   [&](int first, int last)
+                   {
+                       if (first < last)
+                           pass(start(bin) + first, start(bin) + last);
+                   });
     }
 
     // Where the bins of a member's parts begin.
     [[nodiscard]] int bound(int member, int members) const { return Crew::bound(m_parts, member, members) * m_bins; }
-    [[nodiscard]] bool is_small(int first_bin, int last_bin) const { return start(last_bin) - start(first_bin) < enough_groups; }
     [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
 
     const std::int32_t* m_starts; ///< and where the last ends

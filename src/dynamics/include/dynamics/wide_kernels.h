@@ -76,6 +76,7 @@ struct WideKernels
     void (*fill)(WideRow& row, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants);
     /// Effective masses anew, once lanes have been filled one by one.
     void (*prepare)(WideRow* rows, std::int32_t count);
+    /// This and the passes after it: rows of one bin, so that all have as many points and no two share a body that gives way.
     void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
     /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
     void (*solve)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
