@@ -24,27 +24,8 @@ namespace {
 
 constexpr std::size_t units_per_task = 4;
 constexpr std::size_t contacts_per_task = 512;
-constexpr std::size_t states_per_task = 2048;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-bool keep_their_masses(const StepContext& ctx)
-{
-    const Scratch& scratch = ctx.scratch;
-    std::atomic<bool> same{true};
-    for_each_in_parts(ctx.scene.def.tasks, scratch.state_bodies.size(), states_per_task,
-                      [&](std::size_t s)
-                      {
-                          const std::int32_t body = scratch.state_bodies[s];
-                          if (body == none)
-                              return;
-                          const BodySim& sim = ctx.state.sims[as_index(body)];
-                          const StateConstants& c = scratch.constants[s];
-                          if (sim.inverse_mass != c.inverse_mass || sim.inverse_inertia != c.inverse_inertia)
-                              same.store(false, std::memory_order_relaxed);
-                      });
-    return same;
-}
 
 bool are_in_place(const StepContext& ctx)
 {
@@ -146,11 +127,9 @@ bool follow_rows(StepContext& ctx)
     scratch.is_looked_at.clear();
     const bool are_of_this_state = ctx.state.rows_stamp != 0 && kept.stamp == ctx.state.rows_stamp;
     ctx.state.rows_stamp = 0; // until they have been solved
-    if (!are_of_this_state || !keep_their_masses(ctx))
-    {
-        kept.are_plain = kept.are_plain && are_of_this_state;
+    kept.are_plain = kept.are_plain && are_of_this_state;
+    if (!are_of_this_state || !kept.rows_apart)
         return false;
-    }
     scratch.borne.assign(scratch.state_bodies.size(), 0);
     scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
     kept.rows_stay = are_in_place(ctx) && loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
