@@ -255,16 +255,22 @@ private:
             m_news[i] = news_of(m_ctx, contact);
             return;
         }
-        if (!is_followed_with_others(m_ctx.state, contact))
+        const bool waits = is_followed_with_others(m_ctx.state, contact) || may_stay_apart_with_others(m_ctx.state, contact);
+        if (!waits)
         {
             update_alone(i);
             return;
         }
-        Waiting& w = m_waiting[contact.manifold.count - 1];
+        Waiting& w = m_waiting[contact.manifold.count];
         w.contacts.v[w.count] = index;
         w.places[w.count++] = i;
-        if (w.count == lane_count)
+        if (w.count < lane_count)
+            return;
+        if (contact.manifold.count == 0)
+            look_whether_apart(w);
+        else
             follow_together(contact.manifold.count, w);
+        w.count = 0;
     }
 
     void update_alone(std::size_t i) { m_news[i] = update_contact(m_ctx, m_contacts[i]); }
@@ -277,7 +283,20 @@ private:
         int count = 0;
     };
 
-    void follow_together(int points, Waiting& w)
+    // What stays without a point is as it was.
+    void look_whether_apart(const Waiting& w)
+    {
+        const std::uint32_t apart = m_kernels.stay_apart(w.contacts, m_scene);
+        for (int i = 0; i < lane_count; ++i)
+        {
+            if ((apart >> i & 1u) == 0)
+                update_alone(w.places[i]);
+            else
+                m_news[w.places[i]] = News::Nothing;
+        }
+    }
+
+    void follow_together(int points, const Waiting& w)
     {
         FollowedContacts found;
         m_kernels.follow_contacts(w.contacts, points, &m_ctx.state.contacts[0], m_scene, found);
@@ -285,20 +304,18 @@ private:
         {
             Contact& contact = m_ctx.state.contacts[w.contacts.v[i]];
             contact.flags &= ~contact_flag::followed;
-            const bool sure = (found.sure >> i & 1u) != 0 && (points == 2 || is_within_margin(m_ctx, contact, found.one, i));
-            if (!sure)
+            if ((found.sure >> i & 1u) == 0)
                 update_alone(w.places[i]);
             else
                 m_news[w.places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
         }
-        w.count = 0;
     }
 
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
     FollowedScene m_scene;
     News m_news[contacts_per_task];
-    Waiting m_waiting[2]; ///< with one point, with two
+    Waiting m_waiting[3]; ///< without a point, with one, with two
     const WideKernels& m_kernels = wide_kernels();
 };
 

@@ -336,6 +336,7 @@ FollowedScene followed_scene(const StepContext& ctx)
     return {ctx.state.sims.data(),
             &ctx.state.contacts[0],
             ctx.state.kept_manifolds.data(),
+            ctx.state.broad_phase.places(),
             surely * t.keep,
             surely,
             surely_turned,

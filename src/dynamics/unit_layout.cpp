@@ -27,7 +27,7 @@ constexpr int color_limit = 63; // the mask's last bit stands for "no colour lef
 constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
 constexpr int most_parts = plane_cells;
-constexpr int enough_links = 4096; // for a unit to be solved in parts
+constexpr int enough_links = 4096;    // for a unit to be solved in parts
 constexpr std::uint8_t no_part = 255; // of what does not give way
 constexpr int bins_to_a_part = 2 * color_limit;
 

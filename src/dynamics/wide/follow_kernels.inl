@@ -342,20 +342,38 @@ void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
     tell(row, now, filled, scene, found);
 }
 
+// Within which there are points: as margin_of in kept_manifold.cpp.
+CAROM_INLINE F8 margins_of(const LaneInts& contacts, const FollowedScene& scene)
+{
+    static_assert(offsetof(BoxPlace, path) == 0 && offsetof(BoxPath, shift) == 16 && offsetof(BoxPath, any_way) == 24);
+    F8 ax, ay, way_a, bx, by, way_b, unused;
+    const auto path_of = [&](std::int32_t shape) { return reinterpret_cast<const char*>(scene.boxes + shape) + 16; };
+    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_a); }, ax, ay, way_a, unused);
+    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_b); }, bx, by, way_b, unused);
+    return all(scene.speculation) + (length_of({bx - ax, by - ay}) + way_a + way_b);
+}
+
+CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const FollowedScene& scene, std::uint32_t flag)
+{
+    std::uint32_t lanes = 0;
+    for (int i = 0; i < lane_count; ++i)
+        lanes |= (scene.contacts[contacts.v[i]].flags & flag) != 0 ? 1u << i : 0;
+    return lanes;
+}
+
+// It gets no second point, and is none that would not be found: as is_within_margin.
+CAROM_INLINE I8 are_within_margins(const Found& now, F8 margin, const FollowedScene& scene)
+{
+    return (margin + now.way < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
+}
+
 // The same for eight contacts with as many points each that are in no row now: into their manifolds.
 void follow_contacts(const LaneInts& contacts, int count, Contact* into, const FollowedScene& scene, FollowedContacts& found)
 {
     static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
     const Places places(contacts, scene);
-    Kinds kinds;
-    std::uint32_t touching = 0;
-    for (int i = 0; i < lane_count; ++i)
-    {
-        const std::uint32_t flags = into[contacts.v[i]].flags;
-        kinds.edge_of_b |= (flags & contact_flag::edge_of_b) != 0 ? 1u << i : 0;
-        kinds.nearest |= (flags & contact_flag::nearest) != 0 ? 1u << i : 0;
-        touching |= (flags & contact_flag::touching) != 0 ? 1u << i : 0;
-    }
+    const Kinds kinds = {lanes_with_flag(contacts, scene, contact_flag::edge_of_b),
+                         lanes_with_flag(contacts, scene, contact_flag::nearest)};
     const Found now = follow_points(count, places, kinds, scene);
     const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
     for (int k = 0; k < count; ++k)
@@ -374,10 +392,40 @@ void follow_contacts(const LaneInts& contacts, int count, Contact* into, const F
     for (int i = 0; i < lane_count; ++i)
         manifold(i).normal = {nx.v[i], ny.v[i]};
     const I8 near = now.separation <= all(2 * scene.slop);
-    found.sure = bits(now.holds);
-    found.touch_on = bits(near) & touching;
-    if (count == 1)
-        tell_one(now, found.one);
+    found.sure = bits(count == 1 ? now.holds & are_within_margins(now, margins_of(contacts, scene), scene) : now.holds);
+    found.touch_on = bits(near) & lanes_with_flag(contacts, scene, contact_flag::touching);
+}
+
+// Along the direction that parted them, or the whole way that they have come: as room() in kept_manifold.cpp, which decides where it is close.
+std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
+{
+    static_assert(offsetof(KeptParting, direction) == 0 && offsetof(KeptParting, arm) == 8);
+    constexpr float rounding = 1e-5f;
+    const Places places(contacts, scene);
+    const auto kept_at = [&](int offset)
+    { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
+    Arrow direction, center;
+    Turn kept;
+    F8 arm, reach, unused, unused_too;
+    gather4(kept_at(0), direction.x, direction.y, arm, unused);
+    gather4(kept_at(32), unused, unused_too, center.x, center.y);
+    gather4(kept_at(48), kept.c, kept.s, reach, unused);
+    const I8 seen_from_b = lanes_of(lanes_with_flag(contacts, scene, contact_flag::edge_of_b));
+    const Turn a = turns_of(places.a);
+    const Turn b = turns_of(places.b);
+    const auto of = [&](F8 if_b, F8 if_a) { return carom::internal::select(seen_from_b, if_b, if_a); };
+    const Turn own = {of(b.c, a.c), of(b.s, a.s)};
+    const Turn other = {of(a.c, b.c), of(a.s, b.s)};
+    const Arrow apart = centers_apart(places);
+    const Arrow offset = {of(-apart.x, apart.x), of(-apart.y, apart.y)};
+    const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
+    const Arrow turn = {now.s * kept.c - now.c * kept.s, 1 - (now.c * kept.c + now.s * kept.s)};
+    const Arrow way = {own.c * offset.x + own.s * offset.y - center.x, own.c * offset.y - own.s * offset.x - center.y};
+    const I8 any_direction = (direction.x == all(0)) & (direction.y == all(0));
+    const F8 gain = carom::internal::select(any_direction, -length_of(way), dot(direction, way));
+    const F8 room = reach + gain - arm * length_of(turn);
+    const F8 slack = rounding * (length_of(offset) + reach + arm);
+    return bits(margins_of(contacts, scene) + slack < room);
 }
 
 // Impulses of a point, side by side in a row, one after the other in a contact's.

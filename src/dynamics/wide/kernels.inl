@@ -93,7 +93,7 @@ CAROM_INLINE void mark_fixed(Wide& wide)
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              joints::fill,   joints::warm_start,   joints::solve,   joints::relax,
-                             follows::follow,        follows::follow_contacts, follows::take_impulses, states::move,
+                             follows::follow,        follows::follow_contacts, follows::stay_apart, follows::take_impulses, states::move,
                              pairs::stay,            pairs::new_overlaps};
 
 } // namespace carom::internal::CAROM_ISA

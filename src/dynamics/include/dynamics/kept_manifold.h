@@ -44,6 +44,14 @@ inline constexpr float surely = 0.999f;
     return (contact.flags & asked) == contact_flag::kept && contact.manifold.count > 0 && in_crowd(state, contact);
 }
 
+/// The same without a point, and not touching.
+[[nodiscard]] inline bool may_stay_apart_with_others(const SceneState& state, const Contact& contact)
+{
+    constexpr std::uint32_t asked =
+        contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing | contact_flag::touching;
+    return (contact.flags & asked) == contact_flag::kept && contact.manifold.count == 0 && in_crowd(state, contact);
+}
+
 /// Between steps, a contact's manifold at the poses of the start of the last: where its row has followed it, it is followed here now.
 [[nodiscard]] Manifold settled_manifold(const SceneState& state, int contact);
 

@@ -42,8 +42,8 @@ public:
             {
                 one_by_one(Crew::bound(m_parts, member, members) * m_bins, Crew::bound(m_parts, member + 1, members) * m_bins,
                            pass);
-                one_by_one(crossing() + Crew::bound(m_bins, member, members), crossing() + Crew::bound(m_bins, member + 1, members),
-                           pass);
+                one_by_one(crossing() + Crew::bound(m_bins, member, members),
+                           crossing() + Crew::bound(m_bins, member + 1, members), pass);
             });
     }
 

@@ -25,6 +25,7 @@ struct FollowedScene
     const BodySim* sims;
     const Contact* contacts;
     const KeptManifold* kept; ///< by contact
+    const BoxPlace* boxes;    ///< by shape
     float sure_way;           ///< bodies that have moved less against each other are surely followed
     float surely;             ///< of a bound on the way: how far it is surely kept
     float sure_cosine;        ///< and have turned by an angle of at least this cosine
@@ -56,8 +57,7 @@ struct FollowedRow
 /// The same of eight contacts by themselves.
 struct FollowedContacts
 {
-    OnePoint one;
-    std::uint32_t sure;     ///< of one point as far as its margin
+    std::uint32_t sure;
     std::uint32_t touch_on; ///< touched, and are as near as that
 };
 
@@ -95,6 +95,8 @@ struct WideKernels
     /// The manifolds of eight contacts that have as many points and are kept, likewise; of those that are not sure it is to be found by itself.
     void (*follow_contacts)(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene,
                             FollowedContacts& found);
+    /// Of eight contacts that are kept and have no points, those that have come to no point for sure.
+    std::uint32_t (*stay_apart)(const LaneInts& contacts, const FollowedScene& scene);
     /// Impulses of all lanes, and to their contacts whether they bear a load.
     void (*take_impulses)(WideRow& row, Contact* contacts, ContactImpulses* impulses);
     /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
