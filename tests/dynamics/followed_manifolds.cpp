@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <vector>
 
 using namespace carom;
 using namespace carom::test;
@@ -104,4 +106,47 @@ TEST(DynamicsFollowedManifolds, AreWhatWouldBeFound)
     EXPECT_GT(tally.apart, 10000);
     EXPECT_GT(tally.edges, 10000);
     EXPECT_LT(tally.off, tally.edges / 50);
+}
+
+// A kernel says it of eight pairs at once, for itself: what it is sure of must be what the narrow phase, asked by itself, leaves as it is.
+TEST(DynamicsFollowedManifolds, WithoutAPointAreToldEightAtATime)
+{
+    Scene scene(sleepless());
+    build(scene);
+    int sure = 0;
+    int all = 0;
+    for (int i = 0; i < 200; ++i)
+    {
+        SCOPED_TRACE("step " + std::to_string(i));
+        scene.step(1.0f / 60);
+        SceneData& data = scene.data();
+        const StepContext ctx{data, data.state, data.scratch, data.report, 1.0f / 60, 1.0f / 240, 4};
+        const SceneState before = data.state;
+        std::vector<std::int32_t> apart;
+        std::ranges::copy_if(before.awake_contacts, std::back_inserter(apart),
+                             [&](std::int32_t contact) { return may_stay_apart_with_others(before, before.contacts[contact]); });
+        for (std::size_t first = 0; first + lane_count <= apart.size(); first += lane_count)
+        {
+            LaneInts eight;
+            std::copy_n(apart.begin() + static_cast<std::ptrdiff_t>(first), lane_count, std::begin(eight.v));
+            const std::uint32_t stay = wide_kernels().stay_apart(eight, followed_scene(ctx));
+            for (const WideKernels* kernels : all_wide_kernels())
+                ASSERT_EQ(kernels->stay_apart(eight, followed_scene(ctx)), stay) << kernels->name;
+            for (int k = 0; k < lane_count; ++k)
+            {
+                ++all;
+                if ((stay >> k & 1u) == 0)
+                    continue;
+                ++sure;
+                const auto slot = static_cast<std::size_t>(eight.v[k]);
+                follow_manifold(ctx, eight.v[k]);
+                ASSERT_EQ(data.state.contacts[eight.v[k]].manifold.count, 0);
+                ASSERT_EQ(data.state.kept_manifolds[slot].reach, before.kept_manifolds[slot].reach) << "found anew";
+                ASSERT_EQ(data.state.kept_manifolds[slot].center, before.kept_manifolds[slot].center) << "found anew";
+            }
+        }
+        data.state = before;
+    }
+    EXPECT_GT(sure, 9 * all / 10);
+    EXPECT_GT(all, 10000);
 }
