@@ -5,11 +5,9 @@
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
-#include "dynamics/unit_bins.h"
 #include "dynamics/unit_graph.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <numeric>
@@ -25,7 +23,6 @@ constexpr std::uint64_t steps_between = 16;
 constexpr std::uint64_t steps_between_cells = 32;
 constexpr std::size_t few_of = 8; // less than one of so many
 constexpr std::size_t contacts_per_task = 1024;
-constexpr int contacts_to_a_part = 2048;
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
 void sort_bodies(SceneState& state)
@@ -35,18 +32,6 @@ void sort_bodies(SceneState& state)
     std::sort(state.awake_bodies.begin(), state.awake_bodies.end());
     for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
-}
-
-// As many parts as keep the rows of one in a cache, whatever the number of threads: the order in which rows are solved depends on it. So it stays as long as it is
-// about right.
-void choose_parts(SceneState& state)
-{
-    const auto contacts = static_cast<int>(state.awake_contacts.size());
-    const int enough = state.plane_parts * contacts_to_a_part;
-    if (4 * contacts > 3 * enough && contacts < 3 * enough)
-        return;
-    const auto parts = std::min(contacts / contacts_to_a_part, plane_cells);
-    state.plane_parts = parts > 1 ? static_cast<std::int32_t>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
 // Into sixteenths, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are solved in another order then, and
@@ -65,7 +50,6 @@ void part_bodies(StepContext& ctx)
     std::size_t changed = 0;
     for (std::size_t rank = 0; rank < keys.size(); ++rank)
         changed += body_of(rank).plane_cell != cell_of(rank) ? 1 : 0;
-    choose_parts(state);
     if (changed * few_of < keys.size())
         return;
     for (std::size_t rank = 0; rank < keys.size(); ++rank)
@@ -86,12 +70,9 @@ public:
         m_scratch.order.assign(m_state.awake_contacts.size(), 0); // placed already
         for (const Unit& unit : m_scratch.units)
         {
-            if (unit.parts > 0)
-                place_lanes(unit);
-            else
-                place(std::span(m_scratch.lane_links)
-                          .subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
-                                   static_cast<std::size_t>(unit.wide_count) * lane_count));
+            const auto lanes = std::span(m_scratch.lane_links);
+            place(lanes.subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
+                                static_cast<std::size_t>(unit.wide_count) * lane_count));
             const auto rows = std::span(m_scratch.row_links);
             place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
         }
@@ -138,26 +119,6 @@ private:
             if (i != none)
                 place(m_scratch.solved_links[static_cast<std::size_t>(i)]);
         }
-    }
-
-    // Where its rows are still, bin by bin.
-    void place_lanes(const Unit& unit)
-    {
-        contact_bins(m_scratch, unit)
-            .in_order(
-                [&](int first, int last)
-                {
-                    ++m_color;
-                    for (int g = first; g < last; ++g)
-                    {
-                        for (const std::int32_t contact :
-                             m_scratch.wide_rows[static_cast<std::size_t>(unit.wide_store + g)].contact.v)
-                        {
-                            if (contact != none)
-                                place(contact);
-                        }
-                    }
-                });
     }
 
     void place(const Link& l)

@@ -27,7 +27,7 @@ constexpr int color_limit = 63; // the mask's last bit stands for "no colour lef
 constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
 constexpr int most_parts = plane_cells;
-constexpr int enough_links = 4096;    // for a unit to be solved in parts
+constexpr int links_to_a_part = 2048; // what rows keep of them stays in a cache
 constexpr std::uint8_t no_part = 255; // of what does not give way
 constexpr int bins_to_a_part = 2 * color_limit;
 
@@ -333,7 +333,6 @@ private:
         m_scratch.impact_rows.clear();
         m_scratch.cores.clear();
         m_scratch.bin_starts.clear();
-        m_scratch.bin_ends.clear();
         for (Unit& unit : m_scratch.units)
             place_rows_of(unit);
     }
@@ -353,22 +352,41 @@ private:
         unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - unit.first_row;
         unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - unit.first_core;
         // Those of one body are of different colours: in this order wherever in a bin their lanes are.
-        std::ranges::sort(m_scratch.cores.begin() + unit.first_core, m_scratch.cores.end(), {}, &WideCore::bin);
+        std::ranges::sort(m_scratch.cores.begin() + unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
         unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - unit.first_impact_row;
     }
 
-    // Of whole cells of the plane.
+    // Of whole cells of the plane, and about as many bodies to each.
     void find_parts(Unit& unit)
     {
-        unit.parts = is_wide(unit) && unit.link_count >= enough_links ? m_state.plane_parts : 0;
+        unit.parts = parts_of(unit);
         if (unit.parts == 0)
             return;
         std::fill_n(m_scratch.parts.begin() + unit.first_state, unit.state_count, no_part);
-        for (std::int32_t s = unit.first_state + 1; s <= unit.first_state + unit.dynamic_count; ++s)
+        const std::int32_t end = unit.first_state + 1 + unit.dynamic_count;
+        for (std::int32_t first = unit.first_state + 1; first < end;)
         {
-            const int cell = m_state.bodies[m_scratch.state_bodies[as_index(s)]].plane_cell;
-            m_scratch.parts[as_index(s)] = static_cast<std::uint8_t>(cell * unit.parts / plane_cells);
+            const std::uint8_t cell = cell_of(first);
+            std::int32_t last = first + 1;
+            while (last < end && cell_of(last) == cell)
+                ++last;
+            const std::int32_t middle = (first + last) / 2 - unit.first_state - 1;
+            const auto part = static_cast<std::uint8_t>(std::int64_t{middle} * unit.parts / unit.dynamic_count);
+            std::fill(m_scratch.parts.begin() + first, m_scratch.parts.begin() + last, part);
+            first = last;
         }
+    }
+
+    [[nodiscard]] std::uint8_t cell_of(std::int32_t state) const
+    {
+        return m_state.bodies[m_scratch.state_bodies[as_index(state)]].plane_cell;
+    }
+
+    // Whatever the number of threads: the order in which rows are solved depends on it.
+    [[nodiscard]] static int parts_of(const Unit& unit)
+    {
+        const auto parts = std::bit_floor(static_cast<unsigned>(unit.link_count / links_to_a_part));
+        return is_wide(unit) && parts > 1 ? std::min(static_cast<int>(parts), most_parts) : 0;
     }
 
     // Not what is looked at anew within the step, sliced, or watched for its energy.
@@ -495,9 +513,9 @@ private:
                 m_scratch.bin_starts.push_back(groups());
                 lane += std::exchange(m_bins[part * bins_to_a_part + bin], lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
-                m_scratch.bin_ends.push_back(groups());
             }
         }
+        m_scratch.bin_starts.push_back(groups());
         auto row = unit.first_row;
         for (int color = 0; color < unit.colors; ++color)
             row += std::exchange(m_row_bins[color], row);
@@ -539,7 +557,7 @@ private:
         const Contact& contact = m_state.contacts[l.contact];
         const Leaf& leaf = m_state.shapes[is_dynamic(unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
         if (leaf.type == LeafType::Circle)
-            m_scratch.cores.push_back({l.bin, lane - unit.first_wide * lane_count, 0.5f * leaf.r0});
+            m_scratch.cores.push_back({lane - unit.first_wide * lane_count, 0.5f * leaf.r0});
     }
 
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.

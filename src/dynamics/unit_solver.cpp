@@ -689,7 +689,12 @@ private:
     {
         std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         lanes.clear();
-        m_bins.in_order([&](int first, int last) { gather_struck(first, last, lanes); });
+        for_each_nonzero(m_struck, static_cast<std::size_t>(m_unit.wide_count),
+                         [&](std::size_t g)
+                         {
+                             for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
+                                 lanes.push_back(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
+                         });
         for (std::size_t i = 0; i < lanes.size(); ++i)
         {
             prefetch_struck(i);
@@ -697,36 +702,18 @@ private:
         }
     }
 
-    // Of a bin, in the order of their contacts, wherever in it their lanes are.
-    void gather_struck(int first, int last, std::vector<std::int32_t>& lanes) const
-    {
-        const std::size_t before = lanes.size();
-        for_each_nonzero(m_struck + first, static_cast<std::size_t>(last - first),
-                         [&](std::size_t g)
-                         {
-                             const auto group = static_cast<std::int32_t>(g) + first;
-                             for (unsigned bits = m_struck[group]; bits != 0; bits &= bits - 1)
-                                 lanes.push_back(group * lane_count + std::countr_zero(bits));
-                         });
-        std::ranges::sort(lanes.begin() + static_cast<std::ptrdiff_t>(before), lanes.end(), {},
-                          [&](std::int32_t lane) { return contact_of(lane); });
-    }
-
-    [[nodiscard]] std::int32_t contact_of(std::int32_t lane) const
-    {
-        return m_wide[lane / lane_count].contact.v[lane % lane_count];
-    }
-
     // First the contact, then its shapes and where it is.
     [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
     {
         const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         const SceneState& state = m_ctx.state;
+        const auto contact_of = [&](std::size_t lane)
+        { return m_wide[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
         if (i + turns_ahead < lanes.size())
-            prefetch(state.contacts[contact_of(lanes[i + turns_ahead])]);
+            prefetch(state.contacts[contact_of(i + turns_ahead)]);
         if (i + turns_ahead / 2 >= lanes.size())
             return;
-        const Contact& contact = state.contacts[contact_of(lanes[i + turns_ahead / 2])];
+        const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
         for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
             prefetch(state.shapes[shape]);
         __builtin_prefetch(&state.sims[static_cast<std::size_t>(contact.body_a)]);

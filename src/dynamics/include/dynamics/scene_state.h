@@ -323,7 +323,6 @@ struct SceneState
     std::vector<std::int32_t> awake_contacts;
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
-    std::int32_t plane_parts = 0;           ///< of whole cells of the plane, that large units are solved in; 0: none
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
     bool graph_dirty = true;                ///< touching contacts, joints or sleep changed since units were built
     Vec2 gravity{};

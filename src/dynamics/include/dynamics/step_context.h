@@ -52,7 +52,7 @@ struct Unit
     std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
     std::int32_t impact_row_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_bin = 0; ///< of its wide rows, part by part, in Scratch::bin_starts
+    std::int32_t first_bin = 0; ///< of its wide rows, part by part, in Scratch::bin_starts; and where the last ends
     std::int32_t bin_count = 0; ///< of each part, and of what crosses from one to another: two to a color
     std::int32_t parts = 0;     ///< of the plane, that all threads solve side by side
     std::int32_t first_joint_lane = 0;
@@ -205,7 +205,6 @@ struct FlierSeed
 /// A ball in a wide row against what does not give way.
 struct WideCore
 {
-    std::int32_t bin;
     std::int32_t lane; ///< of the unit: group * lane_count + lane
     float depth;
 };
@@ -365,7 +364,6 @@ struct Scratch
     std::vector<WideRow> wide_rows;
     std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
     std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
-    std::vector<std::int32_t> bin_ends;
     std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;

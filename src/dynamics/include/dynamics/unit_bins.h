@@ -12,9 +12,9 @@ namespace carom::internal {
 class UnitBins
 {
 public:
-    /// `bins` of each part, and of what crosses; of bin i the groups starts[i] ... ends[i], with room behind them.
-    UnitBins(const std::int32_t* starts, const std::int32_t* ends, std::int32_t parts, std::int32_t bins)
-        : m_starts(starts), m_ends(ends), m_parts(parts), m_bins(bins)
+    /// `bins` of each part, and of what crosses.
+    UnitBins(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t parts, std::int32_t bins)
+        : m_starts(starts.data() + first), m_parts(parts), m_bins(bins)
     {}
 
     /// Calls pass(first, last) for groups of one bin, of which no two share a body that gives way. What threads do side by side shares none either.
@@ -22,28 +22,35 @@ public:
     void by_color(Crew& crew, const Pass& pass)
     {
         m_backwards = !m_backwards;
-        for (int bin = crossing(); bin < end(); ++bin)
+        for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; ++bin)
             share_bin(crew, bin, pass);
         if (m_parts > 0)
             crew.in_parts([&](int member, int members) { solve_parts(member, members, pass); });
     }
 
-    /// Calls pass(first, last) for groups of one bin, in any order, those of a part by the member that solves them.
+    /// Calls pass(first, last) for groups in any order, each by the member that solves it.
     template <class Pass>
     void all(Crew& crew, const Pass& pass) const
     {
-        if (m_parts == 0 && !is_worth_sharing())
+        const auto those = [&](int first, int last)
         {
-            one_by_one(0, end(), pass);
+            if (first < last)
+                pass(first, last);
+        };
+        const int crossing = m_parts * m_bins;
+        const int end = crossing + m_bins;
+        if (start(end) < enough_groups)
+        {
+            those(0, start(end));
             return;
         }
+        const auto share_of = [&](int member, int members)
+        { return start(crossing) + Crew::bound(start(end) - start(crossing), member, members); };
         crew.in_parts(
             [&](int member, int members)
             {
-                one_by_one(Crew::bound(m_parts, member, members) * m_bins, Crew::bound(m_parts, member + 1, members) * m_bins,
-                           pass);
-                one_by_one(crossing() + Crew::bound(m_bins, member, members),
-                           crossing() + Crew::bound(m_bins, member + 1, members), pass);
+                those(start(bound(member, members)), start(bound(member + 1, members)));
+                those(share_of(member, members), share_of(member + 1, members));
             });
     }
 
@@ -59,26 +66,8 @@ public:
             });
     }
 
-    /// Calls pass(first, last) for the groups of one bin after the other.
-    template <class Pass>
-    void in_order(const Pass& pass) const
-    {
-        one_by_one(0, end(), pass);
-    }
-
 private:
     static constexpr int enough_groups = 12; // to share
-
-    [[nodiscard]] int crossing() const { return m_parts * m_bins; }
-    [[nodiscard]] int end() const { return (m_parts + 1) * m_bins; }
-
-    [[nodiscard]] bool is_worth_sharing() const
-    {
-        int groups = 0;
-        for (int bin = 0; bin < end(); ++bin)
-            groups += m_ends[bin] - m_starts[bin];
-        return groups >= enough_groups;
-    }
 
     // To and fro: a pass begins with the parts that the last one has left in the cache.
     template <class Pass>
@@ -98,8 +87,8 @@ private:
     {
         for (int bin = first_bin; bin < last_bin; ++bin)
         {
-            if (m_starts[bin] < m_ends[bin])
-                pass(m_starts[bin], m_ends[bin]);
+            if (start(bin) < start(bin + 1))
+                pass(start(bin), start(bin + 1));
         }
     }
 
@@ -107,16 +96,19 @@ private:
     template <class Pass>
     void share_bin(Crew& crew, int bin, const Pass& pass) const
     {
-        crew.share(m_ends[bin] - m_starts[bin], enough_groups,
+        crew.share(start(bin + 1) - start(bin), enough_groups,
                    [&](int first, int last)
                    {
                        if (first < last)
-                           pass(m_starts[bin] + first, m_starts[bin] + last);
+                           pass(start(bin) + first, start(bin) + last);
                    });
     }
 
-    const std::int32_t* m_starts;
-    const std::int32_t* m_ends;
+    // Where the bins of a member's parts begin.
+    [[nodiscard]] int bound(int member, int members) const { return Crew::bound(m_parts, member, members) * m_bins; }
+    [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
+
+    const std::int32_t* m_starts; ///< and where the last ends
     int m_parts;
     int m_bins;
     bool m_backwards = false;
@@ -128,13 +120,12 @@ inline constexpr int worth_all_threads = 1536; // groups
 
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
-    return {scratch.bin_starts.data() + unit.first_bin, scratch.bin_ends.data() + unit.first_bin, unit.parts, unit.bin_count};
+    return {scratch.bin_starts, unit.first_bin, unit.parts, unit.bin_count};
 }
 
 [[nodiscard]] inline UnitBins joint_bins(const Scratch& scratch, const Unit& unit)
 {
-    const std::int32_t* starts = scratch.joint_bin_starts.data() + unit.first_joint_bin;
-    return {starts, starts + 1, 0, unit.joint_bin_count};
+    return {scratch.joint_bin_starts, unit.first_joint_bin, 0, unit.joint_bin_count};
 }
 
 } // namespace carom::internal
