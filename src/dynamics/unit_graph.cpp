@@ -442,8 +442,8 @@ public:
                               std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
                                           [](const UnitTally& t) { return t.bodies <= precise_limit; });
         if (may_turn)
-            for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), contacts_per_task,
-                              [&](std::size_t i) { slice_at_contact(scratch.links[i]); });
+            for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+                              [&](std::size_t place) { slice_at_contacts_of(static_cast<std::int32_t>(place)); });
         find_swings();
         for (std::size_t i = 0; i < scratch.joint_links.size(); ++i)
         {
@@ -462,14 +462,26 @@ public:
         return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
     }
 
-    // Others may do so as well: the most that anyone wants.
-    void slice_at_contact(const Link& l)
+    // Of a small unit.
+    void slice_at_contacts_of(std::int32_t place)
     {
-        if (!l.solved || tally(unit_of_link(l)).bodies > precise_limit)
+        const std::int32_t unit = scratch.unit_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
+        if (unit == none || tally(unit).bodies > precise_limit)
             return;
-        const float rate = turn_rate(state.contacts[l.contact]);
-        const std::int32_t wanted = slices_for(rate, slice_turn, l.a >= 0 && l.b >= 0 ? hinge_slice_limit : slice_limit);
-        const std::atomic_ref slices(tally(unit_of_link(l)).slices);
+        for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
+                slice_at_contact(contact, unit);
+        }
+    }
+
+    // Others may do so as well: the most that anyone wants.
+    void slice_at_contact(const Contact& contact, std::int32_t unit)
+    {
+        const bool both_move = place_of(contact.body_a) >= 0 && place_of(contact.body_b) >= 0;
+        const std::int32_t wanted = slices_for(turn_rate(contact), slice_turn, both_move ? hinge_slice_limit : slice_limit);
+        const std::atomic_ref slices(tally(unit).slices);
         std::int32_t before = slices.load(std::memory_order_relaxed);
         while (before < wanted && !slices.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
         {
