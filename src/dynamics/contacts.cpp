@@ -221,8 +221,9 @@ public:
         for (const Waiting& w : m_waiting)
         {
             for (int i = 0; i < w.count; ++i)
-                update_alone(w.places[i]);
+                put_off(w.places[i]);
         }
+        update_the_others();
         news.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
@@ -258,7 +259,7 @@ private:
         const bool waits = is_followed_with_others(m_ctx.state, contact) || may_stay_apart_with_others(m_ctx.state, contact);
         if (!waits)
         {
-            update_alone(i);
+            put_off(i);
             return;
         }
         Waiting& w = m_waiting[contact.manifold.count];
@@ -273,7 +274,37 @@ private:
         w.count = 0;
     }
 
-    void update_alone(std::size_t i) { m_news[i] = update_contact(m_ctx, m_contacts[i]); }
+    // What cannot be told with others mostly is to be found anew: its shapes are asked for now, their corners a little before its turn.
+    void put_off(std::size_t i)
+    {
+        const SceneState& state = m_ctx.state;
+        const Contact& contact = state.contacts[m_contacts[i]];
+        for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
+            __builtin_prefetch(&state.shapes[shape]);
+        m_others[m_other_count++] = i;
+    }
+
+    void update_the_others()
+    {
+        for (std::size_t k = 0; k < m_other_count; ++k)
+        {
+            if (k + turns_ahead < m_other_count)
+                prefetch_corners(m_contacts[m_others[k + turns_ahead]]);
+            m_news[m_others[k]] = update_contact(m_ctx, m_contacts[m_others[k]]);
+        }
+    }
+
+    [[gnu::always_inline]] void prefetch_corners(std::int32_t index) const
+    {
+        const SceneState& state = m_ctx.state;
+        __builtin_prefetch(&impulses_of(state, index));
+        for (const std::int32_t shape : {state.contacts[index].shape_a, state.contacts[index].shape_b})
+        {
+            const LeafView leaf = leaf_view(state, shape);
+            __builtin_prefetch(leaf.points);
+            __builtin_prefetch(leaf.normals);
+        }
+    }
 
     // For others with as many points.
     struct Waiting
@@ -290,7 +321,7 @@ private:
         for (int i = 0; i < lane_count; ++i)
         {
             if ((apart >> i & 1u) == 0)
-                update_alone(w.places[i]);
+                put_off(w.places[i]);
             else
                 m_news[w.places[i]] = News::Nothing;
         }
@@ -305,7 +336,7 @@ private:
             Contact& contact = m_ctx.state.contacts[w.contacts.v[i]];
             contact.flags &= ~contact_flag::followed;
             if ((found.sure >> i & 1u) == 0)
-                update_alone(w.places[i]);
+                put_off(w.places[i]);
             else
                 m_news[w.places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
         }
@@ -315,6 +346,8 @@ private:
     std::span<const std::int32_t> m_contacts;
     FollowedScene m_scene;
     News m_news[contacts_per_task];
+    std::size_t m_others[contacts_per_task];
+    std::size_t m_other_count = 0;
     Waiting m_waiting[3]; ///< without a point, with one, with two
     const WideKernels& m_kernels = wide_kernels();
 };
