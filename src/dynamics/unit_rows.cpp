@@ -102,7 +102,7 @@ void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int 
             group.joint.v[i] = l->place.joint;
             group.turns = l->bin % 2; // the same in all lanes
         }
-        fill_wide_joint(ctx, group);
+        wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.scratch.constants.data(), ctx.h);
     }
 }
 

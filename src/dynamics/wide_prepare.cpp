@@ -171,52 +171,6 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
 
 bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }
 
-namespace {
-
-constexpr float no_limit = 1e9f; // rad
-
-void fill_angle(const StepContext& ctx, const JointRecord& joint, float start, WideAngle& t, int i)
-{
-    t.start.v[i] = start;
-    t.lower.v[i] = joint.enable_limit ? joint.lower : -no_limit;
-    t.upper.v[i] = joint.enable_limit ? joint.upper : no_limit;
-    t.lower_impulse.v[i] = joint.enable_limit ? joint.impulses[slot_lower] : 0;
-    t.upper_impulse.v[i] = joint.enable_limit ? joint.impulses[slot_upper] : 0;
-    if (joint.enable_motor)
-    {
-        t.motor_speed.v[i] = joint.motor_speed;
-        t.motor_max.v[i] = ctx.h * joint.max_motor;
-        t.motor_impulse.v[i] = joint.impulses[slot_motor];
-    }
-    if (joint.hertz > 0)
-    {
-        const Softness soft = make_softness(joint.hertz, joint.damping_ratio, ctx.h);
-        t.target.v[i] = joint.spring_target;
-        t.spring_bias_rate.v[i] = soft.bias_rate;
-        t.spring_mass_scale.v[i] = soft.mass_scale;
-        t.spring_impulse_scale.v[i] = soft.impulse_scale;
-        t.spring_impulse.v[i] = joint.impulses[slot_spring];
-    }
-}
-
-} // namespace
-
-void fill_wide_joint(const StepContext& ctx, WideJoint& wide)
-{
-    wide_kernels().fill_joints(wide, &ctx.state.joints[0], ctx.state.sims.data(), ctx.scratch.constants.data());
-    if (wide.turns == 0)
-        return;
-    wide.angle = {};
-    for (int i = 0; i < lane_count; ++i)
-    {
-        if (wide.joint.v[i] == none)
-            continue;
-        const JointRecord& joint = ctx.state.joints[wide.joint.v[i]];
-        fill_angle(ctx, joint, hinge_angle(ctx.state, joint), wide.angle, i);
-    }
-    wide.angle.now = wide.angle.start;
-}
-
 void commit_wide_joint(const StepContext& ctx, const WideJoint& wide)
 {
     for (int i = 0; i < lane_count; ++i)

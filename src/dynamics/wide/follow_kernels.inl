@@ -37,25 +37,10 @@ struct Places
     }
 };
 
-struct Turn
-{
-    F8 c, s;
-};
-
 struct Arrow
 {
     F8 x, y;
 };
-
-CAROM_INLINE Turn turns_of(const BodySim* const (&sims)[lane_count])
-{
-    static_assert(offsetof(BodySim, rotation) == 16);
-    Turn q;
-    F8 unused_x;
-    F8 unused_y;
-    gather4([&](int i) { return reinterpret_cast<const char*>(sims[i]) + 16; }, q.c, q.s, unused_x, unused_y);
-    return q;
-}
 
 CAROM_INLINE Arrow turned(const Turn& q, const Arrow& v) { return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y}; }
 

@@ -21,8 +21,72 @@ CAROM_INLINE void place_anchors(const BodySim* const (&sims)[lane_count], F8 x, 
     store(arm_y, s * x + c * y);
 }
 
-// All but a, b, joint and turns, which say what goes there, and angles where it turns.
-void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const StateConstants* constants)
+CAROM_INLINE Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
+
+// As hinge_angle of joint_solver.cpp.
+CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], const Turn& a, const Turn& b)
+{
+    LaneFloats c;
+    LaneFloats s;
+    for (int i = 0; i < lane_count; ++i)
+    {
+        const float angle = joints[i]->reference_angle;
+        const Rotation reference = angle != 0 ? Rotation::from_angle(-angle) : Rotation{};
+        c.v[i] = reference.c;
+        s.v[i] = reference.s;
+    }
+    const Turn relative = b * Turn{a.c, -a.s} * Turn{load(c), load(s)};
+    return arc_tangent(relative.s, relative.c);
+}
+
+// What drives and limits the angle.
+CAROM_INLINE void fill_drive(WideAngle& t, const JointRecord* const (&joints)[lane_count], float h)
+{
+    static_assert(offsetof(JointRecord, max_motor) == offsetof(JointRecord, lower) + 12 &&
+                  offsetof(JointRecord, spring_target) == offsetof(JointRecord, motor_speed) + 12 && slot_spring == slot_lower + 3);
+    constexpr float no_limit = 1e9f; // rad
+    LaneFloats hertz_of_lane;
+    LaneInts limited_lanes;
+    LaneInts driven_lanes;
+    for (int i = 0; i < lane_count; ++i)
+    {
+        hertz_of_lane.v[i] = joints[i]->hertz;
+        limited_lanes.v[i] = joints[i]->enable_limit ? -1 : 0;
+        driven_lanes.v[i] = joints[i]->enable_motor ? -1 : 0;
+    }
+    const F8 none = all(0);
+    F8 lower, upper, speed, most, ratio, target;
+    gather4([&](int i) { return reinterpret_cast<const char*>(&joints[i]->lower); }, lower, upper, speed, most);
+    gather4([&](int i) { return reinterpret_cast<const char*>(&joints[i]->motor_speed); }, speed, most, ratio, target);
+    F8 lower_impulse, upper_impulse, motor_impulse, spring_impulse;
+    gather4([&](int i) { return reinterpret_cast<const char*>(joints[i]->impulses + slot_lower); }, lower_impulse, upper_impulse,
+            motor_impulse, spring_impulse);
+    const I8 limited = load(limited_lanes);
+    store(t.lower, select(limited, lower, all(-no_limit)));
+    store(t.upper, select(limited, upper, all(no_limit)));
+    store(t.lower_impulse, select(limited, lower_impulse, none));
+    store(t.upper_impulse, select(limited, upper_impulse, none));
+    const I8 driven = load(driven_lanes);
+    store(t.motor_speed, select(driven, speed, none));
+    store(t.motor_max, select(driven, h * most, none));
+    store(t.motor_impulse, select(driven, motor_impulse, none));
+    // As make_softness.
+    const F8 hertz = load(hertz_of_lane);
+    const I8 sprung = hertz > none;
+    const F8 omega = 2 * pi * hertz;
+    const F8 a1 = 2 * ratio + h * omega;
+    const F8 a2 = h * omega * a1;
+    const F8 a3 = 1 / (1 + a2);
+    store(t.target, select(sprung, target, none));
+    store(t.spring_bias_rate, select(sprung, omega / a1, none));
+    store(t.spring_mass_scale, select(sprung, a2 * a3, none));
+    store(t.spring_impulse_scale, select(sprung, a3, none));
+    store(t.spring_impulse, select(sprung, spring_impulse, none));
+    store(t.torque_sum, none);
+}
+
+// All but a, b, joint and turns, which say what goes there.
+void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const StateConstants* constants, float h)
 {
     static_assert(offsetof(JointRecord, anchor_b) == offsetof(JointRecord, anchor_a) + 8 && slot_x == 0 && slot_y == 1);
     const JointRecord* of_lane[lane_count];
@@ -53,6 +117,13 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
         j.start.gap_y.v[i] = static_cast<float>(b[i]->center.y + static_cast<double>(arms.by.v[i]) - y);
     }
     j.now = j.start;
+    if (j.turns != 0)
+    {
+        const F8 angles = hinge_angles(of_lane, turns_of(a), turns_of(b));
+        store(j.angle.start, angles);
+        store(j.angle.now, angles);
+        fill_drive(j.angle, of_lane, h);
+    }
     fill_masses(j, constants);
     mark_fixed(j);
 }

@@ -46,6 +46,20 @@ CAROM_INLINE Poses<F8> poses_of(const BodyState* states, const LaneInts& index)
     return p;
 }
 
+struct Turn
+{
+    F8 c, s;
+};
+
+CAROM_INLINE Turn turns_of(const BodySim* const (&sims)[lane_count])
+{
+    static_assert(offsetof(BodySim, rotation) == 16);
+    Turn q;
+    F8 unused_x, unused_y;
+    gather4([&](int i) { return reinterpret_cast<const char*>(sims[i]) + 16; }, q.c, q.s, unused_x, unused_y);
+    return q;
+}
+
 // Several groups, on several threads, may share a body that does not give way: it is not written.
 CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds<F8>& v, unsigned fixed)
 {

@@ -16,6 +16,7 @@ namespace carom::internal {
 
 using F8 = float __attribute__((vector_size(32)));
 using I8 = std::int32_t __attribute__((vector_size(32)));
+using D8 = double __attribute__((vector_size(64)));
 
 /// Aligned as LaneFloats are.
 CAROM_INLINE F8 load(const float* eight)
@@ -62,6 +63,47 @@ CAROM_INLINE F8 root(F8 x)
     for (int i = 0; i < lane_count; ++i)
         r[i] = __builtin_sqrtf(x[i]);
     return r;
+}
+
+CAROM_INLINE D8 root(D8 x)
+{
+    D8 r;
+    for (int i = 0; i < lane_count; ++i)
+        r[i] = __builtin_sqrt(x[i]);
+    return r;
+}
+
+/// As arc_tangent of trigonometry.h, the same bits, then rounded to floats.
+CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
+{
+    constexpr double half_pi = 1.57079632679489661923;
+    constexpr double tan_of_sixteenth = 0.19891236737965801;
+    constexpr int most_halvings = 3; // two, and one that rounding may ask for
+    const D8 y = __builtin_convertvector(sine, D8);
+    const D8 x = __builtin_convertvector(cosine, D8);
+    const D8 ax = x < 0.0 ? -x : x;
+    const D8 ay = y < 0.0 ? -y : y;
+    const auto flat = ay <= ax;
+    const D8 longer = flat ? ax : ay;
+    D8 t = (flat ? ay : ax) / (longer == 0.0 ? D8{} + 1.0 : longer);
+    D8 whole = D8{} + 1.0;
+    for (int i = 0; i < most_halvings; ++i)
+    {
+        const auto wide = t > tan_of_sixteenth;
+        t = wide ? t / (1.0 + root(1.0 + t * t)) : t;
+        whole = wide ? whole * 2.0 : whole;
+    }
+    const D8 z = t * t;
+    D8 sum{};
+    for (int k = 23; k >= 1; k -= 2)
+    {
+        const double term = 1.0 / k;
+        sum = (k % 4 == 1 ? term : -term) + z * sum;
+    }
+    const D8 unit = whole * (t * sum);
+    const D8 angle = flat ? unit : half_pi - unit;
+    const D8 upper = x < 0.0 ? 2 * half_pi - angle : angle;
+    return __builtin_convertvector(y < 0.0 ? -upper : upper, F8);
 }
 
 /// A bit for each lane of a comparison that holds.

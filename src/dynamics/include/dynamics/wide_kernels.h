@@ -84,8 +84,9 @@ struct WideKernels
     /// A blow is told by the speeds that bodies had before.
     void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
                   std::uint8_t* struck);
-    /// Joints from their records, bodies, and the constants of their states, but for angles. `joints` has a, b, joint and turns of each lane.
-    void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const StateConstants* constants);
+    /// Joints from their records, bodies, and the constants of their states, for sub-steps of h. `joints` has a, b, joint and turns of each lane.
+    void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const StateConstants* constants,
+                        float h);
     void (*warm_start_joints)(WideJoint* joints, std::int32_t count, BodyState* states);
     void (*solve_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
     /// At the poses that the bodies have come to; the other passes are at those that relaxing last found.

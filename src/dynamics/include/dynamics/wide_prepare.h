@@ -28,8 +28,6 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
 /// A hinge that bounces off no limit; its bodies must be able to move along every axis.
 [[nodiscard]] bool fits_joint_lane(const JointRecord& joint);
 
-/// `wide` has a, b, joint and turns of each lane.
-void fill_wide_joint(const StepContext& ctx, WideJoint& wide);
 void commit_wide_joint(const StepContext& ctx, const WideJoint& wide);
 
 } // namespace carom::internal
