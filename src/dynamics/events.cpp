@@ -1,28 +1,47 @@
 // Stage 7, events: sorted spans, then callbacks from copies of the events, so that callbacks may change anything.
 
+#include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
 
 #include <algorithm>
+#include <bit>
 #include <memory>
-#include <tuple>
+#include <utility>
 
 namespace carom::internal {
 
 namespace {
 
 template <class Event>
-void sort_events(std::vector<Event>& events)
+std::pair<ShapeId, ShapeId> shapes_of(const Event& event)
 {
-    // Stable: events of one pair at one time keep the order in which they happened.
-    std::stable_sort(events.begin(), events.end(), [](const Event& x, const Event& y)
-                     { return std::tie(x.time, x.shape_a, x.shape_b) < std::tie(y.time, y.shape_a, y.shape_b); });
+    return {event.shape_a, event.shape_b};
 }
 
-void sort_triggers(std::vector<TriggerEvent>& events)
+std::pair<ShapeId, ShapeId> shapes_of(const TriggerEvent& event) { return {event.trigger, event.visitor}; }
+
+// Times are not negative: their bits have the order of their values. In one step a slot stands for one shape.
+template <class Event>
+EventKey key_of(const Event& event, std::size_t place)
 {
-    std::stable_sort(events.begin(), events.end(), [](const TriggerEvent& x, const TriggerEvent& y)
-                     { return std::tie(x.time, x.trigger, x.visitor) < std::tie(y.time, y.trigger, y.visitor); });
+    const auto [first, second] = shapes_of(event);
+    const auto time = std::bit_cast<std::uint32_t>(event.time + 0.0f); // no -0
+    return {std::uint64_t{time} << 32 | first.slot, std::uint64_t{second.slot} << 32 | place};
+}
+
+// Events are large: their keys are sorted.
+template <class Event>
+void sort_events(std::vector<Event>& events, std::vector<Event>& sorted, std::vector<EventKey>& keys)
+{
+    keys.clear();
+    for (const Event& event : events)
+        keys.push_back(key_of(event, keys.size()));
+    std::sort(keys.begin(), keys.end());
+    sorted.clear();
+    for (const EventKey& key : keys)
+        sorted.push_back(events[static_cast<std::uint32_t>(key.second_and_place)]);
+    events.swap(sorted);
 }
 
 template <class Event>
@@ -116,7 +135,9 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
             events.push_back(
                 {shape_id(state, c.shape_a), shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), 0});
     }
-    sort_triggers(events);
+    std::vector<TriggerEvent> sorted;
+    std::vector<EventKey> keys;
+    sort_events(events, sorted, keys);
     return events;
 }
 
@@ -125,11 +146,17 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
 void publish_events(StepContext& ctx)
 {
     Events& events = ctx.scene.events;
-    sort_events(events.begins);
-    sort_events(events.ends);
-    sort_events(events.impacts);
-    sort_triggers(events.enters);
-    sort_triggers(events.exits);
+    auto& [sorted, keys] = ctx.scene.sorted_events;
+    const auto sort = [&](auto Events::* kind, std::size_t i) { sort_events(events.*kind, sorted.*kind, keys[i]); };
+    run_both(
+        ctx.scene.def.tasks, [&] { sort(&Events::impacts, 0); },
+        [&]
+        {
+            sort(&Events::begins, 1);
+            sort(&Events::ends, 2);
+            sort(&Events::enters, 3);
+            sort(&Events::exits, 4);
+        });
     // What user verbs ended between the steps comes first, in the order in which it happened.
     take_pending(ctx.scene.pending.ends, events.ends);
     take_pending(ctx.scene.pending.exits, events.exits);

@@ -7,6 +7,9 @@
 #include "dynamics/scene_state.h"
 #include "dynamics/step_context.h"
 
+#include <array>
+#include <compare>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -60,6 +63,21 @@ struct Events
     }
 };
 
+/// What an event is sorted by: its time and its shapes; then where it stood, so that events of one pair at one time keep the order in which they happened.
+struct EventKey
+{
+    std::uint64_t time_and_first;
+    std::uint64_t second_and_place;
+    friend auto operator<=>(const EventKey&, const EventKey&) = default;
+};
+
+/// Memory for sorting events, a list of keys for each kind.
+struct SortedEvents
+{
+    Events events;
+    std::array<std::vector<EventKey>, 5> keys;
+};
+
 /// Beside the state, by slot: restored snapshots keep it.
 struct BodyExtra
 {
@@ -93,6 +111,7 @@ struct SceneData
     std::vector<ShapeExtra> shape_extras;
     std::vector<JointExtra> joint_extras;
     Events events{};
+    SortedEvents sorted_events{};
     Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step
     std::vector<UntoldImpact> untold_impacts;
     StepReport report{};
