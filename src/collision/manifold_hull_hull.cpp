@@ -249,27 +249,14 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
         out.part(nearest.normal, nearest.separation);
 }
 
-// Does the seam at this end leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner.
-bool leans_over(Vec2 normal, Vec2 into_piece, Vec2 into_neighbour)
-{
-    return dot(normal, into_piece) < -1e-3f && dot(normal, into_neighbour) > 1e-3f;
-}
-
 // Piece and hull in one frame. The manifold's normal runs from the piece to the hull.
 void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float margin, LocalManifold& out)
 {
     const Vec2 tangent = normalize(edge.point(1) - edge.point(0));
     const float side = cross(tangent, hull.center() - edge.point(0));
-    if ((piece.sides == Sides::Left && side < 0) || (piece.sides == Sides::Right && side > 0))
-    {
+    if (is_beside_solid_side(piece, side))
         out.count = 0;
-        return;
-    }
-    if (out.count == 0)
-        return;
-    const bool over_start = piece.has_previous && leans_over(out.normal, tangent, -piece.previous_tangent);
-    const bool over_end = piece.has_next && leans_over(out.normal, -tangent, piece.next_tangent);
-    if (!over_start && !over_end)
+    if (out.count == 0 || !leans_over_seam(piece, out.normal, tangent, {}))
         return;
     out.count = 0;
     clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out);
@@ -283,7 +270,7 @@ void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose&
     const Hull hull_b(b, pose);
     collide_free(hull_a, hull_b, margin, out);
     const Leaf& piece = *b.leaf;
-    if (piece.type != LeafType::Segment || !(piece.has_previous || piece.has_next || piece.sides != Sides::Both))
+    if (!is_of_chain(piece))
         return;
     // The table gives segments as b; the rules of pieces are written with the piece first, in its own frame.
     const RelativePose swapped{pose.to_b({}), inverse(pose.rotation)};

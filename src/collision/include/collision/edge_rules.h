@@ -1,8 +1,9 @@
 #pragma once
 
-// What the two files on convex outlines (manifold_hull_hull.cpp, manifold_polygon_polygon.cpp) choose by the same rule.
+// What the two files on convex outlines (manifold_hull_hull.cpp, manifold_outlines.cpp) choose by the same rule.
 
 #include "carom/math.h"
+#include "geometry/leaf.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -56,6 +57,27 @@ template <class Point>
 {
     return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) |
            static_cast<std::uint32_t>(incident_point);
+}
+
+[[nodiscard]] inline bool is_of_chain(const Leaf& leaf)
+{
+    return leaf.type == LeafType::Segment && (leaf.has_previous || leaf.has_next || leaf.sides != Sides::Both);
+}
+
+/// Of a hull whose center is so far on the left of a piece: is the piece solid on the other side alone?
+[[nodiscard]] inline bool is_beside_solid_side(const Leaf& piece, float left)
+{
+    return (piece.sides == Sides::Left && left < 0) || (piece.sides == Sides::Right && left > 0);
+}
+
+/// Does a seam leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner. Normal, out of the piece, and
+/// tangent are given in a frame that the piece's is turned to.
+[[nodiscard]] inline bool leans_over_seam(const Leaf& piece, Vec2 normal, Vec2 tangent, Rotation turn)
+{
+    const auto leans = [&](Vec2 into_piece, Vec2 into_neighbour)
+    { return dot(normal, into_piece) < -1e-3f && dot(normal, into_neighbour) > 1e-3f; };
+    return (piece.has_previous && leans(tangent, -rotate(turn, piece.previous_tangent))) ||
+           (piece.has_next && leans(-tangent, rotate(turn, piece.next_tangent)));
 }
 
 /// Between two corners, or of a surface without edges: no edge's normal.

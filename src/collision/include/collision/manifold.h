@@ -103,7 +103,7 @@ using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const Rel
 
 // The implementations, one file each.
 void collide_surface_circle(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
-void collide_polygons(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
+void collide_outlines(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
 void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
 void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
 void collide_half_space_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);
