@@ -57,11 +57,11 @@ struct Tally
     int off = 0;   ///< something else would be found
 };
 
-// Of a contact that is kept, whether the last step followed it or found it.
+// Of a contact that is kept, whether the last step followed it or found it. Where it was not solved in a crowd, within the step it may have been found again.
 void compare(const SceneState& state, int index, Tally& tally)
 {
     const Contact& contact = state.contacts[index];
-    if (!is_kept(contact))
+    if (!is_kept(contact) || !in_crowd(state, contact))
         return;
     const BodyPose a = pose_before(state, contact.body_a);
     const BodyPose b = pose_before(state, contact.body_b);

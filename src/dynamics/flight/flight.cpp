@@ -49,11 +49,15 @@ void reconsider_neighbours(const FlightSpan& span, std::int32_t struck)
     }
 }
 
-// What stays where it is looks for nothing: the others must see it there.
-void reconsider_all(const FlightSpan& span)
+// What stays where it is looks for nothing: who may come there must see it.
+void reconsider_those_near(const FlightSpan& span, const Flier& capped)
 {
+    const Reach place = reach_of(span, capped.body);
     for (Flier& f : span.fliers())
-        find_next_event(span, f);
+    {
+        if (!f.landed && !are_apart(reach_of(span, f.body), place))
+            find_next_event(span, f);
+    }
 }
 
 void process(const FlightSpan& span, Flier& f)
@@ -74,7 +78,7 @@ void process(const FlightSpan& span, Flier& f)
     for (const std::int32_t s : changed)
     {
         if (Flier* flier = span.flier_at(s))
-            is_capped(*flier) ? reconsider_all(span) : find_next_event(span, *flier);
+            is_capped(*flier) ? reconsider_those_near(span, *flier) : find_next_event(span, *flier);
         else
             reconsider_neighbours(span, s);
     }

@@ -88,6 +88,7 @@ void clear_substep(const FlightSpan& span, Flier& f)
 {
     fall_freely(span, f);
     f.impacts = 0;
+    f.most_impacts = span.unit.precise ? impact_limit : crowd_impact_limit;
     f.impulse_x = f.impulse_y = f.turn_impulse = 0;
     f.start_w = f.w;
     f.rests = false;

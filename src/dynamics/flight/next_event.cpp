@@ -249,14 +249,6 @@ private:
         return m_span.state_in_unit(body) != none && are_apart(own_way().reach, reach_of(m_span, body));
     }
 
-    [[nodiscard]] static bool are_apart(const Reach& a, const Reach& b)
-    {
-        const double x = b.x - a.x;
-        const double y = b.y - a.y;
-        const double r = a.radius + b.radius;
-        return x * x + y * y > r * r;
-    }
-
     const FlightSpan& m_span;
     Flier& m_flier;
     Position m_origin;
@@ -264,6 +256,14 @@ private:
 };
 
 } // namespace
+
+bool are_apart(const Reach& a, const Reach& b)
+{
+    const double x = b.x - a.x;
+    const double y = b.y - a.y;
+    const double r = a.radius + b.radius;
+    return x * x + y * y > r * r;
+}
 
 Reach reach_of(const FlightSpan& span, int body)
 {

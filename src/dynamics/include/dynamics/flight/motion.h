@@ -9,8 +9,6 @@
 
 namespace carom::internal {
 
-inline constexpr int impact_limit = 64; ///< per body and sub-step: beyond it a body stays where it is until the next
-
 /// A sub-step of a unit, as flight sees it.
 struct FlightSpan
 {
@@ -61,7 +59,7 @@ void advance(const FlightSpan& span, Flier& f, double time);
 void take_off(const FlightSpan& span, Flier& f, double time);
 
 /// What has hit things too often stays where it is until the sub-step is over.
-[[nodiscard]] inline bool is_capped(const Flier& f) { return f.impacts >= impact_limit; }
+[[nodiscard]] inline bool is_capped(const Flier& f) { return f.impacts >= f.most_impacts; }
 
 /// Center of mass and its velocity.
 struct CenterMotion

@@ -22,5 +22,6 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
 
 /// Of a dynamic body of the unit, whether it flies or not, for the rest of the sub-step.
 [[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
+[[nodiscard]] bool are_apart(const Reach& a, const Reach& b);
 
 } // namespace carom::internal
