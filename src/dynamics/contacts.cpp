@@ -256,8 +256,7 @@ private:
             m_news[i] = news_of(m_ctx, contact);
             return;
         }
-        const bool waits = is_followed_with_others(m_ctx.state, contact) || may_stay_apart_with_others(m_ctx.state, contact);
-        if (!waits)
+        if (!is_told_with_others(m_ctx.state, contact))
         {
             put_off(i);
             return;

@@ -323,13 +323,6 @@ void follow_manifold(const StepContext& ctx, int index)
     keep(state, contact, found, kept);
 }
 
-bool is_within_margin(const StepContext& ctx, const Contact& contact, const OnePoint& now, int lane)
-{
-    const float margin = margin_of(ctx, contact);
-    return margin + now.way.v[lane] < surely * now.reach.v[lane] && now.separation.v[lane] <= margin &&
-           now.second.v[lane] > margin;
-}
-
 FollowedScene followed_scene(const StepContext& ctx)
 {
     const Tolerances& t = ctx.scene.tolerances;

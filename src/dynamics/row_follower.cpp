@@ -30,8 +30,7 @@ FollowNews RowFollower::follow(WideRow& row)
     FollowedRow now;
     m_kernels.follow(row, m_scene, now);
     FollowNews news;
-    const std::uint32_t beyond = row.count == 2 ? 0 : beyond_margins(row, now);
-    const std::uint32_t looked = now.unsure | now.begins_or_ends | beyond;
+    const std::uint32_t looked = now.unsure | now.begins_or_ends;
     const std::uint32_t sure = filled_lanes(row) & ~looked;
     row.may_hit = now.unloaded & sure;
     clear_sums(row);
@@ -42,21 +41,6 @@ FollowNews RowFollower::follow(WideRow& row)
     for_each_lane(looked, [&](int i) { look_at(row, i, news); });
     m_kernels.prepare(&row, 1);
     return news;
-}
-
-// Lanes of one point that may get a second, as follow_manifold decides.
-std::uint32_t RowFollower::beyond_margins(const WideRow& row, const FollowedRow& now) const
-{
-    std::uint32_t beyond = 0;
-    for (int i = 0; i < lane_count; ++i)
-    {
-        const std::int32_t contact = row.contact.v[i];
-        if (contact == none)
-            continue;
-        if (!is_within_margin(m_ctx, m_state.contacts[contact], now.one, i))
-            beyond |= 1u << i;
-    }
-    return beyond;
 }
 
 // Found anew, or followed, by itself.

@@ -124,7 +124,11 @@ TEST(DynamicsFollowedManifolds, WithoutAPointAreToldEightAtATime)
         const SceneState before = data.state;
         std::vector<std::int32_t> apart;
         std::ranges::copy_if(before.awake_contacts, std::back_inserter(apart),
-                             [&](std::int32_t contact) { return may_stay_apart_with_others(before, before.contacts[contact]); });
+                             [&](std::int32_t contact)
+                             {
+                                 const Contact& c = before.contacts[contact];
+                                 return c.manifold.count == 0 && is_told_with_others(before, c);
+                             });
         for (std::size_t first = 0; first + lane_count <= apart.size(); first += lane_count)
         {
             LaneInts eight;

@@ -3,6 +3,25 @@
 
 namespace follows {
 
+using carom::internal::select;
+
+// Empty lanes see what this one sees.
+CAROM_INLINE int filled_lane(const LaneInts& contacts)
+{
+    int some = 0;
+    for (int i = 0; i < lane_count; ++i)
+        some = contacts.v[i] < 0 ? some : i;
+    return some;
+}
+
+CAROM_INLINE LaneInts with_all_lanes(LaneInts contacts)
+{
+    const int some = filled_lane(contacts);
+    for (std::int32_t& contact : contacts.v)
+        contact = contact < 0 ? contacts.v[some] : contact;
+    return contacts;
+}
+
 // Of eight contacts, what is kept of them, and their bodies.
 struct Places
 {
@@ -10,12 +29,9 @@ struct Places
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
 
-    // Empty lanes see what another sees.
     CAROM_INLINE Places(const WideRow& row, const FollowedScene& scene)
     {
-        int some = 0;
-        for (int i = 0; i < lane_count; ++i)
-            some = row.contact.v[i] < 0 ? some : i;
+        const int some = filled_lane(row.contact);
         for (int i = 0; i < lane_count; ++i)
         {
             const int lane = row.contact.v[i] < 0 ? some : i;
@@ -42,6 +58,18 @@ struct Arrow
     F8 x, y;
 };
 
+CAROM_INLINE F8 dot(const Arrow& v, const Arrow& w) { return v.x * w.x + v.y * w.y; }
+
+CAROM_INLINE Arrow select(I8 mask, const Arrow& v, const Arrow& w)
+{
+    return {select(mask, v.x, w.x), select(mask, v.y, w.y)};
+}
+
+CAROM_INLINE Turn select(I8 mask, const Turn& p, const Turn& q)
+{
+    return {select(mask, p.c, q.c), select(mask, p.s, q.s)};
+}
+
 CAROM_INLINE Arrow turned(const Turn& q, const Arrow& v) { return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y}; }
 
 // From center to center, taken in double.
@@ -66,22 +94,40 @@ CAROM_INLINE Arrow centers_apart(const Places& places)
 
 CAROM_INLINE F8 length_of(const Arrow& v) { return root(v.x * v.x + v.y * v.y); }
 
-struct Moved
+// Two bodies, the one in whose axes something is kept being its own.
+struct Two
 {
-    F8 way;
-    F8 cosine;
+    Turn a, b;
+    Arrow apart; ///< from the center of a to that of b
+    I8 own_is_b;
+    Turn own, other;
+    Arrow offset; ///< from the own center to the other's
+
+    CAROM_INLINE Two(const Places& places, I8 seen_from_b)
+        : a(turns_of(places.a)), b(turns_of(places.b)), apart(centers_apart(places)), own_is_b(seen_from_b),
+          own(select(own_is_b, b, a)), other(select(own_is_b, a, b)), offset(select(own_is_b, {-apart.x, -apart.y}, apart))
+    {}
 };
 
-// How far any point of the other has moved against the edge's body since the manifold was found, and how far it has turned.
-CAROM_INLINE Moved moved_since(const Turn& own, const Turn& other, const Arrow& offset, const LaneFloats& extent,
-                               const Arrow& kept_center, const Turn& kept)
+// How the other has moved against the own body since then.
+struct Change
 {
-    const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
-    const F8 cosine = now.c * kept.c + now.s * kept.s;
-    const F8 sine = now.s * kept.c - now.c * kept.s;
-    const Arrow moved = {own.c * offset.x + own.s * offset.y - kept_center.x, own.c * offset.y - own.s * offset.x - kept_center.y};
-    return {length_of(moved) + load(extent) * length_of({sine, 1 - cosine}), cosine};
-}
+    Arrow way; ///< of its center
+    F8 cosine, sine;
+
+    CAROM_INLINE Change(const Two& two, const Arrow& center, const Turn& then)
+    {
+        const Turn& own = two.own;
+        const Turn& other = two.other;
+        const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
+        way = {own.c * two.offset.x + own.s * two.offset.y - center.x, own.c * two.offset.y - own.s * two.offset.x - center.y};
+        cosine = now.c * then.c + now.s * then.s;
+        sine = now.s * then.c - now.c * then.s;
+    }
+
+    // Of a circle of radius 1.
+    CAROM_INLINE F8 chord() const { return length_of({sine, 1 - cosine}); }
+};
 
 CAROM_INLINE I8 lanes_of(std::uint32_t bits)
 {
@@ -122,30 +168,23 @@ struct Point
 };
 
 // How the bodies of eight contacts stand to each other, and an edge to the corners before it; as Facing in kept_manifold.cpp.
-struct Stand
+struct Stand : Two
 {
-    Turn a, b;
-    Arrow apart;   ///< from the center of a to that of b
     Arrow n;       ///< from a to b
     Arrow outward; ///< of the edge
-    Arrow offset;  ///< from the center of the edge's body to the other's
     Arrow start;
     Arrow corners[2];
     F8 along[2];
     F8 end;
     F8 reach, radius;
-    Moved moved;
-    I8 edge_of_b;
+    F8 way; ///< how far any point of the other has moved against the edge's body since the manifold was found
+    F8 cosine; ///< of the angle that it has turned
 
     CAROM_INLINE Stand(const Places& places, const Kept& kept, std::uint32_t edges_of_b)
-        : a(turns_of(places.a)), b(turns_of(places.b)), apart(centers_apart(places)), reach(kept.reach), radius(kept.radius),
-          edge_of_b(lanes_of(edges_of_b))
+        : Two(places, lanes_of(edges_of_b)), reach(kept.reach), radius(kept.radius)
     {
-        const Turn own = {select(edge_of_b, b.c, a.c), select(edge_of_b, b.s, a.s)};
-        const Turn other = {select(edge_of_b, a.c, b.c), select(edge_of_b, a.s, b.s)};
         n = turned(own, kept.last);
-        outward = {select(edge_of_b, -n.x, n.x), select(edge_of_b, -n.y, n.y)};
-        offset = {select(edge_of_b, -apart.x, apart.x), select(edge_of_b, -apart.y, apart.y)};
+        outward = select(own_is_b, {-n.x, -n.y}, n);
         start = turned(own, kept.first[0]);
         const Arrow stop = turned(own, kept.first[1]);
         const Arrow edge = {stop.x - start.x, stop.y - start.y};
@@ -159,7 +198,9 @@ struct Stand
         LaneFloats extent;
         for (int i = 0; i < lane_count; ++i)
             extent.v[i] = ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent;
-        moved = moved_since(own, other, offset, extent, kept.center, kept.rotation);
+        const Change change(*this, kept.center, kept.rotation);
+        way = length_of(change.way) + load(extent) * change.chord();
+        cosine = change.cosine;
     }
 
     CAROM_INLINE I8 meets() const
@@ -183,8 +224,8 @@ CAROM_INLINE Point follow_point(int k, const Stand& s)
     const Arrow on_other = {core.x - s.radius * s.outward.x, core.y - s.radius * s.outward.y};
     const Arrow on_edge = {on_other.x - p.separation * s.outward.x, on_other.y - p.separation * s.outward.y};
     const Arrow there = {on_other.x - s.offset.x, on_other.y - s.offset.y};
-    p.a = {select(s.edge_of_b, there.x, on_edge.x), select(s.edge_of_b, there.y, on_edge.y)};
-    p.b = {select(s.edge_of_b, on_edge.x, there.x), select(s.edge_of_b, on_edge.y, there.y)};
+    p.a = select(s.own_is_b, there, on_edge);
+    p.b = select(s.own_is_b, on_edge, there);
     return p;
 }
 
@@ -207,13 +248,6 @@ CAROM_INLINE I8 bears(const WideRow& row)
     return loaded;
 }
 
-CAROM_INLINE F8 dot(const Arrow& v, const Arrow& w) { return v.x * w.x + v.y * w.y; }
-
-CAROM_INLINE Arrow select(I8 mask, const Arrow& v, const Arrow& w)
-{
-    return {carom::internal::select(mask, v.x, w.x), carom::internal::select(mask, v.y, w.y)};
-}
-
 // What has become of eight manifolds.
 struct Found
 {
@@ -222,13 +256,13 @@ struct Found
     F8 separation; ///< the least
     F8 second;     ///< of one point: of what would be another
     F8 way, reach;
-    I8 holds; ///< what was kept is true still; of one point, as far as its margin
+    I8 holds; ///< what was kept is true still
 };
 
 CAROM_INLINE I8 is_best_still(const Stand& s, I8 inside, F8 lowest, const FollowedScene& scene)
 {
     const I8 is_outside = inside & (lowest + s.radius > all(0));
-    return is_outside | ((s.moved.way < all(scene.sure_way)) & (s.moved.cosine > all(scene.sure_cosine)));
+    return is_outside | ((s.way < all(scene.sure_way)) & (s.cosine > all(scene.sure_cosine)));
 }
 
 // What is known of eight contacts, as bits of lanes.
@@ -255,76 +289,11 @@ CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found
     found.n = select(lanes, n, found.n);
     p.a = select(lanes, {from.x + kept.last.x * n.x, from.y + kept.last.x * n.y}, p.a);
     p.b = select(lanes, {to.x - kept.last.y * n.x, to.y - kept.last.y * n.y}, p.b);
-    p.separation = found.separation = carom::internal::select(lanes, separation, p.separation);
-    found.second = carom::internal::select(lanes, all(3e38f), found.second);
-    found.way = carom::internal::select(lanes, all(0), found.way);
-    found.reach = carom::internal::select(lanes, all(3e38f), found.reach);
+    p.separation = found.separation = select(lanes, separation, p.separation);
+    found.second = select(lanes, all(3e38f), found.second);
+    found.way = select(lanes, all(0), found.way);
+    found.reach = select(lanes, all(3e38f), found.reach);
     found.holds = (found.holds & ~lanes) | (leads_out & lanes);
-}
-
-CAROM_INLINE Found follow_points(int count, const Places& places, const Kinds& kinds, const FollowedScene& scene)
-{
-    const Kept kept(places);
-    const Stand stand(places, kept, kinds.edge_of_b);
-    Found found;
-    found.n = stand.n;
-    found.way = stand.moved.way;
-    found.reach = stand.reach;
-    found.points[0] = follow_point(0, stand);
-    found.points[1] = follow_point(1, stand);
-    const F8 first = found.points[0].separation;
-    const F8 second = found.points[1].separation;
-    if (count == 2)
-    {
-        const I8 second_is_lower = second < first;
-        found.separation = carom::internal::select(second_is_lower, second, first);
-        const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
-        found.holds = stand.meets() & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
-        return found;
-    }
-    found.separation = first;
-    found.second = carom::internal::select(stand.is_round(), all(3e38f), second);
-    found.holds = found.points[0].inside & is_best_still(stand, found.points[0].inside, first, scene);
-    if (kinds.nearest != 0)
-        take_nearest(lanes_of(kinds.nearest), kept, stand, found);
-    return found;
-}
-
-CAROM_INLINE void tell_one(const Found& now, OnePoint& one)
-{
-    store(one.way, now.way);
-    store(one.reach, now.reach);
-    store(one.separation, now.separation);
-    store(one.second, now.second);
-}
-
-// Lanes by what has become of their contacts.
-CAROM_INLINE void tell(const WideRow& row, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
-{
-    const I8 touching = ~lanes_of(row.untold);
-    const I8 loaded = bears(row);
-    const I8 near = now.separation <= carom::internal::select(touching, all(2 * scene.slop), all(scene.slop));
-    const I8 borne = loaded & (now.separation <= all(scene.speculation));
-    found.unsure = bits(filled & ~(lanes_of(row.kept) & now.holds));
-    found.begins_or_ends = bits(filled & (near != touching));
-    found.borne = bits(filled & borne);
-    found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
-    found.unloaded = bits(filled & ~loaded);
-    store(found.separation, now.separation);
-    if (row.count == 1)
-        tell_one(now, found.one);
-}
-
-void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
-{
-    const Places places(row, scene);
-    const I8 filled = load(row.contact) >= I8{};
-    const Found now = follow_points(row.count, places, {row.edge_of_b, row.nearest}, scene);
-    store(row.nx, carom::internal::select(filled, now.n.x, all(0)));
-    store(row.ny, carom::internal::select(filled, now.n.y, all(0)));
-    for (int k = 0; k < row.count; ++k)
-        put(row.points[k], now.points[k], now.n, filled);
-    tell(row, now, filled, scene, found);
 }
 
 // Within which there are points: as margin_of in kept_manifold.cpp.
@@ -338,6 +307,77 @@ CAROM_INLINE F8 margins_of(const LaneInts& contacts, const FollowedScene& scene)
     return all(scene.speculation) + (length_of({bx - ax, by - ay}) + way_a + way_b);
 }
 
+// One point that gets no second, and is none that would not be found: as has_one_point in kept_manifold.cpp.
+CAROM_INLINE I8 are_alone(const Found& now, F8 margin, const FollowedScene& scene)
+{
+    return (margin + now.way < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
+}
+
+template <int points>
+CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const FollowedScene& scene)
+{
+    const Kept kept(places);
+    const Stand stand(places, kept, kinds.edge_of_b);
+    Found found;
+    found.n = stand.n;
+    found.way = stand.way;
+    found.reach = stand.reach;
+    found.points[0] = follow_point(0, stand);
+    found.points[1] = follow_point(1, stand);
+    const F8 first = found.points[0].separation;
+    const F8 second = found.points[1].separation;
+    if (points == 2)
+    {
+        const I8 second_is_lower = second < first;
+        found.separation = select(second_is_lower, second, first);
+        const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
+        found.holds = stand.meets() & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
+        return found;
+    }
+    found.separation = first;
+    found.second = select(stand.is_round(), all(3e38f), second);
+    found.holds = found.points[0].inside & is_best_still(stand, found.points[0].inside, first, scene);
+    if (kinds.nearest != 0)
+        take_nearest(lanes_of(kinds.nearest), kept, stand, found);
+    return found;
+}
+
+// Lanes by what has become of their contacts.
+CAROM_INLINE void tell(const WideRow& row, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
+{
+    const I8 touching = ~lanes_of(row.untold);
+    const I8 loaded = bears(row);
+    const I8 near = now.separation <= select(touching, all(2 * scene.slop), all(scene.slop));
+    const I8 borne = loaded & (now.separation <= all(scene.speculation));
+    found.unsure = bits(filled & ~(lanes_of(row.kept) & now.holds));
+    found.begins_or_ends = bits(filled & (near != touching));
+    found.borne = bits(filled & borne);
+    found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
+    found.unloaded = bits(filled & ~loaded);
+    store(found.separation, now.separation);
+}
+
+template <int points>
+void follow_row(WideRow& row, const FollowedScene& scene, FollowedRow& found)
+{
+    const Places places(row, scene);
+    const I8 filled = load(row.contact) >= I8{};
+    Found now = follow_points<points>(places, {row.edge_of_b, row.nearest}, scene);
+    if (points == 1)
+        now.holds &= are_alone(now, margins_of(with_all_lanes(row.contact), scene), scene);
+    store(row.nx, select(filled, now.n.x, all(0)));
+    store(row.ny, select(filled, now.n.y, all(0)));
+    for (int k = 0; k < points; ++k)
+        put(row.points[k], now.points[k], now.n, filled);
+    tell(row, now, filled, scene, found);
+}
+
+void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
+{
+    const auto follow_points_of = row.count == 2 ? follow_row<2> : follow_row<1>;
+    follow_points_of(row, scene, found);
+}
+
 CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const FollowedScene& scene, std::uint32_t flag)
 {
     std::uint32_t lanes = 0;
@@ -346,22 +386,19 @@ CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const Follo
     return lanes;
 }
 
-// It gets no second point, and is none that would not be found: as is_within_margin.
-CAROM_INLINE I8 are_within_margins(const Found& now, F8 margin, const FollowedScene& scene)
-{
-    return (margin + now.way < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
-}
-
 // The same for eight contacts with as many points each that are in no row now: into their manifolds.
-void follow_contacts(const LaneInts& contacts, int count, Contact* into, const FollowedScene& scene, FollowedContacts& found)
+template <int points>
+void follow_eight(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found)
 {
     static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
     const Places places(contacts, scene);
     const Kinds kinds = {lanes_with_flag(contacts, scene, contact_flag::edge_of_b),
                          lanes_with_flag(contacts, scene, contact_flag::nearest)};
-    const Found now = follow_points(count, places, kinds, scene);
+    Found now = follow_points<points>(places, kinds, scene);
+    if (points == 1)
+        now.holds &= are_alone(now, margins_of(contacts, scene), scene);
     const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < points; ++k)
     {
         const Point& p = now.points[k];
         scatter4([&](int i) { return reinterpret_cast<char*>(&manifold(i).points[k].anchor_a); }, p.a.x, p.a.y, p.b.x, p.b.y);
@@ -377,8 +414,14 @@ void follow_contacts(const LaneInts& contacts, int count, Contact* into, const F
     for (int i = 0; i < lane_count; ++i)
         manifold(i).normal = {nx.v[i], ny.v[i]};
     const I8 near = now.separation <= all(2 * scene.slop);
-    found.sure = bits(count == 1 ? now.holds & are_within_margins(now, margins_of(contacts, scene), scene) : now.holds);
+    found.sure = bits(now.holds);
     found.touch_on = bits(near) & lanes_with_flag(contacts, scene, contact_flag::touching);
+}
+
+void follow_contacts(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene, FollowedContacts& found)
+{
+    const auto follow_points_of = points == 2 ? follow_eight<2> : follow_eight<1>;
+    follow_points_of(contacts, into, scene, found);
 }
 
 // Along the direction that parted them, or the whole way that they have come: as room() in kept_manifold.cpp, which decides where it is close.
@@ -395,21 +438,12 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
     gather4(kept_at(0), direction.x, direction.y, arm, unused);
     gather4(kept_at(32), unused, unused_too, center.x, center.y);
     gather4(kept_at(48), kept.c, kept.s, reach, unused);
-    const I8 seen_from_b = lanes_of(lanes_with_flag(contacts, scene, contact_flag::edge_of_b));
-    const Turn a = turns_of(places.a);
-    const Turn b = turns_of(places.b);
-    const auto of = [&](F8 if_b, F8 if_a) { return carom::internal::select(seen_from_b, if_b, if_a); };
-    const Turn own = {of(b.c, a.c), of(b.s, a.s)};
-    const Turn other = {of(a.c, b.c), of(a.s, b.s)};
-    const Arrow apart = centers_apart(places);
-    const Arrow offset = {of(-apart.x, apart.x), of(-apart.y, apart.y)};
-    const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
-    const Arrow turn = {now.s * kept.c - now.c * kept.s, 1 - (now.c * kept.c + now.s * kept.s)};
-    const Arrow way = {own.c * offset.x + own.s * offset.y - center.x, own.c * offset.y - own.s * offset.x - center.y};
+    const Two two(places, lanes_of(lanes_with_flag(contacts, scene, contact_flag::edge_of_b)));
+    const Change change(two, center, kept);
     const I8 any_direction = (direction.x == all(0)) & (direction.y == all(0));
-    const F8 gain = carom::internal::select(any_direction, -length_of(way), dot(direction, way));
-    const F8 room = reach + gain - arm * length_of(turn);
-    const F8 slack = rounding * (length_of(offset) + reach + arm);
+    const F8 gain = select(any_direction, -length_of(change.way), dot(direction, change.way));
+    const F8 room = reach + gain - arm * change.chord();
+    const F8 slack = rounding * (length_of(two.offset) + reach + arm);
     return bits(margins_of(contacts, scene) + slack < room);
 }
 

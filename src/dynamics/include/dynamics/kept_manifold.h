@@ -34,22 +34,12 @@ void follow_manifold(const StepContext& ctx, int index);
 inline constexpr float surely = 0.999f;
 [[nodiscard]] FollowedScene followed_scene(const StepContext& ctx);
 
-/// One point that a kernel has followed: it gets no second, and is none that would not be found.
-[[nodiscard]] bool is_within_margin(const StepContext& ctx, const Contact& contact, const OnePoint& now, int lane);
-
-/// It has points and can be followed with others: in a crowd, and nothing has been done to it.
-[[nodiscard]] inline bool is_followed_with_others(const SceneState& state, const Contact& contact)
+/// What has become of it can be told with others: in a crowd, nothing has been done to it, and without a point it did not touch.
+[[nodiscard]] inline bool is_told_with_others(const SceneState& state, const Contact& contact)
 {
-    constexpr std::uint32_t asked = contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing;
-    return (contact.flags & asked) == contact_flag::kept && contact.manifold.count > 0 && in_crowd(state, contact);
-}
-
-/// The same without a point, and not touching.
-[[nodiscard]] inline bool may_stay_apart_with_others(const SceneState& state, const Contact& contact)
-{
-    constexpr std::uint32_t asked =
-        contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing | contact_flag::touching;
-    return (contact.flags & asked) == contact_flag::kept && contact.manifold.count == 0 && in_crowd(state, contact);
+    const std::uint32_t asked = contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing |
+                                (contact.manifold.count == 0 ? contact_flag::touching : 0);
+    return (contact.flags & asked) == contact_flag::kept && in_crowd(state, contact);
 }
 
 /// Between steps, a contact's manifold at the poses of the start of the last: where its row has followed it, it is followed here now.

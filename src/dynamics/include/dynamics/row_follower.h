@@ -25,7 +25,6 @@ public:
     [[nodiscard]] FollowNews follow(WideRow& row);
 
 private:
-    [[nodiscard]] std::uint32_t beyond_margins(const WideRow& row, const FollowedRow& now) const;
     void look_at(WideRow& row, int i, FollowNews& news);
     void note_borne(const WideRow& row, int i) const;
     void note_if_loaded(const WideRow& row, int i, float separation) const;

@@ -33,19 +33,9 @@ struct FollowedScene
     float speculation;
 };
 
-/// Of contacts with one point.
-struct OnePoint
-{
-    LaneFloats way;        ///< how far any point of the one has moved against the other since the manifold was found
-    LaneFloats reach;      ///< no third corner was nearer than this
-    LaneFloats separation; ///< of the point
-    LaneFloats second;     ///< of what would be the second point
-};
-
 /// What has become of a row's contacts; bits are lanes.
 struct FollowedRow
 {
-    OnePoint one;
     LaneFloats separation; ///< the least of the contact's points
     std::uint32_t unsure;  ///< to be looked at one by one; what else is told of them does not hold
     std::uint32_t begins_or_ends;
