@@ -1,4 +1,4 @@
-// What is walked together is kept together: every sixteenth step contacts move, among the slots that they have, to the order in which their lanes were
+// What is walked together is kept together: every 32nd step contacts move, among the slots that they have, to the order in which their lanes were
 // last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
 // in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
@@ -19,8 +19,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::uint64_t steps_between = 16;
-constexpr std::uint64_t steps_between_cells = 32;
+constexpr std::uint64_t steps_between = 32;
 constexpr std::size_t few_of = 8; // less than one of so many
 constexpr std::size_t contacts_per_task = 1024;
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
@@ -39,8 +38,6 @@ void sort_bodies(SceneState& state)
 void part_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    if (state.step_count % steps_between_cells != 1)
-        return;
     HilbertOrder& order = ctx.scratch.plane_order;
     order.sort(state.awake_bodies.size(),
                [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
