@@ -30,18 +30,36 @@ EventKey key_of(const Event& event, std::size_t place)
     return {std::uint64_t{time} << 32 | first.slot, std::uint64_t{second.slot} << 32 | place};
 }
 
+// Each to the place where its key has come to, round by round: keys say from where.
+template <class Event>
+void move_to_keys(std::vector<Event>& events, std::vector<EventKey>& keys)
+{
+    const auto place_of = [&](std::size_t i) { return std::size_t{static_cast<std::uint32_t>(keys[i].second_and_place)}; };
+    for (std::size_t first = 0; first < events.size(); ++first)
+    {
+        const Event moved = events[first];
+        std::size_t to = first;
+        while (true)
+        {
+            const std::size_t from = place_of(to);
+            keys[to].second_and_place = to; // done
+            events[to] = from == first ? moved : events[from];
+            if (from == first)
+                break;
+            to = from;
+        }
+    }
+}
+
 // Events are large: their keys are sorted.
 template <class Event>
-void sort_events(std::vector<Event>& events, std::vector<Event>& sorted, std::vector<EventKey>& keys)
+void sort_events(std::vector<Event>& events, std::vector<EventKey>& keys)
 {
-    keys.clear();
-    for (const Event& event : events)
-        keys.push_back(key_of(event, keys.size()));
+    keys.resize(events.size());
+    for (std::size_t i = 0; i < events.size(); ++i)
+        keys[i] = key_of(events[i], i);
     std::sort(keys.begin(), keys.end());
-    sorted.clear();
-    for (const EventKey& key : keys)
-        sorted.push_back(events[static_cast<std::uint32_t>(key.second_and_place)]);
-    events.swap(sorted);
+    move_to_keys(events, keys);
 }
 
 template <class Event>
@@ -135,9 +153,8 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
             events.push_back(
                 {shape_id(state, c.shape_a), shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), 0});
     }
-    std::vector<TriggerEvent> sorted;
     std::vector<EventKey> keys;
-    sort_events(events, sorted, keys);
+    sort_events(events, keys);
     return events;
 }
 
@@ -146,16 +163,15 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
 void publish_events(StepContext& ctx)
 {
     Events& events = ctx.scene.events;
-    auto& [sorted, keys] = ctx.scene.sorted_events;
-    const auto sort = [&](auto Events::* kind, std::size_t i) { sort_events(events.*kind, sorted.*kind, keys[i]); };
+    auto& [of_impacts, of_others] = ctx.scene.event_keys;
     run_both(
-        ctx.scene.def.tasks, [&] { sort(&Events::impacts, 0); },
+        ctx.scene.def.tasks, [&] { sort_events(events.impacts, of_impacts); },
         [&]
         {
-            sort(&Events::begins, 1);
-            sort(&Events::ends, 2);
-            sort(&Events::enters, 3);
-            sort(&Events::exits, 4);
+            sort_events(events.begins, of_others);
+            sort_events(events.ends, of_others);
+            sort_events(events.enters, of_others);
+            sort_events(events.exits, of_others);
         });
     // What user verbs ended between the steps comes first, in the order in which it happened.
     take_pending(ctx.scene.pending.ends, events.ends);

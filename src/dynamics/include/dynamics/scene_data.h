@@ -71,13 +71,6 @@ struct EventKey
     friend auto operator<=>(const EventKey&, const EventKey&) = default;
 };
 
-/// Memory for sorting events, a list of keys for each kind.
-struct SortedEvents
-{
-    Events events;
-    std::array<std::vector<EventKey>, 5> keys;
-};
-
 /// Beside the state, by slot: restored snapshots keep it.
 struct BodyExtra
 {
@@ -111,7 +104,7 @@ struct SceneData
     std::vector<ShapeExtra> shape_extras;
     std::vector<JointExtra> joint_extras;
     Events events{};
-    SortedEvents sorted_events{};
+    std::array<std::vector<EventKey>, 2> event_keys{}; ///< memory: of impacts, and of the others
     Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step
     std::vector<UntoldImpact> untold_impacts;
     StepReport report{};
