@@ -21,13 +21,19 @@ std::pair<ShapeId, ShapeId> shapes_of(const Event& event)
 
 std::pair<ShapeId, ShapeId> shapes_of(const TriggerEvent& event) { return {event.trigger, event.visitor}; }
 
-// Times are not negative: their bits have the order of their values. In one step a slot stands for one shape.
+// Bits in the order of the values.
+std::uint32_t ordered_bits(float x)
+{
+    const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f); // no -0
+    return x < 0 ? ~bits : bits | 1u << 31;
+}
+
+// In one step a slot stands for one shape.
 template <class Event>
 EventKey key_of(const Event& event, std::size_t place)
 {
     const auto [first, second] = shapes_of(event);
-    const auto time = std::bit_cast<std::uint32_t>(event.time + 0.0f); // no -0
-    return {std::uint64_t{time} << 32 | first.slot, std::uint64_t{second.slot} << 32 | place};
+    return {std::uint64_t{ordered_bits(event.time)} << 32 | first.slot, std::uint64_t{second.slot} << 32 | place};
 }
 
 // Each to the place where its key has come to, round by round: keys say from where.
