@@ -133,9 +133,10 @@ struct Hold
 
 inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
 
-inline constexpr int impact_limit = 64; ///< per body and sub-step: beyond it a body stays where it is until the next
-inline constexpr int crowd_impact_limit =
-    16; ///< the same where more than a few are solved together: there what rattles must not keep all waiting
+/// Impacts of a body in a sub-step: then it stays where it is until the next. Where more than a few are solved together, what rattles must not keep all
+/// of them waiting.
+inline constexpr int impact_limit = 64;
+inline constexpr int crowd_impact_limit = 16;
 
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
 /// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
