@@ -96,7 +96,7 @@ void collide_round(const LeafView& hull, const RelativePose& pose, const Round& 
 void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {
     const Leaf& arc = *a.leaf;
-    const Hull hull(b, pose);
+    const HullSeen hull(b, pose);
     const bool inside = length(hull.center() - arc.p0) < arc.arc_radius;
     if (!faces(arc, inside))
         return;

@@ -8,7 +8,7 @@ namespace carom::internal {
 void collide_half_space_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {
     const Vec2 n = a.leaf->p0;
-    const Hull hull(b, pose);
+    const HullSeen hull(b, pose);
     const auto depth = [&](int i) { return dot(n, hull.point(i)) - hull.radius(i) - a.leaf->r0; };
     int deepest = 0;
     for (int i = 1; i < hull.count(); ++i)

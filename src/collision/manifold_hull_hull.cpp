@@ -254,7 +254,7 @@ void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float 
 {
     const Vec2 tangent = normalize(edge.point(1) - edge.point(0));
     const float side = cross(tangent, hull.center() - edge.point(0));
-    if (is_beside_solid_side(piece, side))
+    if (is_beside_solid_side(piece, static_cast<double>(side)))
         out.count = 0;
     if (out.count == 0 || !leans_over_seam(piece, out.normal, tangent, {}))
         return;
@@ -267,15 +267,15 @@ void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float 
 void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {
     const Hull hull_a(a);
-    const Hull hull_b(b, pose);
+    const HullSeen hull_b(b, pose);
     collide_free(hull_a, hull_b, margin, out);
     const Leaf& piece = *b.leaf;
-    if (!is_of_chain(piece))
+    if (piece.type != LeafType::Segment || !is_of_chain(piece))
         return;
     // The table gives segments as b; the rules of pieces are written with the piece first, in its own frame.
     const RelativePose swapped{pose.to_b({}), inverse(pose.rotation)};
     const Hull edge(b);
-    const Hull hull(a, swapped);
+    const HullSeen hull(a, swapped);
     LocalManifold m;
     m.normal = -inverse_rotate(pose.rotation, out.normal);
     for (int i = 0; i < out.count; ++i)

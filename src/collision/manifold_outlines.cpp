@@ -1,11 +1,10 @@
 // Convex outlines of up to eight corners with one radius, the commonest pairs there are: polygons, capsules, segments and pieces of chains. The rules are
-// those of manifold_hull_hull.cpp, with four edges tested at a time. Where nothing is left of the clipped edge, and where a normal leans over the seam of
-// a chain, that file decides.
+// those of manifold_hull_hull.cpp, with four edges tested at a time. Where nothing is left of the clipped edge, that file decides.
 
 #include "collision/edge_rules.h"
+#include "collision/hull.h"
 #include "collision/manifold.h"
 #include "core/float4.h"
-#include "geometry/surface.h"
 
 #include <algorithm>
 #include <bit>
@@ -24,43 +23,7 @@ struct Corners
     int count;
 };
 
-// In the leaf's own frame. A capsule or segment has two corners and two edges.
-class Outline
-{
-public:
-    const Vec2* points;
-    const Vec2* normals;
-    int count;
-    float radius;
-
-    explicit Outline(const LeafView& v) : points(v.points), normals(v.normals), count(v.leaf->count), radius(v.leaf->r0)
-    {
-        if (v.leaf->type == LeafType::Polygon)
-            return;
-        const CapsuleSides sides = capsule_sides(*v.leaf);
-        std::copy_n(sides.points, 2, m_sides);
-        std::copy_n(sides.normals, 2, m_sides + 2);
-        points = m_sides;
-        normals = m_sides + 2;
-        count = 2;
-    }
-    Outline(const Outline&) = delete;
-    Outline& operator=(const Outline&) = delete;
-
-    [[nodiscard]] static bool fits(const Leaf& leaf)
-    {
-        return leaf.type == LeafType::Polygon ? leaf.count <= most_corners : leaf.r0 == leaf.r1;
-    }
-
-    [[nodiscard]] int next(int i) const { return i + 1 < count ? i + 1 : 0; }
-    [[nodiscard]] Vec2 cone(int i) const
-    {
-        return count == 2 ? end_cone(points[1 - i], points[i], radius, radius) : corner_cone(normals, count, i);
-    }
-
-private:
-    Vec2 m_sides[4];
-};
+bool is_outline(const Leaf& leaf) { return leaf.type == LeafType::Polygon ? leaf.count <= most_corners : leaf.r0 == leaf.r1; }
 
 struct Axis
 {
@@ -97,9 +60,9 @@ F4 greatest_of_all(F4 x)
 }
 
 // The edge beyond which the other's corners are farthest. Four edges side by side, corner by corner.
-Axis best_axis(const Outline& reference, const Corners& other, float radii)
+Axis best_axis(const Hull& reference, const Corners& other, float radii)
 {
-    const int count = reference.count;
+    const int count = reference.count();
     Axis best;
     for (int first = 0; first < count; first += 4)
     {
@@ -107,8 +70,8 @@ Axis best_axis(const Outline& reference, const Corners& other, float radii)
         F4 ny;
         F4 px;
         F4 py;
-        split(reference.normals, first, count, nx, ny);
-        split(reference.points, first, count, px, py);
+        split(reference.normals(), first, count, nx, ny);
+        split(reference.points(), first, count, px, py);
         F4 low = nx * other.at[0].x + ny * other.at[0].y;
         for (int j = 1; j < other.count; ++j)
         {
@@ -124,15 +87,15 @@ Axis best_axis(const Outline& reference, const Corners& other, float radii)
 }
 
 // Of the edges the one that faces n most; of equals the first.
-int most_opposed_edge(const Outline& v, Vec2 n)
+int most_opposed_edge(const Hull& v, Vec2 n)
 {
     int edge = 0;
     float most = -3e38f;
-    for (int first = 0; first < v.count; first += 4)
+    for (int first = 0; first < v.count(); first += 4)
     {
         F4 x;
         F4 y;
-        split(v.normals, first, v.count, x, y);
+        split(v.normals(), first, v.count(), x, y);
         const F4 facing = -(x * n.x + y * n.y);
         const F4 four = greatest_of_all(facing);
         if (four[0] > most)
@@ -155,12 +118,12 @@ struct ClipPoint
 class OutlinePair
 {
 public:
-    OutlinePair(const Outline& a, const Outline& b, const RelativePose& pose)
-        : m_a(a), m_b(b), m_pose(pose), m_radii(a.radius + b.radius)
+    OutlinePair(const Hull& a, const Hull& b, const RelativePose& pose)
+        : m_a(a), m_b(b), m_pose(pose), m_radii(a.radius(0) + b.radius(0))
     {
-        m_corners_b.count = b.count;
-        for (int i = 0; i < b.count; ++i)
-            m_corners_b.at[i] = pose.to_a(b.points[i]);
+        m_corners_b.count = b.count();
+        for (int i = 0; i < b.count(); ++i)
+            m_corners_b.at[i] = pose.to_a(b.point(i));
     }
 
     // False where hull against hull must decide.
@@ -168,15 +131,15 @@ public:
     {
         const Axis axis_a = best_axis(m_a, m_corners_b, m_radii);
         if (axis_a.separation > margin)
-            return are_apart(m_a.normals[axis_a.edge], axis_a.separation, out);
-        m_corners_a.count = m_a.count;
+            return are_apart(m_a.normal(axis_a.edge), axis_a.separation, out);
+        m_corners_a.count = m_a.count();
         for (int i = 0; i < m_corners_a.count; ++i)
-            m_corners_a.at[i] = m_pose.to_b(m_a.points[i]);
+            m_corners_a.at[i] = m_pose.to_b(m_a.point(i));
         const Axis axis_b = best_axis(m_b, m_corners_a, m_radii);
         if (axis_b.separation > margin)
-            return are_apart(-rotate(m_pose.rotation, m_b.normals[axis_b.edge]), axis_b.separation, out);
+            return are_apart(-rotate(m_pose.rotation, m_b.normal(axis_b.edge)), axis_b.separation, out);
         for (int i = 0; i < m_corners_a.count; ++i)
-            m_corners_a.at[i] = m_a.points[i];
+            m_corners_a.at[i] = m_a.point(i);
         const bool flipped = edge_is_of_b(axis_a, axis_b);
         return clip_to_edge(flipped, flipped ? axis_b : axis_a, margin, out);
     }
@@ -184,13 +147,9 @@ public:
     // Of a piece of a chain, b, once points are found: only its solid side touches, and a normal that leans over a seam becomes the piece's own.
     void keep_to_piece(const Leaf& piece, float margin, LocalManifold& out) const
     {
-        Vec2 sum{};
-        for (int i = 0; i < m_a.count; ++i)
-            sum += m_a.points[i];
-        const Vec2 center = (1.0f / static_cast<float>(m_a.count)) * sum;
-        const Vec2 tangent = rotate(m_pose.rotation, perp(m_b.normals[0]));
-        const float side = cross(tangent, center - m_corners_b.at[0]);
-        if (is_beside_solid_side(piece, side))
+        const Vec2 tangent = rotate(m_pose.rotation, perp(m_b.normal(0)));
+        const float side = cross(tangent, m_a.center() - m_corners_b.at[0]);
+        if (is_beside_solid_side(piece, static_cast<double>(side)))
             out.count = 0;
         if (out.count == 0 || !leans_over_seam(piece, -out.normal, tangent, m_pose.rotation))
             return;
@@ -205,8 +164,8 @@ private:
     {
         bool flipped; // the edge is b's
         int edge;
-        const Outline& reference;
-        const Outline& incident;
+        const Hull& reference;
+        const Hull& incident;
         const Corners& others;
         Vec2 n;
         Vec2 tangent;
@@ -224,11 +183,11 @@ private:
         {
             const Corners& corners = flipped ? pair.m_corners_b : pair.m_corners_a;
             const Rotation turn = pair.m_pose.rotation;
-            n = flipped ? rotate(turn, reference.normals[edge]) : reference.normals[edge];
+            n = flipped ? rotate(turn, reference.normal(edge)) : reference.normal(edge);
             tangent = perp(n);
             start = corners.at[edge];
             end = corners.at[reference.next(edge)];
-            offset = dot(n, start) + reference.radius + incident.radius;
+            offset = dot(n, start) + reference.radius(0) + incident.radius(0);
             i0 = most_opposed_edge(incident, flipped ? n : inverse_rotate(turn, n));
             i1 = incident.next(i0);
             points[0] = {others.at[i0], i0};
@@ -256,7 +215,7 @@ private:
         void add(const ClipPoint& p, LocalManifold& out) const
         {
             const float at = separation(p.core);
-            const Vec2 on_other = p.core - incident.radius * n;
+            const Vec2 on_other = p.core - incident.radius(0) * n;
             const Vec2 on_reference = on_other - at * n;
             out.normal = flipped ? -n : n;
             out.add(flipped ? on_other : on_reference, flipped ? on_reference : on_other, at, feature_id(flipped, edge, p.id));
@@ -272,10 +231,10 @@ private:
 
         void add_points(float margin, LocalManifold& out) const
         {
-            out.clipped = {{start + reference.radius * n, end + reference.radius * n},
+            out.clipped = {{start + reference.radius(0) * n, end + reference.radius(0) * n},
                            {others.at[i0], others.at[i1]},
                            flipped,
-                           incident.radius};
+                           incident.radius(0)};
             float left_out = 3e38f;
             for (const ClipPoint& p : points)
             {
@@ -316,12 +275,12 @@ private:
         return prefers_b(a.separation, std::sqrt(dot(da, da)), b.separation, std::sqrt(dot(db, db)));
     }
 
-    static Vec2 edge_of(const Outline& v, int edge) { return v.points[v.next(edge)] - v.points[edge]; }
+    static Vec2 edge_of(const Hull& v, int edge) { return v.point(v.next(edge)) - v.point(edge); }
 
     bool clip_to_edge(bool flipped, const Axis& axis, float margin, LocalManifold& out) const
     {
         const bool apart = axis.separation + m_radii > 1e-6f;
-        if (!apart && m_a.count == 2 && m_b.count == 2)
+        if (!apart && m_a.count() == 2 && m_b.count() == 2)
             return false; // their sides do not tell whether two lines cross or one goes on where the other ends
         const Facing f(*this, flipped, axis.edge);
         if (apart && !f.meets_nearest())
@@ -363,16 +322,16 @@ private:
         if (separation > margin)
             return are_apart(n, separation, out);
         out.normal = n;
-        out.add(m_corners_a.at[a] + m_a.radius * n, m_corners_b.at[b] - m_b.radius * n, separation,
+        out.add(m_corners_a.at[a] + m_a.radius(0) * n, m_corners_b.at[b] - m_b.radius(0) * n, separation,
                 (0x4000u << 16) | (static_cast<std::uint32_t>(a) << 8) | static_cast<std::uint32_t>(b));
         out.nearest = {{m_corners_a.at[a], m_corners_b.at[b]},
                        {m_a.cone(a), rotate(m_pose.rotation, m_b.cone(b))},
-                       {m_a.radius, m_b.radius}};
+                       {m_a.radius(0), m_b.radius(0)}};
         return true;
     }
 
-    const Outline& m_a;
-    const Outline& m_b;
+    const Hull& m_a;
+    const Hull& m_b;
     const RelativePose& m_pose;
     float m_radii;
     Corners m_corners_a; ///< in the frame that is being looked at
@@ -383,14 +342,14 @@ private:
 
 void collide_outlines(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {
-    if (Outline::fits(*a.leaf) && Outline::fits(*b.leaf))
+    if (is_outline(*a.leaf) && is_outline(*b.leaf))
     {
-        const Outline outline_a(a);
-        const Outline outline_b(b);
-        OutlinePair pair(outline_a, outline_b, pose);
+        const Hull hull_a(a);
+        const Hull hull_b(b);
+        OutlinePair pair(hull_a, hull_b, pose);
         if (pair.collide(margin, out))
         {
-            if (is_of_chain(*b.leaf))
+            if (b.leaf->type == LeafType::Segment && is_of_chain(*b.leaf))
                 pair.keep_to_piece(*b.leaf, margin, out);
             return;
         }

@@ -11,7 +11,6 @@ namespace internal {
 
 namespace {
 
-constexpr double half_pi = 1.57079632679489661923;
 // pi/2 in two pieces (Cody and Waite): the first has 33 bits, so that n * high is exact for |n| < 2^20.
 constexpr double half_pi_high = 1.57079632673412561417;
 constexpr double half_pi_low = 6.07710050650619224932e-11;
@@ -36,21 +35,6 @@ double cos_polynomial(double x)
                                        z * (1.0 / 40320 +
                                             z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200.0 +
                                                                                               z * (1.0 / 20922789888000.0))))))));
-}
-
-constexpr double tan_of_sixteenth = 0.19891236737965801;
-
-// atan on |x| <= tan(pi/16): alternating series, the terms left out are below 1e-17.
-double atan_small(double x)
-{
-    const double z = x * x;
-    double sum = 0;
-    for (int k = 23; k >= 1; k -= 2)
-    {
-        const double term = 1.0 / k;
-        sum = (k % 4 == 1 ? term : -term) + z * sum;
-    }
-    return x * sum;
 }
 
 // Two halvings of the angle at the most, atan(x) = 2 atan(x / (1 + sqrt(1 + x²))), bring |x| <= 1 under tan(pi/16).

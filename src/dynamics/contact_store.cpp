@@ -170,11 +170,7 @@ bool has_contact(const SceneState& state, int shape_a, int shape_b)
 
 namespace {
 
-bool is_plain(const Leaf& leaf)
-{
-    const bool of_chain = leaf.has_previous || leaf.has_next || leaf.sides != Sides::Both;
-    return leaf.type != LeafType::Arc && !of_chain;
-}
+bool is_plain(const Leaf& leaf) { return leaf.type != LeafType::Arc && !is_of_chain(leaf); }
 
 } // namespace
 

@@ -78,7 +78,7 @@ void process(const FlightSpan& span, Flier& f)
     for (const std::int32_t s : changed)
     {
         if (Flier* flier = span.flier_at(s))
-            is_capped(*flier) ? reconsider_those_near(span, *flier) : find_next_event(span, *flier);
+            is_capped(span, *flier) ? reconsider_those_near(span, *flier) : find_next_event(span, *flier);
         else
             reconsider_neighbours(span, s);
     }

@@ -52,7 +52,7 @@ void ImpactSet::stop_until_next()
     for (Member& m : m_members)
     {
         if (m.flier != nullptr)
-            m.flier->impacts = m.flier->most_impacts;
+            m.flier->impacts = m_span.most_impacts;
     }
     m_span.output.capped = true;
 }
@@ -196,7 +196,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
         return;
     f.crowded |= !m_span.unit.precise || f.impacts >= crowd_limit;
     ++f.impacts;
-    m_span.output.capped |= is_capped(f);
+    m_span.output.capped |= is_capped(m_span, f);
 }
 
 // Of another unit, or asleep: it takes effect at the end of the step.

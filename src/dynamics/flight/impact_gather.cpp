@@ -69,7 +69,7 @@ int ImpactSet::member_of(int body)
         m.flier = m_span.flier_at(m.state);
         if (m.flier != nullptr)
         {
-            if (!is_capped(*m.flier))
+            if (!is_capped(m_span, *m.flier))
                 advance(m_span, *m.flier, m_time);
             released.assign(m.flier->held, m.flier->held + m.flier->held_count);
             held = {.vx = m.flier->ax, .vy = m.flier->ay, .w = m.flier->alpha};

@@ -144,7 +144,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
 {
     if (f.landed)
         return;
-    if (is_capped(f))
+    if (is_capped(span, f))
         f.time = span.h; // where and as it is: what forces did to it on no way at all would be energy from nowhere
     else
         advance(span, f, span.h);

@@ -17,7 +17,8 @@ namespace carom::internal {
 
 FlightSpan::FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out)
     : ctx(context), state(context.state), scratch(context.scratch), unit(u), output(out), k(substep),
-      h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale))
+      h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale)),
+      most_impacts(u.precise ? impact_limit : crowd_impact_limit)
 {}
 
 std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, unit); }
@@ -88,7 +89,6 @@ void clear_substep(const FlightSpan& span, Flier& f)
 {
     fall_freely(span, f);
     f.impacts = 0;
-    f.most_impacts = span.unit.precise ? impact_limit : crowd_impact_limit;
     f.impulse_x = f.impulse_y = f.turn_impulse = 0;
     f.start_w = f.w;
     f.rests = false;
@@ -392,15 +392,16 @@ void turn_frame(Rotation q, double angle, FramePath& path)
     path.s = turn.sin * static_cast<double>(q.c) + turn.cos * static_cast<double>(q.s);
 }
 
-void follow_flier(const Flier& f, const BodySim& sim, double time, FramePath& path)
+void follow_flier(const FlightSpan& span, const Flier& f, const BodySim& sim, double time, FramePath& path)
 {
-    const double t = is_capped(f) ? 0 : time - f.time;
+    const bool capped = is_capped(span, f);
+    const double t = capped ? 0 : time - f.time;
     CenterPath& c = path.center;
     c.x += f.x + t * (f.vx + 0.5 * t * f.ax);
     c.y += f.y + t * (f.vy + 0.5 * t * f.ay);
     path.local_center = f.local_reference;
     turn_frame(sim.rotation, f.angle + t * (f.w + 0.5 * t * f.alpha), path);
-    if (is_capped(f))
+    if (capped)
         return;
     c.vx = f.vx + t * f.ax;
     c.vy = f.vy + t * f.ay;
@@ -472,7 +473,7 @@ FramePath path_from(const FlightSpan& span, int body, double time, const Positio
     path.s = sim.rotation.s;
     const std::int32_t index = span.state_in_unit(body);
     if (const Flier* f = span.flier_at(index))
-        follow_flier(*f, sim, time, path);
+        follow_flier(span, *f, sim, time, path);
     else if (index != none)
         follow_solved(span, index, sim, time, path);
     else if (span.state.bodies[body].awake_index != none || span.state.bodies[body].type == BodyType::Dynamic)

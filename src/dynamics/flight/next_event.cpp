@@ -288,7 +288,7 @@ Reach reach_of(const FlightSpan& span, int body)
 
 namespace {
 
-bool looks_for_none(const FlightSpan& span, const Flier& f) { return f.landed || is_capped(f) || f.time >= span.h; }
+bool looks_for_none(const FlightSpan& span, const Flier& f) { return f.landed || is_capped(span, f) || f.time >= span.h; }
 
 double& time_in_list(const FlightSpan& span, const Flier& f)
 {

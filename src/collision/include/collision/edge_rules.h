@@ -59,17 +59,6 @@ template <class Point>
            static_cast<std::uint32_t>(incident_point);
 }
 
-[[nodiscard]] inline bool is_of_chain(const Leaf& leaf)
-{
-    return leaf.type == LeafType::Segment && (leaf.has_previous || leaf.has_next || leaf.sides != Sides::Both);
-}
-
-/// Of a hull whose center is so far on the left of a piece: is the piece solid on the other side alone?
-[[nodiscard]] inline bool is_beside_solid_side(const Leaf& piece, float left)
-{
-    return (piece.sides == Sides::Left && left < 0) || (piece.sides == Sides::Right && left > 0);
-}
-
 /// Does a seam leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner. Normal, out of the piece, and
 /// tangent are given in a frame that the piece's is turned to.
 [[nodiscard]] inline bool leans_over_seam(const Leaf& piece, Vec2 normal, Vec2 tangent, Rotation turn)

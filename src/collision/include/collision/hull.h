@@ -3,6 +3,7 @@
 // Everything convex with corners is one thing to the manifold code: points with radii and the outward normals of the edges between
 // them. A capsule or segment is a hull of two points and two edges.
 
+#include "collision/manifold.h"
 #include "geometry/leaf.h"
 #include "geometry/surface.h"
 
@@ -27,40 +28,22 @@ public:
         const CapsuleSides sides = capsule_sides(*v.leaf);
         for (int i = 0; i < 2; ++i)
         {
-            m_buffer[i] = sides.points[i];
-            m_buffer[2 + i] = sides.normals[i];
+            m_sides[i] = sides.points[i];
+            m_sides[2 + i] = sides.normals[i];
             m_radii[i] = sides.radii[i];
         }
-        m_points = m_buffer;
-        m_normals = m_buffer + 2;
+        m_points = m_sides;
+        m_normals = m_sides + 2;
         m_count = 2;
     }
 
-    /// The same hull seen from another frame.
-    template <class Pose>
-    Hull(const LeafView& v, const Pose& pose) : Hull(v)
-    {
-        Vec2* store = m_buffer;
-        if (2 * m_count > buffer_size)
-        {
-            m_large.resize(static_cast<std::size_t>(2 * m_count));
-            store = m_large.data();
-        }
-        Vec2* normals =
-            store + m_count; // a two-point hull already lies there in its own frame: each entry is read before it is written
-        for (int i = 0; i < m_count; ++i)
-        {
-            store[i] = pose.to_a(m_points[i]);
-            normals[i] = rotate(pose.rotation, m_normals[i]);
-        }
-        m_points = store;
-        m_normals = normals;
-    }
     Hull(const Hull&) = delete;
     Hull& operator=(const Hull&) = delete;
 
     [[nodiscard]] int count() const { return m_count; }
     [[nodiscard]] int next(int i) const { return i + 1 < m_count ? i + 1 : 0; }
+    [[nodiscard]] const Vec2* points() const { return m_points; }
+    [[nodiscard]] const Vec2* normals() const { return m_normals; }
     [[nodiscard]] Vec2 point(int i) const { return m_points[i]; }
     [[nodiscard]] Vec2 normal(int i) const { return m_normals[i]; }
     [[nodiscard]] float radius(int i) const { return m_radii[i & (m_count == 2)]; }
@@ -82,15 +65,43 @@ public:
         return (1.0f / static_cast<float>(m_count)) * sum;
     }
 
+protected:
+    const Vec2* m_points = nullptr;
+    const Vec2* m_normals = nullptr;
+    int m_count = 0;
+
+private:
+    Vec2 m_sides[4]; ///< of a capsule or segment
+    float m_radii[2] = {};
+};
+
+/// The same hull seen from another frame.
+class HullSeen : public Hull
+{
+public:
+    HullSeen(const LeafView& v, const RelativePose& pose) : Hull(v)
+    {
+        Vec2* points = m_buffer;
+        if (2 * m_count > buffer_size)
+        {
+            m_large.resize(static_cast<std::size_t>(2 * m_count));
+            points = m_large.data();
+        }
+        Vec2* normals = points + m_count;
+        for (int i = 0; i < m_count; ++i)
+        {
+            points[i] = pose.to_a(m_points[i]);
+            normals[i] = rotate(pose.rotation, m_normals[i]);
+        }
+        m_points = points;
+        m_normals = normals;
+    }
+
 private:
     static constexpr int buffer_size = 16; // boxes to octagons without an allocation
 
     Vec2 m_buffer[buffer_size];
     std::vector<Vec2> m_large;
-    const Vec2* m_points = nullptr;
-    const Vec2* m_normals = nullptr;
-    int m_count = 0;
-    float m_radii[2] = {};
 };
 
 } // namespace carom::internal

@@ -7,6 +7,7 @@
 
 #include "core/float4.h"
 #include "core/lanes.h"
+#include "core/trigonometry.h"
 
 #include <cstdint>
 #include <cstring>
@@ -76,8 +77,6 @@ CAROM_INLINE D8 root(D8 x)
 /// As arc_tangent of trigonometry.h, the same bits, then rounded to floats.
 CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
 {
-    constexpr double half_pi = 1.57079632679489661923;
-    constexpr double tan_of_sixteenth = 0.19891236737965801;
     constexpr int most_halvings = 3; // two, and one that rounding may ask for
     const D8 y = __builtin_convertvector(sine, D8);
     const D8 x = __builtin_convertvector(cosine, D8);
@@ -93,14 +92,7 @@ CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
         t = wide ? t / (1.0 + root(1.0 + t * t)) : t;
         whole = wide ? whole * 2.0 : whole;
     }
-    const D8 z = t * t;
-    D8 sum{};
-    for (int k = 23; k >= 1; k -= 2)
-    {
-        const double term = 1.0 / k;
-        sum = (k % 4 == 1 ? term : -term) + z * sum;
-    }
-    const D8 unit = whole * (t * sum);
+    const D8 unit = whole * atan_small(t);
     const D8 angle = flat ? unit : half_pi - unit;
     const D8 upper = x < 0.0 ? 2 * half_pi - angle : angle;
     return __builtin_convertvector(y < 0.0 ? -upper : upper, F8);

@@ -3,7 +3,26 @@
 // sin, cos, atan2 and exp from + - * / alone, so that every platform gives the same bits. Errors below 1e-15 relative to 1
 // in double for arguments up to 1e6.
 
+#include "core/float4.h"
+
 namespace carom::internal {
+
+inline constexpr double half_pi = 1.57079632679489661923;
+inline constexpr double tan_of_sixteenth = 0.19891236737965801; ///< of pi / 16
+
+/// atan on |x| <= tan(pi/16), of one double or several: alternating series, the terms left out are below 1e-17.
+template <class D>
+CAROM_INLINE D atan_small(D x)
+{
+    const D z = x * x;
+    D sum{};
+    for (int k = 23; k >= 1; k -= 2)
+    {
+        const double term = 1.0 / k;
+        sum = (k % 4 == 1 ? term : -term) + z * sum;
+    }
+    return x * sum;
+}
 
 struct SinCos
 {

@@ -133,11 +133,6 @@ struct Hold
 
 inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
 
-/// Impacts of a body in a sub-step: then it stays where it is until the next. Where more than a few are solved together, what rattles must not keep all
-/// of them waiting.
-inline constexpr int impact_limit = 64;
-inline constexpr int crowd_impact_limit = 16;
-
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
 /// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
 /// the step, in double.
@@ -147,8 +142,7 @@ struct Flier
     std::int32_t body = none;
     std::int32_t joint = none; ///< the hinge to the world; none: free
     std::int32_t impacts = 0;  ///< in this sub-step
-    std::int32_t most_impacts = impact_limit;
-    double x = 0; ///< reference point
+    double x = 0;              ///< reference point
     double y = 0;
     double vx = 0;
     double vy = 0;

@@ -48,6 +48,18 @@ struct Leaf
     Vec2 next_tangent{};     ///< direction in which the piece after leaves the end
 };
 
+/// A piece with neighbours, or solid on one side alone.
+[[nodiscard]] inline bool is_of_chain(const Leaf& leaf)
+{
+    return leaf.has_previous || leaf.has_next || leaf.sides != Sides::Both;
+}
+
+/// Of what is so far on the left of a piece: is the piece solid on the other side alone?
+[[nodiscard]] inline bool is_beside_solid_side(const Leaf& piece, double left)
+{
+    return (piece.sides == Sides::Left && left < 0) || (piece.sides == Sides::Right && left > 0);
+}
+
 /// Vertices and outward edge normals of all polygons of a scene (edge i runs from vertex i to i + 1).
 class VertexStore
 {

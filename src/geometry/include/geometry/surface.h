@@ -110,7 +110,7 @@ template <class R>
     if (along > l)
         return surface_of_end<R>(leaf, tangent, px, py);
     const R left = ux * dy - uy * dx;
-    if ((leaf.sides == Sides::Left && left < 0) || (leaf.sides == Sides::Right && left > 0))
+    if (is_beside_solid_side(leaf, static_cast<double>(left)))
         return std::nullopt;
     const bool on_left = left > 0 || (left == 0 && leaf.sides != Sides::Right);
     const R sign = on_left ? R(1) : R(-1);

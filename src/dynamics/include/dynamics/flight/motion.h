@@ -9,6 +9,11 @@
 
 namespace carom::internal {
 
+/// Impacts of a body in a sub-step: then it stays where it is until the next. Where more than a few are solved together, what rattles must not keep all
+/// of them waiting.
+inline constexpr int impact_limit = 64;
+inline constexpr int crowd_impact_limit = 16;
+
 /// A sub-step of a unit, as flight sees it.
 struct FlightSpan
 {
@@ -20,6 +25,7 @@ struct FlightSpan
     int k;
     double h;
     double least_approach; ///< m/s: what is slower is rounding
+    int most_impacts;      ///< of a body
 
     FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out);
 
@@ -59,7 +65,7 @@ void advance(const FlightSpan& span, Flier& f, double time);
 void take_off(const FlightSpan& span, Flier& f, double time);
 
 /// What has hit things too often stays where it is until the sub-step is over.
-[[nodiscard]] inline bool is_capped(const Flier& f) { return f.impacts >= f.most_impacts; }
+[[nodiscard]] inline bool is_capped(const FlightSpan& span, const Flier& f) { return f.impacts >= span.most_impacts; }
 
 /// Center of mass and its velocity.
 struct CenterMotion
