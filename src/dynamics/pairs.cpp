@@ -1,7 +1,5 @@
-// Stage 2, pairs: boxes that moved or are new ask both layers what they overlap. New pairs are sorted, so that contacts are made in an order
-// that depends on nothing but the pairs. Of the pairs those get a contact that may meet in this step: what falls side by side does not.
+// Stage 2, pairs: boxes that moved or are new ask both layers what they overlap. What then becomes of a pair stands in pair_fates.cpp.
 
-#include "core/nonzero.h"
 #include "core/pair_set.h"
 #include "core/task_pool.h"
 #include "dynamics/body_path.h"
@@ -20,13 +18,28 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t blocks_per_task = 32;
-constexpr std::size_t pairs_per_task = 2048;
+constexpr std::size_t boxes_per_task = 2048;
 
 using Pairs = std::vector<std::uint64_t>;
 
+bool is_fresh(const SceneState& state, int shape)
+{
+    const FloatBox& before = state.broad_phase.box_before(shape);
+    return !state.broad_phase.has(shape) || before.lx > before.ux;
+}
+
+// Known pairs are found again by those that look for all of theirs, and where boxes had parted before the contact ended.
+bool is_known(const SceneState& state, int a, int b)
+{
+    const bool may_be_known = is_fresh(state, a) || is_fresh(state, b) ||
+                              std::binary_search(state.parted_pairs.begin(), state.parted_pairs.end(), pair_key(a, b));
+    return may_be_known && has_contact(state, a, b);
+}
+
+// Before boxes are settled.
 void offer_pair(const StepContext& ctx, int a, int b, Pairs& pairs)
 {
-    if (a != b && may_collide(ctx.state, a, b))
+    if (a != b && may_collide(ctx.state, a, b) && !is_known(ctx.state, a, b))
         pairs.push_back(pair_key(a, b));
 }
 
@@ -70,7 +83,7 @@ void look_around(StepContext& ctx, int shape, const FloatBox& box)
     look_at_half_spaces(ctx, shape, box);
 }
 
-// What a task finds is gathered in the order of the tasks; it is sorted afterwards anyhow.
+// What tasks find stands in their order, whoever does them.
 template <class Look>
 void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, const Look& look)
 {
@@ -157,12 +170,6 @@ void look_around_moved(StepContext& ctx)
     }
 }
 
-bool is_fresh(const SceneState& state, int shape)
-{
-    const FloatBox& before = state.broad_phase.box_before(shape);
-    return !state.broad_phase.has(shape) || before.lx > before.ux;
-}
-
 // Their pairs are found again, but for those that have a contact.
 void forget_pairs_of_fresh(SceneState& state)
 {
@@ -195,7 +202,7 @@ void settle(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     const std::vector<std::int32_t>& moved = ctx.scratch.moved.items;
-    for_each_in_parts(ctx.scene.def.tasks, moved.size(), pairs_per_task,
+    for_each_in_parts(ctx.scene.def.tasks, moved.size(), boxes_per_task,
                       [&](std::size_t i) { state.broad_phase.settle(moved[i]); });
     for (const std::int32_t shape : state.fresh_shapes)
     {
@@ -205,146 +212,17 @@ void settle(StepContext& ctx)
     state.fresh_shapes.clear();
 }
 
-// Known pairs are found again by those that look for all of theirs, and where boxes had parted before the contact ended. Before boxes are settled.
-void add_pairs(StepContext& ctx)
+// By two that are fresh, or by one of them and by what moved, a pair is found twice.
+void leave_out_doubles(Pairs& pairs)
 {
-    SceneState& state = ctx.state;
-    std::vector<std::uint64_t>& pairs = ctx.scratch.new_pairs;
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    for (const std::uint64_t key : pairs)
-    {
-        const auto a = static_cast<std::int32_t>(key & 0xffffffffu);
-        const auto b = static_cast<std::int32_t>(key >> 32);
-        const bool may_be_known = is_fresh(state, a) || is_fresh(state, b) ||
-                                  std::binary_search(state.parted_pairs.begin(), state.parted_pairs.end(), key);
-        if (!may_be_known || !has_contact(state, a, b))
-            state.box_pairs.push_back({a, b, none});
-    }
 }
 
-bool is_trigger(const BroadPhase& boxes, const BoxPair& pair)
+void add_pairs(StepContext& ctx)
 {
-    return boxes.traits(pair.a).trigger || boxes.traits(pair.b).trigger;
-}
-
-bool is_plain(const BroadPhase& boxes, const BoxPair& pair)
-{
-    return !is_trigger(boxes, pair) && !boxes.traits(pair.a).unbounded && !boxes.traits(pair.b).unbounded;
-}
-
-// A contact of two that move goes a little later than it would come, so that it does not flicker. What rests is seen from farther: a body that
-// is struck on its way must not be led into it.
-bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
-{
-    const BroadPhase& boxes = ctx.state.broad_phase;
-    const bool early = pair.contact == none && boxes.moves(pair.a) && boxes.moves(pair.b);
-    if (least_gap(boxes.path(pair.a), boxes.path(pair.b)) <= (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin)
-        return true;
-    // Triggers and half-spaces are asked by their fat boxes: a body may be thrown into a trigger that it did not go for.
-    return !is_plain(boxes, pair) && boxes_meet(ctx.state, pair.a, pair.b);
-}
-
-// Filters may have changed since the pair was found. Triggers' pairs may be found twice, see find_deflected_pairs.
-void give_contact(StepContext& ctx, std::size_t index)
-{
-    const BoxPair pair = ctx.state.box_pairs[index];
-    const bool trigger = is_trigger(ctx.state.broad_phase, pair);
-    if (pair.contact == none && may_collide(ctx.state, pair.a, pair.b) && !(trigger && has_contact(ctx.state, pair.a, pair.b)))
-        create_contact(ctx.scene, pair.a, pair.b, static_cast<std::int32_t>(index));
-}
-
-// What becomes of a pair.
-namespace fate {
-constexpr std::uint8_t gets_contact = 1;
-constexpr std::uint8_t loses_contact = 2;
-constexpr std::uint8_t goes = 4;
-constexpr std::uint8_t parted = 8; ///< it stays, but its boxes do not meet
-} // namespace fate
-
-// Contacts of pairs that may meet; those that can't any more lose theirs, unless it must still tell of its end.
-std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
-{
-    const SceneState& state = ctx.state;
-    const BroadPhase& boxes = state.broad_phase;
-    if (!boxes.has(pair.a) || !boxes.has(pair.b))
-        return fate::goes;
-    const bool meet = boxes_meet(state, pair.a, pair.b);
-    if (!boxes.moves(pair.a) && !boxes.moves(pair.b)) // triggers see what rests as well, once
-        return is_trigger(boxes, pair) && meet ? fate::gets_contact | fate::goes : fate::goes;
-    const bool near = may_meet_in_step(ctx, pair);
-    const bool has_contact = pair.contact != none;
-    const std::uint8_t parted = meet ? 0 : fate::parted;
-    if (near == has_contact) // as it was
-        return near ? parted : meet ? 0 : fate::goes;
-    if (near)
-        return fate::gets_contact | parted;
-    if ((state.contacts[pair.contact].flags & (contact_flag::touching | contact_flag::trigger)) != 0)
-        return parted;
-    return meet ? fate::loses_contact : fate::loses_contact | fate::goes;
-}
-
-// Of a task's pairs. Most stay as they are.
-void find_fates(const StepContext& ctx, std::size_t first, std::size_t last)
-{
-    const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
-    std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
-    const BoxPlace* places = ctx.state.broad_phase.places();
-    const WideKernels& kernels = wide_kernels();
-    for (std::size_t i = first; i < last; i += lane_count)
-    {
-        const std::size_t end = std::min(i + lane_count, last);
-        const bool full = end == i + lane_count;
-        const std::uint32_t stay = full ? kernels.stay(&pairs[i], places, ctx.scene.tolerances.box_margin) : 0;
-        for (std::size_t k = i; k < end; ++k)
-            fates[k] = (stay >> (k - i) & 1u) != 0 ? std::uint8_t{0} : fate_of(ctx, pairs[k]);
-    }
-}
-
-// The last takes its place.
-void take_out(SceneState& state, std::size_t index)
-{
-    std::vector<BoxPair>& pairs = state.box_pairs;
-    const auto set_place = [&](const BoxPair& pair, std::int32_t place)
-    {
-        if (pair.contact != none)
-            state.contacts[pair.contact].pair = place;
-    };
-    set_place(pairs[index], none);
-    if (index + 1 < pairs.size())
-    {
-        pairs[index] = pairs.back();
-        set_place(pairs[index], static_cast<std::int32_t>(index));
-    }
-    pairs.pop_back();
-}
-
-void follow_pairs(StepContext& ctx)
-{
-    SceneState& state = ctx.state;
-    std::vector<BoxPair>& pairs = state.box_pairs;
-    std::vector<std::uint8_t>& fates = ctx.scratch.pair_fates;
-    fates.resize(pairs.size());
-    run_parts(ctx.scene.def.tasks, pairs.size(), pairs_per_task,
-              [&](std::size_t first, std::size_t last) { find_fates(ctx, first, last); });
-    state.parted_pairs.clear();
-    std::vector<std::int32_t>& going = ctx.scratch.order;
-    going.clear();
-    for_each_nonzero(fates.data(), fates.size(),
-                     [&](std::size_t i)
-                     {
-                         if ((fates[i] & fate::parted) != 0)
-                             state.parted_pairs.push_back(pair_key(pairs[i].a, pairs[i].b));
-                         if ((fates[i] & fate::gets_contact) != 0)
-                             give_contact(ctx, i);
-                         if ((fates[i] & fate::loses_contact) != 0)
-                             destroy_contact(ctx.scene, pairs[i].contact, ctx.scene.events, 0);
-                         if ((fates[i] & fate::goes) != 0)
-                             going.push_back(static_cast<std::int32_t>(i));
-                     });
-    for (auto i = going.rbegin(); i != going.rend(); ++i)
-        take_out(state, static_cast<std::size_t>(*i));
-    std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
+    for (const std::uint64_t key : ctx.scratch.new_pairs)
+        ctx.state.box_pairs.push_back({static_cast<std::int32_t>(key & 0xffffffffu), static_cast<std::int32_t>(key >> 32), none});
 }
 
 } // namespace
@@ -354,6 +232,8 @@ void find_pairs(StepContext& ctx)
     ctx.scratch.new_pairs.clear();
     look_around_fresh(ctx);
     look_around_moved(ctx);
+    if (!ctx.state.fresh_shapes.empty())
+        leave_out_doubles(ctx.scratch.new_pairs);
     add_pairs(ctx);
     settle(ctx);
     follow_pairs(ctx);
@@ -378,9 +258,10 @@ void find_deflected_pairs(StepContext& ctx)
     }
     const auto is_trigger = [&](std::uint64_t key)
     { return state.shapes[static_cast<int>(key & 0xffffffffu)].trigger || state.shapes[static_cast<int>(key >> 32)].trigger; };
-    const auto is_known = [&](std::uint64_t key)
+    const auto has_one = [&](std::uint64_t key)
     { return has_contact(state, static_cast<int>(key & 0xffffffffu), static_cast<int>(key >> 32)); };
-    std::erase_if(pairs, [&](std::uint64_t key) { return !is_trigger(key) || is_known(key); });
+    std::erase_if(pairs, [&](std::uint64_t key) { return !is_trigger(key) || has_one(key); });
+    leave_out_doubles(pairs);
     const std::size_t first = ctx.state.box_pairs.size();
     add_pairs(ctx);
     for (std::size_t i = first; i < ctx.state.box_pairs.size(); ++i)

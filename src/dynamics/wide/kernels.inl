@@ -108,6 +108,6 @@ extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              joints::fill,   joints::warm_start,   joints::solve,   joints::relax,
                              follows::follow,        follows::follow_contacts, follows::stay_apart, follows::take_impulses, states::move,
-                             pairs::stay,            pairs::new_overlaps};
+                             pairs::look_at_pairs,            pairs::new_overlaps};
 
 } // namespace carom::internal::CAROM_ISA

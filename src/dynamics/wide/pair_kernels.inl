@@ -1,4 +1,4 @@
-// Which pairs of boxes stay as they are, eight at a time; fate_of in pairs.cpp has the same for one. And which boxes have come to overlap, one against
+// Which pairs of boxes may meet, eight at a time; fate_of in pair_fates.cpp has the same for one. And which boxes have come to overlap, one against
 // eight neighbours. Part of kernels.inl.
 
 namespace pairs {
@@ -39,7 +39,7 @@ CAROM_INLINE F8 least_gap(const Boxes& a, const Boxes& b)
     return greatest(x, y) - (a.any_way + b.any_way);
 }
 
-std::uint32_t stay(const BoxPair* eight, const BoxPlace* places, float box_margin)
+void look_at_pairs(const BoxPair* eight, const BoxPlace* places, float box_margin, SeenPairs& seen)
 {
     const Boxes a(places, [&](int i) { return eight[i].a; });
     const Boxes b(places, [&](int i) { return eight[i].b; });
@@ -56,7 +56,10 @@ std::uint32_t stay(const BoxPair* eight, const BoxPlace* places, float box_margi
     const I8 meet = (a.fat_lx <= b.fat_ux) & (a.fat_ux >= b.fat_lx) & (a.fat_ly <= b.fat_uy) & (a.fat_uy >= b.fat_ly);
     const I8 has_contact = load(contacts) >= I8{};
     const I8 near = least_gap(a, b) <= select(both_move & ~has_contact, all(0.5f * box_margin), all(box_margin));
-    return bits(plain & one_moves & meet & (near == has_contact));
+    seen.plain = bits(plain & one_moves);
+    seen.near = bits(near);
+    seen.meet = bits(meet);
+    seen.stay = bits(plain & one_moves & meet & (near == has_contact));
 }
 
 // --- new overlaps -------------------------------------------------------------------------------------------------------------------------

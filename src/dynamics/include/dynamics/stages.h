@@ -12,8 +12,11 @@ const StepReport& step(SceneData& scene, float dt);
 /// Velocities of kinematic bodies with a target; boxes of what moves, wide enough for its path in this step.
 void sweep_paths(StepContext& ctx);
 
-/// Contacts for new pairs of overlapping boxes.
+/// New pairs of overlapping boxes.
 void find_pairs(StepContext& ctx);
+
+/// The second half of it: contacts of those that may meet in this step.
+void follow_pairs(StepContext& ctx);
 
 /// After the solve: contacts of triggers with what flight threw beyond its box, or with triggers that it carries.
 void find_deflected_pairs(StepContext& ctx);

@@ -80,6 +80,20 @@ struct ContactNews
     News what;
 };
 
+/// What becomes of a pair of boxes, see pair_fates.cpp.
+namespace fate {
+inline constexpr std::uint8_t gets_contact = 1;
+inline constexpr std::uint8_t loses_contact = 2;
+inline constexpr std::uint8_t goes = 4;
+inline constexpr std::uint8_t parted = 8; ///< it stays, but its boxes do not meet
+} // namespace fate
+
+struct PairFate
+{
+    std::int32_t pair; ///< in SceneState::box_pairs
+    std::uint8_t what;
+};
+
 /// Contact of a dynamic body, or of two, that takes part in a step.
 struct Link
 {
@@ -316,7 +330,7 @@ struct Scratch
     bool all_fitted = false; ///< the moving layer, in this step
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
-    std::vector<std::uint8_t> pair_fates;
+    std::vector<std::vector<PairFate>> fates_of_task;
     std::vector<std::int32_t> places;   ///< by body slot, as in Link
     std::vector<std::int32_t> placed;   ///< bodies that have one
     std::vector<float> swings;          ///< of joint_links, see UnitTally::swing

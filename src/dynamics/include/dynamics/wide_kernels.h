@@ -51,6 +51,15 @@ struct FollowedContacts
     std::uint32_t touch_on; ///< touched, and are as near as that
 };
 
+/// Of eight pairs, a bit for each.
+struct SeenPairs
+{
+    std::uint32_t plain; ///< one of the two moves, and neither is a trigger or a half-space: of these the others hold
+    std::uint32_t near;  ///< may meet in the step
+    std::uint32_t meet;  ///< by their fat boxes
+    std::uint32_t stay;  ///< plain, they meet, and have a contact if and only if they are near
+};
+
 /// Hears of each block some of whose boxes have come to overlap boxes of the one that is asked for: bit 8 i + j for box i of this and j of that.
 struct OverlapSink
 {
@@ -92,8 +101,8 @@ struct WideKernels
     void (*take_impulses)(WideRow& row, Contact* contacts, ContactImpulses* impulses);
     /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
-    /// Of eight pairs, a bit for each that stays as it is for sure: its fat boxes meet, and it has a contact if and only if it may meet in the step.
-    std::uint32_t (*stay)(const BoxPair* pairs, const BoxPlace* places, float box_margin);
+    /// Of eight pairs what decides about their contacts, as fate_of in pair_fates.cpp has it for one.
+    void (*look_at_pairs)(const BoxPair* pairs, const BoxPlace* places, float box_margin, SeenPairs& seen);
     /// Where boxes of block k have changed and overlap others that they did not before, each two once.
     void (*new_overlaps)(const MovingBlocks& blocks, std::int32_t k, const OverlapSink& sink);
 };

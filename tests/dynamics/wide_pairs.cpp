@@ -1,4 +1,4 @@
-// What has come to overlap among moving boxes: every instruction set against brute force.
+// What has come to overlap among moving boxes, and what may meet in a step: every instruction set against one box, or pair, after the other.
 
 #include "collision/broad_phase.h"
 #include "dynamics/wide_kernels.h"
@@ -107,4 +107,65 @@ TEST(NewOverlaps, AreThoseOfBruteForceEachOnce)
             before = now;
         }
     }
+}
+
+namespace {
+
+// One in four rests, one in eight is set apart.
+BroadPhase moving_boxes(Random& random, int n)
+{
+    BroadPhase broad;
+    for (int i = 0; i < n; ++i)
+    {
+        const FloatBox fat = box_at(random, 3);
+        const Layer layer = random.chance(0.25) ? Layer::Resting : Layer::Moving;
+        broad.insert(i, fat, layer, {.trigger = random.chance(0.06), .unbounded = random.chance(0.06)});
+        const FloatBox tight{fat.lx + 0.05f, fat.ly + 0.05f, fat.ux - 0.05f, fat.uy - 0.05f};
+        const Vec2 shift = layer == Layer::Resting ? Vec2{} : Vec2{random.rangef(-0.3, 0.3), random.rangef(-0.3, 0.3)};
+        broad.set_path(i, {tight, shift, layer == Layer::Resting ? 0 : random.rangef(0, 0.05)});
+    }
+    return broad;
+}
+
+} // namespace
+
+TEST(SeenPairs, AreAsEachByItself)
+{
+    constexpr float margin = 0.1f;
+    constexpr int boxes = 60;
+    Random random(12);
+    const BroadPhase broad = moving_boxes(random, boxes);
+    int near_ones = 0;
+    for (int round = 0; round < 1000; ++round)
+    {
+        BoxPair eight[lane_count];
+        SeenPairs want{};
+        for (unsigned i = 0; i < lane_count; ++i)
+        {
+            BoxPair& p = eight[i];
+            p = {random.below(boxes), random.below(boxes), random.chance(0.5) ? 7 : none};
+            const ItemTraits a = broad.traits(p.a);
+            const ItemTraits b = broad.traits(p.b);
+            const bool both_move = broad.moves(p.a) && broad.moves(p.b);
+            const bool plain = !a.trigger && !a.unbounded && !b.trigger && !b.unbounded && (broad.moves(p.a) || broad.moves(p.b));
+            const bool meet = overlaps(broad.box(p.a), broad.box(p.b));
+            const float room = both_move && p.contact == none ? 0.5f * margin : margin;
+            const bool near = least_gap(broad.path(p.a), broad.path(p.b)) <= room;
+            want.plain |= plain ? 1u << i : 0;
+            want.near |= plain && near ? 1u << i : 0;
+            want.meet |= plain && meet ? 1u << i : 0;
+            want.stay |= plain && meet && near == (p.contact != none) ? 1u << i : 0;
+            near_ones += plain && near ? 1 : 0;
+        }
+        for (const WideKernels* kernels : all_wide_kernels())
+        {
+            SeenPairs seen{};
+            kernels->look_at_pairs(eight, broad.places(), margin, seen);
+            ASSERT_EQ(seen.plain, want.plain) << kernels->name << ", round " << round;
+            ASSERT_EQ(seen.near & seen.plain, want.near) << kernels->name << ", round " << round;
+            ASSERT_EQ(seen.meet & seen.plain, want.meet) << kernels->name << ", round " << round;
+            ASSERT_EQ(seen.stay, want.stay) << kernels->name << ", round " << round;
+        }
+    }
+    EXPECT_GT(near_ones, 100);
 }

@@ -1,0 +1,220 @@
+// What becomes of pairs whose boxes have come to overlap: those that may meet in this step get a contact, those that can't any more lose theirs, those
+// whose boxes have parted go.
+
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/half_space_box.h"
+#include "dynamics/stages.h"
+#include "dynamics/wide_kernels.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t pairs_per_task = 2048;
+constexpr std::uint32_t every_lane = (1u << lane_count) - 1;
+
+bool is_trigger(const BroadPhase& boxes, const BoxPair& pair)
+{
+    return boxes.traits(pair.a).trigger || boxes.traits(pair.b).trigger;
+}
+
+bool is_plain(const BroadPhase& boxes, const BoxPair& pair)
+{
+    return !is_trigger(boxes, pair) && !boxes.traits(pair.a).unbounded && !boxes.traits(pair.b).unbounded;
+}
+
+// A contact of two that move goes a little later than it would come, so that it does not flicker. What rests is seen from farther: a body that
+// is struck on its way must not be led into it.
+bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
+{
+    const BroadPhase& boxes = ctx.state.broad_phase;
+    const bool early = pair.contact == none && boxes.moves(pair.a) && boxes.moves(pair.b);
+    if (least_gap(boxes.path(pair.a), boxes.path(pair.b)) <= (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin)
+        return true;
+    // Triggers and half-spaces are asked by their fat boxes: a body may be thrown into a trigger that it did not go for.
+    return !is_plain(boxes, pair) && boxes_meet(ctx.state, pair.a, pair.b);
+}
+
+// Of a pair of which one moves: whether it may meet in this step, and whether its fat boxes do. Filters may have changed since it was found; the end
+// of a touch must still be told.
+std::uint8_t fate_of_moving(const StepContext& ctx, const BoxPair& pair, bool near, bool meet)
+{
+    const SceneState& state = ctx.state;
+    const bool has_contact = pair.contact != none;
+    const std::uint8_t parted = meet ? 0 : fate::parted;
+    if (near == has_contact) // as it was
+        return near ? parted : meet ? 0 : fate::goes;
+    if (near)
+        return may_collide(state, pair.a, pair.b) ? fate::gets_contact | parted : parted;
+    if ((state.contacts[pair.contact].flags & (contact_flag::touching | contact_flag::trigger)) != 0)
+        return parted;
+    return meet ? fate::loses_contact : fate::loses_contact | fate::goes;
+}
+
+std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
+{
+    const SceneState& state = ctx.state;
+    const BroadPhase& boxes = state.broad_phase;
+    if (!boxes.has(pair.a) || !boxes.has(pair.b))
+        return fate::goes;
+    const bool meet = boxes_meet(state, pair.a, pair.b);
+    if (boxes.moves(pair.a) || boxes.moves(pair.b))
+        return fate_of_moving(ctx, pair, may_meet_in_step(ctx, pair), meet);
+    // triggers see what rests as well, once
+    const bool seen = is_trigger(boxes, pair) && meet && pair.contact == none && may_collide(state, pair.a, pair.b);
+    return seen ? fate::gets_contact | fate::goes : fate::goes;
+}
+
+// Of a task's pairs. Most stay as they are.
+void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairFate>& fates)
+{
+    const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
+    const BoxPlace* places = ctx.state.broad_phase.places();
+    const WideKernels& kernels = wide_kernels();
+    const auto add = [&](std::size_t i, std::uint8_t what)
+    {
+        if (what != 0)
+            fates.push_back({static_cast<std::int32_t>(i), what});
+    };
+    fates.clear();
+    std::size_t i = first;
+    for (; i + lane_count <= last; i += lane_count)
+    {
+        SeenPairs seen;
+        kernels.look_at_pairs(&pairs[i], places, ctx.scene.tolerances.box_margin, seen);
+        for (std::uint32_t others = ~seen.stay & every_lane; others != 0; others &= others - 1)
+        {
+            const int lane = std::countr_zero(others);
+            const std::size_t k = i + static_cast<std::size_t>(lane);
+            const auto has = [lane](std::uint32_t lanes) { return (lanes >> lane & 1u) != 0; };
+            add(k, has(seen.plain) ? fate_of_moving(ctx, pairs[k], has(seen.near), has(seen.meet)) : fate_of(ctx, pairs[k]));
+        }
+    }
+    for (; i < last; ++i)
+        add(i, fate_of(ctx, pairs[i]));
+}
+
+// Contacts are made and destroyed by one thread, in the order of their pairs. What that touches lies all over memory.
+class Fates
+{
+public:
+    explicit Fates(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state), m_going(ctx.scratch.order) { m_going.clear(); }
+
+    void fulfil(std::span<const PairFate> fates)
+    {
+        for (std::size_t i = 0; i < fates.size(); ++i)
+        {
+            if (i + 2 * turns_ahead < fates.size())
+                prefetch_pair(m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
+            if (i + turns_ahead < fates.size())
+                prefetch_neighbours(m_state.box_pairs[as_index(fates[i + turns_ahead].pair)], fates[i + turns_ahead].what);
+            fulfil(fates[i]);
+        }
+    }
+
+    // From the last on: the last pair takes its place.
+    void take_out_going()
+    {
+        for (auto i = m_going.rbegin(); i != m_going.rend(); ++i)
+            take_out(as_index(*i));
+    }
+
+private:
+    static std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+    [[gnu::always_inline]] void prefetch_pair(const BoxPair& pair) const
+    {
+        if (pair.contact != none)
+        {
+            prefetch(m_state.contacts[pair.contact]);
+            return;
+        }
+        prefetch(m_state.shapes[pair.a]);
+        prefetch(m_state.shapes[pair.b]);
+    }
+
+    [[gnu::always_inline]] void prefetch_neighbours(const BoxPair& pair, std::uint8_t what) const
+    {
+        if (pair.contact != none)
+        {
+            const Contact& contact = m_state.contacts[pair.contact];
+            prefetch(m_state.bodies[contact.body_a]);
+            prefetch(m_state.bodies[contact.body_b]);
+            for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
+            {
+                if (edge != none)
+                    __builtin_prefetch(&m_state.contacts[edge >> 1]);
+            }
+        }
+        else if ((what & fate::gets_contact) != 0)
+        {
+            prefetch(m_state.bodies[m_state.shapes[pair.a].body]);
+            prefetch(m_state.bodies[m_state.shapes[pair.b].body]);
+        }
+    }
+
+    void fulfil(const PairFate& fate)
+    {
+        const BoxPair pair = m_state.box_pairs[as_index(fate.pair)];
+        if ((fate.what & fate::parted) != 0)
+            m_state.parted_pairs.push_back(pair_key(pair.a, pair.b));
+        if ((fate.what & fate::gets_contact) != 0)
+            give_contact(pair, fate.pair);
+        if ((fate.what & fate::loses_contact) != 0)
+            destroy_contact(m_ctx.scene, pair.contact, m_ctx.scene.events, 0);
+        if ((fate.what & fate::goes) != 0)
+            m_going.push_back(fate.pair);
+    }
+
+    // Triggers' pairs may be found twice, see find_deflected_pairs.
+    void give_contact(const BoxPair& pair, std::int32_t index)
+    {
+        if (!is_trigger(m_state.broad_phase, pair) || !has_contact(m_state, pair.a, pair.b))
+            create_contact(m_ctx.scene, pair.a, pair.b, index);
+    }
+
+    void take_out(std::size_t index)
+    {
+        std::vector<BoxPair>& pairs = m_state.box_pairs;
+        const auto set_place = [&](const BoxPair& pair, std::int32_t place)
+        {
+            if (pair.contact != none)
+                m_state.contacts[pair.contact].pair = place;
+        };
+        set_place(pairs[index], none);
+        if (index + 1 < pairs.size())
+        {
+            pairs[index] = pairs.back();
+            set_place(pairs[index], static_cast<std::int32_t>(index));
+        }
+        pairs.pop_back();
+    }
+
+    StepContext& m_ctx;
+    SceneState& m_state;
+    std::vector<std::int32_t>& m_going;
+};
+
+} // namespace
+
+void follow_pairs(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    const std::span<std::vector<PairFate>> parts = find_in_parts(
+        ctx.scene.def.tasks, state.box_pairs.size(), pairs_per_task, ctx.scratch.fates_of_task,
+        [&](std::size_t first, std::size_t last, std::vector<PairFate>& some) { find_fates(ctx, first, last, some); });
+    state.parted_pairs.clear();
+    Fates fates(ctx);
+    for (const std::vector<PairFate>& some : parts)
+        fates.fulfil(some);
+    fates.take_out_going();
+    std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
+}
+
+} // namespace carom::internal
