@@ -67,13 +67,17 @@ bool hang(std::vector<std::int32_t>& parent, std::int32_t root, std::int32_t und
     return true;
 }
 
+bool are_linked(const std::int32_t* parent, std::int32_t a, std::int32_t b)
+{
+    const auto above = [&](std::int32_t i)
+    { return std::atomic_ref(const_cast<std::int32_t&>(parent[i])).load(std::memory_order_relaxed); };
+    return above(a) == above(b);
+}
+
 // The lesser place becomes the root: which ones are roots in the end does not depend on the order of the links. False where they were linked already.
 // `shared`: by threads side by side.
 bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b, bool shared)
 {
-    const auto above = [&](std::int32_t i) { return parent_of(parent, i).load(std::memory_order_relaxed); };
-    if (above(a) == above(b))
-        return false;
     for (;;)
     {
         a = find_root(parent, a);
@@ -355,7 +359,6 @@ public:
         flight.store(earthbound, std::memory_order_relaxed);
     }
 
-    // Islands, and what may become one in this step.
     void link_units()
     {
         reset_parents(ctx);
@@ -368,12 +371,16 @@ public:
     {
         const TaskHooks& tasks = ctx.scene.def.tasks;
         const bool shared = tasks.worker_count > 1;
-        for_each_in_parts(tasks, links.size(), items_per_task,
-                          [&](std::size_t i)
-                          {
-                              if (links[i].a >= 0 && links[i].b >= 0)
-                                  link(scratch.parent, links[i].a, links[i].b, shared);
-                          });
+        run_parts(tasks, links.size(), items_per_task,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                      const std::int32_t* parent = scratch.parent.data();
+                      for (const AnyLink& l : std::span(links).subspan(first, last - first))
+                      {
+                          if (l.a >= 0 && l.b >= 0 && !are_linked(parent, l.a, l.b)) // most are already
+                              link(scratch.parent, l.a, l.b, shared);
+                      }
+                  });
     }
 
     // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
