@@ -1,5 +1,7 @@
 #include "collision/broad_phase.h"
 
+#include "core/grow.h"
+
 #include <algorithm>
 
 namespace carom::internal {
@@ -12,11 +14,8 @@ constexpr std::size_t items_per_task = 2048;
 
 void BroadPhase::insert(int item, const FloatBox& box, Layer layer, ItemTraits traits)
 {
-    if (item >= static_cast<int>(m_places.size()))
-    {
-        m_places.resize(static_cast<std::size_t>(item) + 1);
-        m_leaves.resize(static_cast<std::size_t>(item) + 1);
-    }
+    grow(m_places, static_cast<std::size_t>(item) + 1);
+    grow(m_leaves, static_cast<std::size_t>(item) + 1);
     m_places[static_cast<std::size_t>(item)] = {{}, layer, traits, box, {}};
     m_leaves[static_cast<std::size_t>(item)] = {};
     stand_still(item);

@@ -200,10 +200,11 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
         contact.flags |= contact_flag::one_way;
     contact.pair = pair;
     const int index = state.contacts.create(contact);
-    state.kept_manifolds.resize(static_cast<std::size_t>(state.contacts.capacity()));
-    state.impulses.resize(static_cast<std::size_t>(state.contacts.capacity()));
+    const auto capacity = static_cast<std::size_t>(state.contacts.capacity());
+    grow(state.kept_manifolds, capacity);
+    grow(state.impulses, capacity);
     impulses_of(state, index) = {};
-    state.lane_marks.resize(static_cast<std::size_t>(state.contacts.capacity()), LaneMark::None);
+    grow(state.lane_marks, capacity);
     state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
     link_contact(state, index);
     mix_materials(scene, state.contacts[index]);

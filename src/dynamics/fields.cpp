@@ -24,12 +24,11 @@ void apply_fields(StepContext& ctx)
     for (const std::int32_t index : state.trigger_contacts)
     {
         const Contact& contact = state.contacts[index];
-        const Field& field = state.shapes[contact.shape_a].field;
-        const bool acts = field.force != Vec2{} || field.acceleration != Vec2{} || field.drag > 0;
+        const ShapeRecord& trigger = state.shapes[contact.shape_a];
         const BodyRecord& visitor = state.bodies[contact.body_b];
-        if (acts && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic &&
+        if (trigger.has_field && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic &&
             visitor.awake_index != none)
-            act(field, ctx.dt, state.sims[static_cast<std::size_t>(contact.body_b)]);
+            act(field_of(state, trigger), ctx.dt, state.sims[static_cast<std::size_t>(contact.body_b)]);
     }
 }
 

@@ -141,8 +141,11 @@ void form_batches(Scratch& scratch)
             groups = unit.first_wide + unit.wide_count;
         }
     }
-    if (scratch.wide_rows.size() < static_cast<std::size_t>(groups))
-        scratch.wide_rows.resize(static_cast<std::size_t>(groups));
+    const auto wanted = static_cast<std::size_t>(groups);
+    if (scratch.wide_rows.capacity() < wanted)
+        scratch.wide_rows.reserve(wanted + wanted / 8); // most of the memory of a contact
+    if (scratch.wide_rows.size() < wanted)
+        scratch.wide_rows.resize(wanted);
     scratch.struck.resize(scratch.wide_rows.size());
 }
 

@@ -1,5 +1,6 @@
 #include "geometry/leaf.h"
 
+#include "core/grow.h"
 #include "core/refuse.h"
 #include "core/trigonometry.h"
 
@@ -19,8 +20,8 @@ int VertexStore::allocate(int count)
         }
     }
     const int first = static_cast<int>(m_points.size());
-    m_points.resize(m_points.size() + static_cast<std::size_t>(count));
-    m_normals.resize(m_points.size());
+    grow(m_points, m_points.size() + static_cast<std::size_t>(count));
+    grow(m_normals, m_points.size());
     return first;
 }
 

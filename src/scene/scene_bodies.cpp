@@ -59,11 +59,9 @@ BodyId Scene::create_body(const BodyDef& def)
     record.can_sleep = def.can_sleep;
     const int slot = state.bodies.create(record);
     const auto index = static_cast<std::size_t>(slot);
-    if (state.sims.size() <= index)
-        state.sims.resize(index + 1);
+    grow(state.sims, index + 1);
     state.sims[index] = make_sim(def);
-    if (m_data->body_extras.size() <= index)
-        m_data->body_extras.resize(index + 1);
+    grow(m_data->body_extras, index + 1);
     m_data->body_extras[index] = {.user_data = def.user_data};
     update_mass(state, slot);
     if (def.awake && def.enabled && def.type != BodyType::Static)

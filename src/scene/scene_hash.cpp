@@ -61,9 +61,10 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
 void add_material(Hasher& h, const SceneState& state, const ShapeRecord& s)
 {
     const RestitutionCurve curve = curve_of(state, s);
+    const Field field = field_of(state, s);
     h.add(static_cast<int>(s.trigger) | (static_cast<int>(s.yields_material) << 1));
     for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, s.kick.speed,
-                              s.kick.threshold, s.kick.cooldown, s.field.drag})
+                              s.kick.threshold, s.kick.cooldown, field.drag})
         h.add(value);
     for (std::uint32_t i = 0; i < curve.count; ++i)
     {
@@ -72,9 +73,9 @@ void add_material(Hasher& h, const SceneState& state, const ShapeRecord& s)
     }
     h.add(s.kick_ready);
     add(h, s.one_way);
-    add(h, s.field.force);
-    add(h, s.field.acceleration);
-    h.add(static_cast<int>(s.field.only_if_moving_along));
+    add(h, field.force);
+    add(h, field.acceleration);
+    h.add(static_cast<int>(field.only_if_moving_along));
     h.add(s.filter.category);
     h.add(s.filter.mask);
     h.add(s.filter.group);

@@ -313,8 +313,7 @@ JointId Scene::create_joint(const JointDef& def)
         return {};
     const int slot = state.joints.create(record);
     link_joint(state, slot);
-    if (m_data->joint_extras.size() < static_cast<std::size_t>(state.joints.capacity()))
-        m_data->joint_extras.resize(static_cast<std::size_t>(state.joints.capacity()));
+    grow(m_data->joint_extras, static_cast<std::size_t>(state.joints.capacity()));
     m_data->joint_extras[static_cast<std::size_t>(slot)] = {user_data};
     state.graph_dirty = true;
     if (!record.collide_connected)

@@ -81,16 +81,23 @@ void write_def(ShapeRecord& record, const ShapeDef& def)
     record.one_way = normalize(def.one_way);
     record.kick = def.kick;
     record.filter = def.filter;
-    record.field = def.field;
+    record.has_field = is_field(def.field);
 }
 
-void keep_curve(SceneState& state, int shape, const RestitutionCurve& curve)
+// What few shapes have stands beside their records.
+void keep_extras(SceneState& state, int shape, const ShapeDef& def)
 {
-    if (curve.count == 0)
-        return;
     const auto slot = static_cast<std::size_t>(shape);
-    state.curves.resize(std::max(state.curves.size(), slot + 1));
-    state.curves[slot] = curve;
+    if (def.restitution_curve.count > 0)
+    {
+        grow(state.curves, slot + 1);
+        state.curves[slot] = def.restitution_curve;
+    }
+    if (is_field(def.field))
+    {
+        grow(state.fields, slot + 1);
+        state.fields[slot] = def.field;
+    }
 }
 
 ShapeDef read_def(const SceneState& state, int shape, std::uint64_t user_data)
@@ -107,7 +114,7 @@ ShapeDef read_def(const SceneState& state, int shape, std::uint64_t user_data)
             .yields_material = record.yields_material,
             .filter = record.filter,
             .trigger = record.trigger,
-            .field = record.field,
+            .field = field_of(state, record),
             .user_data = user_data};
 }
 
@@ -222,14 +229,13 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     write_def(record, def);
     const int slot = state.shapes.create(record);
     state.shapes[slot].owner = slot;
-    keep_curve(state, slot, def.restitution_curve);
+    keep_extras(state, slot, def);
     // At the end of the body's list, so that shapes keep the order they were made in.
     BodyRecord& owner = state.bodies[body_slot];
     (owner.last_shape == none ? owner.first_shape : state.shapes[owner.last_shape].next_shape) = slot;
     owner.last_shape = slot;
     add_leaves(*m_data, slot, normal);
-    if (m_data->shape_extras.size() < static_cast<std::size_t>(state.shapes.capacity()))
-        m_data->shape_extras.resize(static_cast<std::size_t>(state.shapes.capacity()));
+    grow(m_data->shape_extras, static_cast<std::size_t>(state.shapes.capacity()));
     m_data->shape_extras[static_cast<std::size_t>(slot)] = {def.user_data, std::move(normal), nullptr};
     include_mass(state, body_slot, slot);
     wake_body(*m_data, body_slot);
@@ -368,7 +374,7 @@ void Shape::set_def(const ShapeDef& def)
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
     const bool meets_others = old.filter != def.filter || old.trigger != def.trigger;
     write_def(state.shapes[slot], def);
-    keep_curve(state, slot, def.restitution_curve);
+    keep_extras(state, slot, def);
     for_each_own_leaf(state, slot,
                       [&](int leaf)
                       {
@@ -406,8 +412,7 @@ void Shape::set_geometry(const Geometry& geometry)
         return;
     remove_leaves(*m_data, slot);
     add_leaves(*m_data, slot, normal);
-    if (m_data->shape_extras.size() < static_cast<std::size_t>(m_data->state.shapes.capacity()))
-        m_data->shape_extras.resize(static_cast<std::size_t>(m_data->state.shapes.capacity()));
+    grow(m_data->shape_extras, static_cast<std::size_t>(m_data->state.shapes.capacity()));
     m_data->shape_extras[static_cast<std::size_t>(slot)].geometry = std::move(normal);
     update_mass(m_data->state, body);
     wake_body(*m_data, body);

@@ -4,6 +4,7 @@
 // ids stay good in it. A slot's generation is odd while it is alive.
 
 #include "core/assert.h"
+#include "core/grow.h"
 
 #include <cstdint>
 #include <type_traits>
@@ -23,8 +24,8 @@ public:
         if (m_free.empty())
         {
             slot = static_cast<int>(m_items.size());
-            m_items.push_back(value);
-            m_generations.push_back(1);
+            append(m_items, value);
+            append(m_generations, std::uint32_t{1});
         }
         else
         {

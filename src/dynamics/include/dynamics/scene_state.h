@@ -116,12 +116,13 @@ struct alignas(64) ShapeRecord
     float surface_speed = 0;
     Vec2 one_way{};
     Kick kick{};
-    double kick_ready = 0; ///< scene time from which the kick may fire again
+    bool has_field = false; ///< in SceneState::fields
+    double kick_ready = 0;  ///< scene time from which the kick may fire again
     Filter filter{};
-    Field field{};
 };
 
 static_assert(offsetof(ShapeRecord, leaf) + offsetof(Leaf, arc_radius) <= 64);
+static_assert(sizeof(ShapeRecord) == 192);
 
 struct ManifoldPoint
 {
@@ -309,6 +310,7 @@ struct SceneState
     std::vector<BodyTarget> targets; ///< by body slot, as far as any body has had one
     Pool<ShapeRecord> shapes;
     std::vector<RestitutionCurve> curves; ///< by slot of the public shape, as far as any shape has had one
+    std::vector<Field> fields;            ///< likewise
     VertexStore vertices;
     Pool<JointRecord> joints;
     Pool<Contact> contacts;
@@ -341,6 +343,12 @@ inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static
 [[nodiscard]] inline const ContactImpulses& impulses_of(const SceneState& state, int contact)
 {
     return state.impulses[static_cast<std::size_t>(contact)];
+}
+
+/// Without effect where the shape has none.
+[[nodiscard]] inline Field field_of(const SceneState& state, const ShapeRecord& shape)
+{
+    return shape.has_field ? state.fields[static_cast<std::size_t>(shape.owner)] : Field{};
 }
 
 /// Empty where the restitution is the same at all speeds.

@@ -1,0 +1,36 @@
+#pragma once
+
+// Arrays that grow by half of what they have. What doubles, as std::vector does, leaves a third of its memory unused in the mean, this a fifth; items are
+// copied twice as often on the way, all in all as often as there are.
+
+#include <cstddef>
+#include <vector>
+
+namespace carom::internal {
+
+/// Room for `size` items in all.
+template <class T>
+void make_room(std::vector<T>& items, std::size_t size)
+{
+    const std::size_t wanted = items.capacity() + items.capacity() / 2;
+    if (size > items.capacity())
+        items.reserve(size > wanted ? size : wanted);
+}
+
+/// At least `size` items; new ones are T().
+template <class T>
+void grow(std::vector<T>& items, std::size_t size)
+{
+    make_room(items, size);
+    if (items.size() < size)
+        items.resize(size);
+}
+
+template <class T>
+void append(std::vector<T>& items, const T& item)
+{
+    make_room(items, items.size() + 1);
+    items.push_back(item);
+}
+
+} // namespace carom::internal
