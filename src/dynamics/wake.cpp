@@ -13,7 +13,7 @@ void enter_awake(SceneData& scene, int body)
     if (record.awake_index != none)
         return;
     record.awake_index = static_cast<std::int32_t>(state.awake_bodies.size());
-    append(state.awake_bodies, std::int32_t{body});
+    append(state.awake_bodies, body);
     state.graph_dirty = true;
     state.sims[static_cast<std::size_t>(body)].sleep_time = 0;
     for_each_leaf(state, body,

@@ -25,7 +25,7 @@ public:
         {
             slot = static_cast<int>(m_items.size());
             append(m_items, value);
-            append(m_generations, std::uint32_t{1});
+            append(m_generations, 1);
         }
         else
         {

@@ -42,7 +42,7 @@ void update_inverse_mass(SceneState& state, int body);
 /// It looks for all its pairs in the next step.
 inline void look_again(SceneState& state, int shape)
 {
-    append(state.fresh_shapes, std::int32_t{shape});
+    append(state.fresh_shapes, shape);
     if (state.broad_phase.has(shape))
         state.broad_phase.renew(shape);
 }
