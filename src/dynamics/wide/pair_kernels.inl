@@ -23,11 +23,9 @@ struct Boxes
         gather4(at(0), lx, ly, ux, uy);
         gather4(at(16), shift_x, shift_y, any_way, kinds);
         gather4(at(32), fat_lx, fat_ly, fat_ux, fat_uy);
-        std::memcpy(&kind, &kinds, sizeof kind);
+        kind = as_ints(kinds);
     }
 };
-
-CAROM_INLINE I8 all_ints(std::int32_t x) { return I8{x, x, x, x, x, x, x, x}; }
 
 // As least_gap.
 CAROM_INLINE F8 least_gap(const Boxes& a, const Boxes& b)
@@ -47,8 +45,8 @@ void look_at_pairs(const BoxPair* eight, const BoxPlace* places, float box_margi
     for (int i = 0; i < lane_count; ++i)
         contacts.v[i] = eight[i].contact;
     // Without triggers and half-spaces, in one layer or the other.
-    constexpr std::int32_t layer_bytes = 0xff;
-    constexpr std::int32_t trait_bytes = 0xffff00;
+    constexpr std::uint32_t layer_bytes = 0xff;
+    constexpr std::uint32_t trait_bytes = 0xffff00;
     const I8 kinds = a.kind | b.kind;
     const I8 plain = (kinds & all_ints(trait_bytes | 0x80)) == I8{};
     const I8 both_move = (kinds & all_ints(layer_bytes)) == I8{};
