@@ -33,7 +33,6 @@ namespace {
 constexpr int turns = 3;
 constexpr int settle_turns = 16;
 constexpr int enough_states = 256; // to share
-constexpr int enough_to_move = 64; // eight at a time
 constexpr int guard_passes = 8;
 constexpr float follow_turn = 0.03f; // rad
 
@@ -421,10 +420,9 @@ private:
         over_ranges(
             [&](int first, int last)
             {
-                const bool many = last - first >= enough_to_move; // few are often of those that drift or fly
                 while (first < last)
                 {
-                    first += many ? m_kernels.move(m_view.states + first, last - first, m_ctx.h) : 0;
+                    first += m_kernels.move(m_view.states + first, m_view.constants + first, last - first, m_ctx.h);
                     const int next = std::min(first + lane_count, last);
                     for (; first < next; ++first)
                         integrate_position(first);

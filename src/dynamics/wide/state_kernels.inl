@@ -6,13 +6,8 @@ using D8 = double __attribute__((vector_size(64)));
 
 CAROM_INLINE D8 all_doubles(double x) { return D8{x, x, x, x, x, x, x, x}; }
 
-struct Turned
-{
-    F8 c, s;
-};
-
 // By less than a quarter of a radian.
-CAROM_INLINE Turned small_turn(F8 radians)
+CAROM_INLINE Turn small_turn(F8 radians)
 {
     const D8 x = __builtin_convertvector(radians, D8);
     const D8 z = x * x;
@@ -23,9 +18,10 @@ CAROM_INLINE Turned small_turn(F8 radians)
     return {__builtin_convertvector(c, F8), __builtin_convertvector(s, F8)};
 }
 
-// x += h v, of as many as go straight and turn little from the first on, eight by eight. How many that were.
-std::int32_t move(BodyState* states, std::int32_t count, float h)
+// x += h v, or drift(), of all but fliers, as many as turn little from the first on, eight by eight. How many that were.
+std::int32_t move(BodyState* states, const StateConstants* constants, std::int32_t count, float h)
 {
+    static_assert(offsetof(StateConstants, acceleration) == 16);
     std::int32_t first = 0;
     for (; first + lane_count <= count; first += lane_count)
     {
@@ -35,15 +31,27 @@ std::int32_t move(BodyState* states, std::int32_t count, float h)
         Poses<F8> p;
         gather4(at, v.x, v.y, v.w, v.flags);
         gather4(pose_at, p.x, p.y, p.c, p.s);
+        const auto have = [&](std::uint32_t flag) { return (as_ints(v.flags) & all_ints(flag)) != I8{}; };
+        const I8 flies = have(body_flag::flier);
+        const I8 drifts = have(body_flag::unbound);
         const F8 angle = h * v.w;
-        const I8 plain = ((as_ints(v.flags) & all_ints(body_flag::flier | body_flag::unbound)) == I8{}) &
-                         (greatest(angle, -angle) < all(0.25f));
-        if (bits(plain) != 0xff)
+        if (bits(flies | (greatest(angle, -angle) < all(0.25f))) != 0xff)
             break;
-        const Turned turn = small_turn(angle);
-        const I8 turns = v.w != all(0);
-        scatter4(pose_at, p.x + h * v.x, p.y + h * v.y, select(turns, turn.c * p.c - turn.s * p.s, p.c),
-                 select(turns, turn.s * p.c + turn.c * p.s, p.s));
+        F8 way_x = h * v.x;
+        F8 way_y = h * v.y;
+        if (bits(drifts) != 0)
+        {
+            F8 ax, ay, unused_linear, unused_angular;
+            gather4([&](int i) { return reinterpret_cast<const char*>(constants + first + i) + 16; }, ax, ay, unused_linear,
+                    unused_angular);
+            const F8 half = all(0.5f * h * h);
+            way_x -= select(drifts, half * ax, all(0));
+            way_y -= select(drifts, half * ay, all(0));
+        }
+        const Turn turn = small_turn(angle);
+        const I8 stays = flies | (v.w == all(0));
+        scatter4(pose_at, select(flies, p.x, p.x + way_x), select(flies, p.y, p.y + way_y),
+                 select(stays, p.c, turn.c * p.c - turn.s * p.s), select(stays, p.s, turn.s * p.c + turn.c * p.s));
     }
     return first;
 }

@@ -99,8 +99,8 @@ struct WideKernels
     std::uint32_t (*stay_apart)(const LaneInts& contacts, const FollowedScene& scene);
     /// Impulses of all lanes, and to their contacts whether they bear a load.
     void (*take_impulses)(WideRow& row, Contact* contacts, ContactImpulses* impulses);
-    /// Moves states by their velocities over a time h, eight by eight from the first on, as long as none flies, drifts or turns fast. How many that were.
-    std::int32_t (*move)(BodyState* states, std::int32_t count, float h);
+    /// Moves states that do not fly over a time h, eight by eight from the first on, as long as none of them turns fast. How many that were.
+    std::int32_t (*move)(BodyState* states, const StateConstants* constants, std::int32_t count, float h);
     /// Of eight pairs what decides about their contacts, as fate_of in pair_fates.cpp has it for one.
     void (*look_at_pairs)(const BoxPair* pairs, const BoxPlace* places, float box_margin, SeenPairs& seen);
     /// Where boxes of block k have changed and overlap others that they did not before, each two once.
