@@ -112,11 +112,12 @@ std::int32_t flight_of(const SceneState& state, int body)
     const int edge = record.first_joint;
     if (edge == none)
         return sim.inverse_mass != Vec2{} || sim.inverse_inertia != 0 ? none : earthbound;
+    if (record.joint_count > 1)
+        return earthbound;
     const JointRecord& joint = state.joints[edge >> 1];
     const int other = joint.body_a == body ? joint.body_b : joint.body_a;
     const bool hinged = joint.kind == JointType::Revolute && !joint.enable_motor && joint.hertz == 0 &&
-                        joint.next[edge & 1] == none && (other == none || state.bodies[other].type == BodyType::Static) &&
-                        sim.inverse_inertia > 0;
+                        (other == none || state.bodies[other].type == BodyType::Static) && sim.inverse_inertia > 0;
     if (!hinged)
         return earthbound;
     // A body that may not move along is held twice: it turns only if the pivot is its center of mass.
@@ -194,8 +195,8 @@ public:
 
     void note_uneven(int body) const
     {
-        const Vec2 inverse_mass = state.sims[static_cast<std::size_t>(body)].inverse_mass;
-        if (inverse_mass.x != inverse_mass.y)
+        const MotionLocks locks = state.bodies[body].locks;
+        if (locks.linear_x != locks.linear_y)
             std::atomic_ref(scratch.has_uneven).store(true, std::memory_order_relaxed);
     }
 

@@ -81,6 +81,21 @@ void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
     follow_closely(contact, unit, row);
 }
 
+// The hinge of a lane that is filled later, and still later where it holds.
+[[gnu::always_inline]] inline void prefetch_hinge(const SceneState& state, std::span<const JointLane> later)
+{
+    if (later.size() > 2 * turns_ahead)
+        prefetch(state.joints[later[2 * turns_ahead].place.joint]);
+    if (later.size() <= turns_ahead)
+        return;
+    const JointRecord& joint = state.joints[later[turns_ahead].place.joint];
+    for (const std::int32_t body : {joint.body_a, joint.body_b})
+    {
+        if (body != none)
+            __builtin_prefetch(&state.sims[as_index(body)]); // the half that neighbours read
+    }
+}
+
 void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
 {
     const auto lanes =
@@ -96,6 +111,7 @@ void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int 
         std::ranges::fill(group.joint.v, none);
         for (; l != lanes.end() && l->lane / lane_count == g; ++l)
         {
+            prefetch_hinge(ctx.state, {l, lanes.end()});
             const int i = l->lane % lane_count;
             group.a.v[i] = l->place.a;
             group.b.v[i] = l->place.b;

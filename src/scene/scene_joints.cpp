@@ -213,6 +213,7 @@ void link_joint(SceneState& state, int index)
         if (body == none)
             continue;
         std::int32_t& first = state.bodies[body].first_joint;
+        ++state.bodies[body].joint_count;
         joint.next[side] = first;
         joint.previous[side] = none;
         if (first != none)
@@ -231,6 +232,7 @@ void unlink_joint(SceneState& state, int index)
             continue;
         const int next = joint.next[side];
         const int previous = joint.previous[side];
+        --state.bodies[body].joint_count;
         if (next != none)
             state.joints[next >> 1].previous[next & 1] = previous;
         if (previous != none)
