@@ -5,6 +5,7 @@
 
 #include "collision/brute_force.h"
 #include "collision/manifold.h"
+#include "support/slow_build.h"
 
 #include <string>
 
@@ -165,7 +166,7 @@ inline void check_pair(LeafType a, LeafType b)
     Random random(1000 + 10 * static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
     int hits = 0;
     int overlaps = 0;
-    const int count = 10000;
+    constexpr int count = slow_build ? 2000 : 10000;
     for (int i = 0; i < count; ++i)
     {
         SCOPED_TRACE(i);

@@ -1,5 +1,6 @@
 // All state is copied, stepped, restored and stepped again: the same hashes. The same scene twice, on any threads: the same hashes.
 
+#include "support/slow_build.h"
 #include "support/test_scene.h"
 
 #include "dynamics/scene_data.h"
@@ -97,6 +98,7 @@ TEST(DeterminismTwice, EverySceneGivesTheSameHashesTwice)
 
 TEST(DeterminismThreads, HooksChangeNothing)
 {
+    constexpr int count = slow_build ? 15 : 60;
     for (const scenes::SceneEntry& entry : scenes::small_scenes())
     {
         SCOPED_TRACE(entry.name);
@@ -107,9 +109,9 @@ TEST(DeterminismThreads, HooksChangeNothing)
         scenes::BuiltScene serial = entry.create({});
         scenes::BuiltScene parallel = entry.create(threaded);
         scenes::BuiltScene reversed = entry.create(backwards);
-        const std::vector<std::uint64_t> want = run(serial, entry.h, 60);
-        EXPECT_EQ(run(parallel, entry.h, 60), want);
-        EXPECT_EQ(run(reversed, entry.h, 60), want);
+        const std::vector<std::uint64_t> want = run(serial, entry.h, count);
+        EXPECT_EQ(run(parallel, entry.h, count), want);
+        EXPECT_EQ(run(reversed, entry.h, count), want);
     }
 }
 
@@ -129,7 +131,7 @@ TEST(DeterminismThreads, AThousandBodiesInManyUnits)
                         i % 3 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.3f},
                         random.vec(3));
         std::vector<std::uint64_t> result;
-        for (int i = 0; i < 150; ++i)
+        for (int i = 0; i < (slow_build ? 30 : 150); ++i)
         {
             scene.step(1.0f / 60);
             result.push_back(scene.state_hash());

@@ -34,7 +34,7 @@ struct BodyRecord
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
     std::int32_t last_shape = none;
-    std::int32_t first_joint = none;   ///< edge: joint * 2 + side
+    std::int32_t first_joint = none; ///< edge: joint * 2 + side
     std::int32_t joint_count = 0;
     std::int32_t first_contact = none; ///< edge: contact * 2 + side
 };
