@@ -20,15 +20,43 @@ void BoxTree::build(std::span<const TreeLeaf> leaves)
         m_levels.emplace_back();
     std::vector<BoxBlock>& blocks = m_levels[0];
     blocks.resize((leaves.size() + arity - 1) / arity);
+    m_filters.resize(1);
+    m_filters[0].assign(blocks.size(), {0, 0});
     for (std::size_t i = 0; i < blocks.size() * arity; ++i)
     {
         const bool is_leaf = i < keys.size();
         if (is_leaf)
+        {
             m_items[i] = leaves[keys[i].index].item;
+            widen(m_filters[0][i / arity], leaves[keys[i].index].filter);
+        }
         blocks[i / arity].set(static_cast<int>(i % arity), is_leaf ? leaves[keys[i].index].box : FloatBox{});
     }
     m_live = static_cast<int>(leaves.size());
     build_levels();
+    build_filters();
+}
+
+void BoxTree::build_filters()
+{
+    m_filters.resize(m_levels.size());
+    for (std::size_t level = 1; level < m_levels.size(); ++level)
+    {
+        const std::vector<FilterBits>& below = m_filters[level - 1];
+        m_filters[level].assign(m_levels[level].size(), {0, 0});
+        for (std::size_t i = 0; i < below.size(); ++i)
+            widen(m_filters[level][i / arity], below[i]);
+    }
+}
+
+void BoxTree::widen_filter(int leaf, const FilterBits& filter)
+{
+    auto block = static_cast<std::size_t>(leaf);
+    for (std::vector<FilterBits>& level : m_filters)
+    {
+        block /= arity;
+        widen(level[block], filter);
+    }
 }
 
 void BoxTree::build_levels()

@@ -12,10 +12,12 @@ constexpr std::size_t items_per_task = 2048;
 
 } // namespace
 
-void BroadPhase::insert(int item, const FloatBox& box, Layer layer, ItemTraits traits)
+void BroadPhase::insert(int item, const FloatBox& box, Layer layer, ItemTraits traits, const FilterBits& filter)
 {
     grow(m_places, static_cast<std::size_t>(item) + 1);
     grow(m_leaves, static_cast<std::size_t>(item) + 1);
+    grow(m_filters, static_cast<std::size_t>(item) + 1);
+    m_filters[static_cast<std::size_t>(item)] = filter;
     m_places[static_cast<std::size_t>(item)] = {{}, layer, traits, box, {}};
     m_leaves[static_cast<std::size_t>(item)] = {};
     stand_still(item);
@@ -73,6 +75,18 @@ void BroadPhase::widen(int item, const FloatBox& box)
     const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
     if (!place.traits.unbounded && leaf.tree >= 0)
         m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(leaf.tree)].update(leaf.index, box);
+}
+
+void BroadPhase::set_filter(int item, const FilterBits& filter)
+{
+    if (!has(item))
+        return;
+    m_filters[static_cast<std::size_t>(item)] = filter;
+    const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
+    const BoxPlace& place = m_places[static_cast<std::size_t>(item)];
+    if (!place.traits.unbounded && leaf.tree >= 0)
+        m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(leaf.tree)].widen_filter(leaf.index,
+                                                                                                                 filter);
 }
 
 bool BroadPhase::update_moving(const TaskHooks& tasks, std::span<const std::int32_t> items, std::span<const FloatBox> boxes)
@@ -182,6 +196,7 @@ void BroadPhase::merge_recent(Forest& forest)
 
 void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
 {
+    const auto leaf_of = [&](std::int32_t item) { return TreeLeaf{box(item), item, m_filters[static_cast<std::size_t>(item)]}; };
     std::vector<TreeLeaf> leaves;
     for (std::size_t t = from_tree; t < forest.trees.size(); ++t)
     {
@@ -189,11 +204,11 @@ void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
         for (int i = 0; i < tree.leaf_count(); ++i)
         {
             if (const std::int32_t item = tree.item(i); item >= 0)
-                leaves.push_back({box(item), item});
+                leaves.push_back(leaf_of(item));
         }
     }
     for (const std::int32_t item : forest.recent)
-        leaves.push_back({box(item), item});
+        leaves.push_back(leaf_of(item));
     forest.recent.clear();
     forest.trees.resize(from_tree);
     if (&forest == &m_forests[0])

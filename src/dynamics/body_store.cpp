@@ -139,7 +139,8 @@ void add_to_broad_phase(SceneData& scene, int shape)
     SceneState& state = scene.state;
     const ShapeRecord& record = state.shapes[shape];
     const Layer layer = state.bodies[record.body].awake_index != none ? Layer::Moving : Layer::Resting;
-    state.broad_phase.insert(shape, fat_box(scene, shape), layer, {record.trigger, record.leaf.type == LeafType::HalfSpace});
+    state.broad_phase.insert(shape, fat_box(scene, shape), layer, {record.trigger, record.leaf.type == LeafType::HalfSpace},
+                             filter_bits(record.filter));
     look_again(state, shape);
 }
 

@@ -383,6 +383,7 @@ void Shape::set_def(const ShapeDef& def)
                           {
                               destroy_contacts_of_shape(*m_data, leaf);
                               state.broad_phase.set_trigger(leaf, def.trigger);
+                              state.broad_phase.set_filter(leaf, filter_bits(def.filter));
                               look_again(state, leaf);
                           }
                       });

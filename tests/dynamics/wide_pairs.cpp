@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 using namespace carom;
 using namespace carom::test;
@@ -51,6 +52,87 @@ std::vector<Pair> find_all(const BroadPhase& broad, const WideKernels& kernels)
     std::sort(found.pairs.begin(), found.pairs.end());
     return found.pairs;
 }
+
+// Boxes of which some meet all but each other.
+class FilteredCrowd
+{
+public:
+    FilteredCrowd(int n, int debris_of_ten) : m_world(0.7 * std::sqrt(static_cast<double>(n))), m_before(boxes(n))
+    {
+        for (int i = 0; i < n; ++i)
+        {
+            m_items.push_back(i);
+            m_filters.push_back(m_random.below(10) < debris_of_ten ? debris : all);
+            m_broad.insert(i, m_before[static_cast<std::size_t>(i)], Layer::Moving, {}, m_filters.back());
+            m_broad.settle(i);
+        }
+    }
+
+    void let_some_meet_all()
+    {
+        for (std::size_t i = 0; i < m_filters.size(); i += 3)
+            m_broad.set_filter(static_cast<int>(i), m_filters[i] = all);
+    }
+
+    // Everything goes elsewhere; how many pairs that may meet have come to overlap.
+    int move()
+    {
+        std::vector<FloatBox> now = boxes(static_cast<int>(m_items.size()));
+        EXPECT_TRUE(m_broad.update_moving({}, m_items, now));
+        for (int k = 0; k < m_broad.block_count(); ++k)
+            m_broad.note_changes(k);
+        const std::vector<Pair> want = new_pairs(now);
+        const bool none_meet = std::ranges::all_of(m_filters, [](const FilterBits& f) { return !may_meet(f, f); });
+        for (const WideKernels* kernels : all_wide_kernels())
+        {
+            std::vector<Pair> found = find_all(m_broad, *kernels);
+            EXPECT_TRUE(found.empty() || !none_meet) << kernels->name;
+            std::erase_if(found, [&](const Pair& p) { return !meet(p.first, p.second); });
+            EXPECT_EQ(found, want) << kernels->name;
+        }
+        for (const std::int32_t item : m_items)
+            m_broad.settle(item);
+        m_before = std::move(now);
+        return static_cast<int>(want.size());
+    }
+
+private:
+    static constexpr FilterBits debris{2, ~std::uint64_t{2}};
+    static constexpr FilterBits all{};
+
+    std::vector<FloatBox> boxes(int n)
+    {
+        std::vector<FloatBox> result;
+        std::generate_n(std::back_inserter(result), n, [&] { return box_at(m_random, m_world); });
+        return result;
+    }
+
+    [[nodiscard]] bool meet(int i, int j) const
+    {
+        return may_meet(m_filters[static_cast<std::size_t>(i)], m_filters[static_cast<std::size_t>(j)]);
+    }
+
+    [[nodiscard]] std::vector<Pair> new_pairs(const std::vector<FloatBox>& now) const
+    {
+        std::vector<Pair> pairs;
+        for (std::size_t i = 0; i < now.size(); ++i)
+        {
+            for (std::size_t j = i + 1; j < now.size(); ++j)
+            {
+                if (may_meet(m_filters[i], m_filters[j]) && overlaps(now[i], now[j]) && !overlaps(m_before[i], m_before[j]))
+                    pairs.emplace_back(i, j);
+            }
+        }
+        return pairs;
+    }
+
+    Random m_random{12};
+    double m_world;
+    BroadPhase m_broad;
+    std::vector<FloatBox> m_before;
+    std::vector<FilterBits> m_filters;
+    std::vector<std::int32_t> m_items;
+};
 
 } // namespace
 
@@ -125,6 +207,23 @@ BroadPhase moving_boxes(Random& random, int n)
         broad.set_path(i, {tight, shift, layer == Layer::Resting ? 0 : random.rangef(0, 0.05)});
     }
     return broad;
+}
+
+// Where whole blocks cannot meet they are not looked at; what may meet is found, also when it may only since the tree was built.
+TEST(NewOverlaps, OfWhatMayMeetAreFound)
+{
+    for (const int n : {8, 65, 700})
+    {
+        for (const int debris_of_ten : {10, 9, 5})
+        {
+            SCOPED_TRACE(std::to_string(n) + " boxes, of ten " + std::to_string(debris_of_ten) + " debris");
+            FilteredCrowd crowd(n, debris_of_ten);
+            for (int round = 0; round < 3; ++round)
+                crowd.move();
+            crowd.let_some_meet_all();
+            EXPECT_GT(crowd.move(), 0);
+        }
+    }
 }
 
 } // namespace

@@ -119,6 +119,10 @@ void new_overlaps(const MovingBlocks& tree, std::int32_t k, const OverlapSink& s
         if (const std::uint64_t boxes = new_between(tree, k, o, near); boxes != 0)
             sink.note(sink.context, o, boxes);
     };
+    const auto may_meet_below = [&](std::int32_t level, std::int32_t block)
+    { return may_meet(tree.filters[0][k], tree.filters[level][block]); };
+    if (!may_meet_below(tree.level_count - 1, 0))
+        return;
     const BoxBlock& own = tree.levels[0][k];
     const Bounds all = around(own, changed);
     struct Entry
@@ -140,6 +144,8 @@ void new_overlaps(const MovingBlocks& tree, std::int32_t k, const OverlapSink& s
         {
             const int i = std::countr_zero(hits);
             const std::int32_t node = e.block * lane_count + i;
+            if (!may_meet_below(e.level - 1, node))
+                continue;
             if (e.level > 1)
                 stack[depth++] = {e.level - 1, node};
             else if (const unsigned near = changed & overlapping(own, bounds_of(nodes, i)); near != 0)

@@ -17,10 +17,29 @@
 
 namespace carom::internal {
 
+/// Of an item, or of all below a node: the categories that they have, and those that they meet.
+struct FilterBits
+{
+    std::uint64_t categories = ~std::uint64_t{0};
+    std::uint64_t masks = ~std::uint64_t{0};
+};
+
+[[nodiscard]] inline bool may_meet(const FilterBits& a, const FilterBits& b)
+{
+    return (a.categories & b.masks) != 0 && (b.categories & a.masks) != 0;
+}
+
+inline void widen(FilterBits& all, const FilterBits& more)
+{
+    all.categories |= more.categories;
+    all.masks |= more.masks;
+}
+
 struct TreeLeaf
 {
     FloatBox box;
     std::int32_t item;
+    FilterBits filter{};
 };
 
 /// Eight boxes; empty ones overlap nothing.
@@ -87,6 +106,8 @@ public:
 
     /// Replaces a leaf's box; the boxes above it grow as needed.
     void update(int leaf, const FloatBox& box);
+    /// What the leaf meets now as well.
+    void widen_filter(int leaf, const FilterBits& filter);
     /// An empty box overlaps nothing. The leaf stays until the next build.
     void remove(int leaf);
 
@@ -104,6 +125,9 @@ public:
     /// Level 0 are the leaves; node i of a level covers block i of the level below.
     [[nodiscard]] int level_count() const { return static_cast<int>(m_levels.size()); }
     [[nodiscard]] const BoxBlock* level(int i) const { return m_levels[static_cast<std::size_t>(i)].data(); }
+    /// Of the blocks of a level, all that has been below them since the tree was built.
+    [[nodiscard]] const FilterBits* filters(int level) const { return m_filters[static_cast<std::size_t>(level)].data(); }
+    [[nodiscard]] const FilterBits& filter() const { return m_filters.back()[0]; }
 
     [[nodiscard]] FloatBox block_bounds(int i) const
     {
@@ -207,9 +231,11 @@ private:
     }
 
     void build_levels();
+    void build_filters();
 
     std::vector<std::int32_t> m_items;
-    std::vector<std::vector<BoxBlock>> m_levels; ///< [0]: leaves
+    std::vector<std::vector<BoxBlock>> m_levels;    ///< [0]: leaves
+    std::vector<std::vector<FilterBits>> m_filters; ///< of each block
     int m_live = 0;
 };
 

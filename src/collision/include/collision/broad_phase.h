@@ -81,6 +81,7 @@ struct BlockPast
 struct MovingBlocks
 {
     const BoxBlock* levels[BoxTree::max_levels];
+    const FilterBits* filters[BoxTree::max_levels];
     std::int32_t level_count;
     const BlockPast* past;
 };
@@ -88,7 +89,7 @@ struct MovingBlocks
 class BroadPhase
 {
 public:
-    void insert(int item, const FloatBox& box, Layer layer, ItemTraits traits);
+    void insert(int item, const FloatBox& box, Layer layer, ItemTraits traits, const FilterBits& filter = {});
     void remove(int item);
     void move_to(int item, Layer layer);
     void set_box(int item, const FloatBox& box);
@@ -97,6 +98,8 @@ public:
         if (has(item))
             m_places[static_cast<std::size_t>(item)].traits.trigger = trigger;
     }
+
+    void set_filter(int item, const FilterBits& filter);
 
     /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: all boxes are fitted anew, and now
     /// and then sorted. True: all are fitted.
@@ -195,14 +198,18 @@ public:
     [[nodiscard]] MovingBlocks moving_blocks() const
     {
         const BoxTree& tree = m_forests[0].trees[0];
-        MovingBlocks blocks{{}, tree.level_count(), m_past.data()};
+        MovingBlocks blocks{{}, {}, tree.level_count(), m_past.data()};
         for (int level = 0; level < tree.level_count(); ++level)
+        {
             blocks.levels[level] = tree.level(level);
+            blocks.filters[level] = tree.filters(level);
+        }
         return blocks;
     }
     [[nodiscard]] std::int32_t moving_item(int leaf) const { return m_forests[0].trees[0].item(leaf); }
 
-    /// Calls visit(item, other) where the box of an item of this block has changed and overlaps one of the resting layer that it did not before.
+    /// Calls visit(item, other) where the box of an item of this block has changed and overlaps one of the resting layer that it did not before. Left out are
+    /// those whose filters say that they do not meet, as far as whole blocks and trees show it.
     template <class Visit>
     void for_each_new_overlap_at_rest(int k, const Visit& visit) const
     {
@@ -214,9 +221,12 @@ public:
                 visit(item, other);
         };
         for (const BoxTree& others : m_forests[1].trees)
-            tree.for_each_overlap(
-                k, changed, others, [](int) { return BoxTree::all_lanes; },
-                [&](int own_leaf, int other) { if_new(tree.item(own_leaf), others.item(other)); });
+        {
+            if (may_meet(tree.filters(0)[k], others.filter()))
+                tree.for_each_overlap(
+                    k, changed, others, [](int) { return BoxTree::all_lanes; },
+                    [&](int own_leaf, int other) { if_new(tree.item(own_leaf), others.item(other)); });
+        }
         for_each_recent(tree, k, changed, m_forests[1], if_new);
     }
 
@@ -275,7 +285,8 @@ private:
     void rebuild(Forest& forest, std::size_t from_tree);
 
     std::vector<BoxPlace> m_places;
-    std::vector<Leaf> m_leaves; ///< by item, as the places
+    std::vector<Leaf> m_leaves;        ///< by item, as the places
+    std::vector<FilterBits> m_filters; ///< by item
     Forest m_forests[2];
     std::vector<BlockPast> m_past; ///< of the blocks of the moving layer, once all are fitted
     std::vector<std::int32_t> m_unbounded;

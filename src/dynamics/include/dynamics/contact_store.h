@@ -9,6 +9,12 @@ namespace carom::internal {
 /// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
 [[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
 
+/// The filter as trees of boxes go by it: what shares a positive group meets whatever its categories are.
+[[nodiscard]] inline FilterBits filter_bits(const Filter& filter)
+{
+    return filter.group > 0 ? FilterBits{} : FilterBits{filter.category, filter.mask};
+}
+
 /// Of a pair in SceneState::box_pairs, whose shapes must be allowed to collide and have no contact yet.
 void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
 
