@@ -98,7 +98,7 @@ void solve_large(StepContext& ctx)
 }
 
 // Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
-constexpr int batch_bodies = 512;
+constexpr int batch_bodies = 64;
 
 // The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
 // next step. Fills Scratch::order with where batches begin.
