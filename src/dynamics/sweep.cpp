@@ -7,9 +7,12 @@
 #include "dynamics/force_laws.h"
 #include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
+#include "dynamics/wide_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace carom::internal {
 
@@ -47,6 +50,13 @@ bool is_sound(const BodySim& sim, float motion)
     return motion + std::fabs(sim.angular_velocity) + std::fabs(sim.torque) < 1e15f;
 }
 
+// What moves farther than its margin gets a new box in the next step anyhow.
+void move_box(MovedBoxes& moved, int shape, F4 needed, float motion, float margin)
+{
+    moved.items.push_back(shape);
+    moved.boxes.push_back(box_of(grown(needed, motion < margin ? margin : 0)));
+}
+
 // Writes to its own body and boxes alone.
 void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& moved)
 {
@@ -72,11 +82,8 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
                       state.broad_phase.set_path(shape, {box_of(tight), shift, any_way});
                       const F4 needed = grown(swept(tight, shift, any_way), 0.25f * margin);
                       const F4 fat = load4(&state.broad_phase.box(shape).lx);
-                      if (contains(fat, needed) && !too_wide(fat, needed, margin))
-                          return;
-                      moved.items.push_back(shape);
-                      // What moves farther than its margin gets a new box in the next step anyhow.
-                      moved.boxes.push_back(box_of(grown(needed, motion < margin ? margin : 0)));
+                      if (!contains(fat, needed) || too_wide(fat, needed, margin))
+                          move_box(moved, shape, needed, motion, margin);
                   });
 }
 
@@ -91,25 +98,161 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     state.broad_phase.prefetch_place(shape);
 }
 
+// A task's bodies. Leaves with corners go through a kernel, eight at a time, where bodies move freely.
+class TaskSweep
+{
+public:
+    TaskSweep(const StepContext& ctx, std::size_t first, std::size_t last, MovedBoxes& moved)
+        : m_ctx(ctx), m_first(first), m_last(last), m_moved(moved)
+    {}
+
+    void run()
+    {
+        if (m_ctx.scene.law_count > 0 || !try_side_by_side())
+            one_by_one();
+    }
+
+private:
+    // False where not all are sound. What comes before a body that is looked at by itself is swept before it, so that boxes stay in order.
+    bool try_side_by_side()
+    {
+        clear();
+        const std::vector<std::int32_t>& bodies = m_ctx.state.awake_bodies;
+        for (std::size_t i = m_first; i < m_last; ++i)
+        {
+            prefetch_later(i);
+            if (is_plain(bodies[i]))
+            {
+                if (!put_in_lanes(i))
+                    return false;
+                continue;
+            }
+            if (!sweep_lanes())
+                return false;
+            sweep_body(m_ctx, bodies[i], m_ctx.scratch.motion[i], m_moved);
+        }
+        return sweep_lanes();
+    }
+
+    void one_by_one()
+    {
+        clear();
+        for (std::size_t i = m_first; i < m_last; ++i)
+        {
+            prefetch_later(i);
+            sweep_body(m_ctx, m_ctx.state.awake_bodies[i], m_ctx.scratch.motion[i], m_moved);
+        }
+    }
+
+    void clear()
+    {
+        m_moved.items.clear();
+        m_moved.boxes.clear();
+        m_moved.unsound.clear();
+    }
+
+    [[gnu::always_inline]] void prefetch_later(std::size_t i) const
+    {
+        if (i + turns_ahead < m_last)
+            prefetch_body(m_ctx.state, m_ctx.state.awake_bodies[i + turns_ahead]);
+    }
+
+    [[nodiscard]] bool is_plain(int body) const
+    {
+        const BodyRecord& record = m_ctx.state.bodies[body];
+        bool plain = record.type == BodyType::Dynamic && record.first_shape != none;
+        for_each_leaf(m_ctx.state, body, [&](int shape) { plain &= has_corners(m_ctx.state.shapes[shape].leaf); });
+        return plain;
+    }
+
+    static bool has_corners(const Leaf& leaf) { return leaf.type != LeafType::Arc && leaf.type != LeafType::HalfSpace; }
+
+    bool put_in_lanes(std::size_t place)
+    {
+        bool sound = true;
+        const int body = m_ctx.state.awake_bodies[place];
+        for_each_leaf(m_ctx.state, body,
+                      [&](int shape)
+                      {
+                          m_shapes[m_lanes] = shape;
+                          m_of_body[m_lanes] = place;
+                          m_eight.bodies[m_lanes] = &m_ctx.state.sims[static_cast<std::size_t>(body)];
+                          m_eight.places[m_lanes] = &m_ctx.state.broad_phase.place(shape);
+                          put_corners(leaf_view(m_ctx.state, shape), m_lanes);
+                          if (++m_lanes == lane_count)
+                              sound &= sweep_lanes();
+                      });
+        return sound;
+    }
+
+    void put_corners(const LeafView& view, int lane)
+    {
+        const Leaf& leaf = *view.leaf;
+        m_eight.corners[lane] = view.points;
+        m_eight.corner_counts[lane] = leaf.count;
+        m_eight.radii[0].v[lane] = m_eight.radii[1].v[lane] = leaf.r0;
+        if (leaf.type == LeafType::Polygon)
+            return;
+        m_eight.corners[lane] = &leaf.p0;
+        m_eight.corner_counts[lane] = 2;
+        if (leaf.type != LeafType::Circle)
+        {
+            m_eight.radii[1].v[lane] = leaf.r1;
+            return;
+        }
+        m_centers[lane][0] = m_centers[lane][1] = leaf.p0;
+        m_eight.corners[lane] = m_centers[lane];
+    }
+
+    // Those that are left over are the first one once more.
+    bool sweep_lanes()
+    {
+        const int count = std::exchange(m_lanes, 0);
+        if (count == 0)
+            return true;
+        for (int i = count; i < lane_count; ++i)
+        {
+            m_eight.bodies[i] = m_eight.bodies[0];
+            m_eight.places[i] = m_eight.places[0];
+            m_eight.corners[i] = m_eight.corners[0];
+            m_eight.corner_counts[i] = m_eight.corner_counts[0];
+            for (LaneFloats& radii : m_eight.radii)
+                radii.v[i] = radii.v[0];
+        }
+        const float margin = m_ctx.scene.tolerances.box_margin;
+        if (!m_kernels.sweep(m_eight, {m_ctx.dt, m_ctx.state.gravity, margin}))
+            return false;
+        for (int i = 0; i < count; ++i)
+        {
+            m_ctx.scratch.motion[m_of_body[i]] = m_eight.motion.v[i];
+            if ((m_eight.moved >> i & 1u) != 0)
+                move_box(m_moved, m_shapes[i], F4{m_eight.lx.v[i], m_eight.ly.v[i], m_eight.ux.v[i], m_eight.uy.v[i]},
+                         m_eight.motion.v[i], margin);
+        }
+        return true;
+    }
+
+    const StepContext& m_ctx;
+    std::size_t m_first;
+    std::size_t m_last;
+    MovedBoxes& m_moved;
+    SweptEight m_eight;
+    Vec2 m_centers[lane_count][2]; ///< of circles
+    int m_shapes[lane_count];
+    std::size_t m_of_body[lane_count]; ///< place in awake_bodies
+    int m_lanes = 0;
+    const WideKernels& m_kernels = wide_kernels();
+};
+
 // True where all are sound.
 bool sweep_all(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     const std::vector<std::int32_t>& bodies = ctx.state.awake_bodies;
     scratch.motion.resize(bodies.size());
-    const std::span<MovedBoxes> parts = find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.moved_of_task,
-                                                      [&](std::size_t first, std::size_t last, MovedBoxes& moved)
-                                                      {
-                                                          moved.items.clear();
-                                                          moved.boxes.clear();
-                                                          moved.unsound.clear();
-                                                          for (std::size_t i = first; i < last; ++i)
-                                                          {
-                                                              if (i + turns_ahead < last)
-                                                                  prefetch_body(ctx.state, bodies[i + turns_ahead]);
-                                                              sweep_body(ctx, bodies[i], scratch.motion[i], moved);
-                                                          }
-                                                      });
+    const std::span<MovedBoxes> parts =
+        find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.moved_of_task,
+                      [&](std::size_t first, std::size_t last, MovedBoxes& moved) { TaskSweep(ctx, first, last, moved).run(); });
     MovedBoxes& all = scratch.moved;
     all.items.clear();
     all.boxes.clear();

@@ -100,6 +100,7 @@ CAROM_INLINE void mark_fixed(Wide& wide)
 #include "joint_kernels.inl"
 #include "follow_kernels.inl"
 #include "state_kernels.inl"
+#include "sweep_kernels.inl"
 #include "pair_kernels.inl"
 
 } // namespace
@@ -108,6 +109,6 @@ extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
                              joints::fill,   joints::warm_start,   joints::solve,   joints::relax,
                              follows::follow,        follows::follow_contacts, follows::stay_apart, follows::take_impulses, states::move,
-                             pairs::look_at_pairs,            pairs::new_overlaps};
+                             sweeps::sweep,           pairs::look_at_pairs,            pairs::new_overlaps};
 
 } // namespace carom::internal::CAROM_ISA

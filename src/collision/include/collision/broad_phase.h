@@ -118,6 +118,8 @@ public:
             prefetch(m_places[static_cast<std::size_t>(item)]);
     }
 
+    /// For kernels that write its path.
+    [[nodiscard]] BoxPlace& place(int item) { return m_places[static_cast<std::size_t>(item)]; }
     /// By item.
     [[nodiscard]] const BoxPlace* places() const { return m_places.data(); }
     [[nodiscard]] const FloatBox& box(int item) const { return m_places[static_cast<std::size_t>(item)].box; }

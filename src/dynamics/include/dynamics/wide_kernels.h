@@ -2,6 +2,7 @@
 
 // What is compiled once per instruction set (dynamics/wide/), behind pointers.
 
+#include "carom/math.h"
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_rows.h"
 
@@ -60,6 +61,26 @@ struct SeenPairs
     std::uint32_t stay;  ///< plain, they meet, and have a contact if and only if they are near
 };
 
+/// Eight leaves of two corners or more each, their bodies, and what sweep finds of them.
+struct SweptEight
+{
+    const BodySim* bodies[lane_count];
+    BoxPlace* places[lane_count];
+    const Vec2* corners[lane_count];
+    int corner_counts[lane_count];
+    LaneFloats radii[2];       ///< of even corners, of odd ones: only of two corners they may differ
+    LaneFloats motion;         ///< how far any point may come
+    LaneFloats lx, ly, ux, uy; ///< what the fat box must hold
+    std::uint32_t moved;       ///< lanes whose fat box does not, or holds far too much
+};
+
+struct SweepStep
+{
+    float dt;
+    Vec2 gravity;
+    float box_margin;
+};
+
 /// Hears of each block some of whose boxes have come to overlap boxes of the one that is asked for: bit 8 i + j for box i of this and j of that.
 struct OverlapSink
 {
@@ -101,6 +122,8 @@ struct WideKernels
     void (*take_impulses)(WideRow& row, Contact* contacts, ContactImpulses* impulses);
     /// Moves states that do not fly over a time h, eight by eight from the first on, as long as none of them turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, const StateConstants* constants, std::int32_t count, float h);
+    /// Paths of bodies that move freely, into their places, and their boxes: as sweep_body in sweep.cpp. False where it must decide, one by one.
+    bool (*sweep)(SweptEight& eight, const SweepStep& step);
     /// Of eight pairs what decides about their contacts, as fate_of in pair_fates.cpp has it for one.
     void (*look_at_pairs)(const BoxPair* pairs, const BoxPlace* places, float box_margin, SeenPairs& seen);
     /// Where boxes of block k have changed and overlap others that they did not before, each two once.
