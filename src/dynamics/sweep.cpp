@@ -108,20 +108,26 @@ public:
 
     void run()
     {
-        if (m_ctx.scene.law_count > 0 || !try_side_by_side())
-            one_by_one();
+        m_side_by_side = m_ctx.scene.law_count == 0;
+        if (sweep())
+            return;
+        m_side_by_side = false; // to tell who is not sound
+        sweep();
     }
 
 private:
-    // False where not all are sound. What comes before a body that is looked at by itself is swept before it, so that boxes stay in order.
-    bool try_side_by_side()
+    // False where in lanes not all are sound. What comes before a body that is looked at by itself is swept before it, so that boxes stay in order.
+    bool sweep()
     {
-        clear();
+        m_moved.items.clear();
+        m_moved.boxes.clear();
+        m_moved.unsound.clear();
+        m_lanes = 0;
         const std::vector<std::int32_t>& bodies = m_ctx.state.awake_bodies;
         for (std::size_t i = m_first; i < m_last; ++i)
         {
             prefetch_later(i);
-            if (is_plain(bodies[i]))
+            if (m_side_by_side && is_plain(bodies[i]))
             {
                 if (!put_in_lanes(i))
                     return false;
@@ -132,23 +138,6 @@ private:
             sweep_body(m_ctx, bodies[i], m_ctx.scratch.motion[i], m_moved);
         }
         return sweep_lanes();
-    }
-
-    void one_by_one()
-    {
-        clear();
-        for (std::size_t i = m_first; i < m_last; ++i)
-        {
-            prefetch_later(i);
-            sweep_body(m_ctx, m_ctx.state.awake_bodies[i], m_ctx.scratch.motion[i], m_moved);
-        }
-    }
-
-    void clear()
-    {
-        m_moved.items.clear();
-        m_moved.boxes.clear();
-        m_moved.unsound.clear();
     }
 
     [[gnu::always_inline]] void prefetch_later(std::size_t i) const
@@ -175,7 +164,7 @@ private:
                       [&](int shape)
                       {
                           m_shapes[m_lanes] = shape;
-                          m_of_body[m_lanes] = place;
+                          m_body_places[m_lanes] = place;
                           m_eight.bodies[m_lanes] = &m_ctx.state.sims[static_cast<std::size_t>(body)];
                           m_eight.places[m_lanes] = &m_ctx.state.broad_phase.place(shape);
                           put_corners(leaf_view(m_ctx.state, shape), m_lanes);
@@ -224,7 +213,7 @@ private:
             return false;
         for (int i = 0; i < count; ++i)
         {
-            m_ctx.scratch.motion[m_of_body[i]] = m_eight.motion.v[i];
+            m_ctx.scratch.motion[m_body_places[i]] = m_eight.motion.v[i];
             if ((m_eight.moved >> i & 1u) != 0)
                 move_box(m_moved, m_shapes[i], F4{m_eight.lx.v[i], m_eight.ly.v[i], m_eight.ux.v[i], m_eight.uy.v[i]},
                          m_eight.motion.v[i], margin);
@@ -239,8 +228,9 @@ private:
     SweptEight m_eight;
     Vec2 m_centers[lane_count][2]; ///< of circles
     int m_shapes[lane_count];
-    std::size_t m_of_body[lane_count]; ///< place in awake_bodies
+    std::size_t m_body_places[lane_count]; ///< place in awake_bodies
     int m_lanes = 0;
+    bool m_side_by_side = false;
     const WideKernels& m_kernels = wide_kernels();
 };
 

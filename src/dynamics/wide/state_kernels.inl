@@ -2,8 +2,6 @@
 
 namespace states {
 
-using D8 = double __attribute__((vector_size(64)));
-
 CAROM_INLINE D8 all_doubles(double x) { return D8{x, x, x, x, x, x, x, x}; }
 
 // By less than a quarter of a radian.
@@ -35,7 +33,7 @@ std::int32_t move(BodyState* states, const StateConstants* constants, std::int32
         const I8 flies = have(body_flag::flier);
         const I8 drifts = have(body_flag::unbound);
         const F8 angle = h * v.w;
-        if (bits(flies | (greatest(angle, -angle) < all(0.25f))) != 0xff)
+        if (bits(flies | (magnitude(angle) < all(0.25f))) != 0xff)
             break;
         F8 way_x = h * v.x;
         F8 way_y = h * v.y;

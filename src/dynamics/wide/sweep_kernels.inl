@@ -10,8 +10,6 @@ CAROM_INLINE F8 length_of(F8 x, F8 y)
     return __builtin_convertvector(root(dx * dx + dy * dy), F8);
 }
 
-CAROM_INLINE F8 magnitude(F8 x) { return greatest(x, -x); }
-
 // Of how eight bodies move.
 struct Ways
 {

@@ -56,6 +56,7 @@ CAROM_INLINE I8 as_ints(F8 bits_of)
 CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return mask ? a : b; }
 CAROM_INLINE F8 least(F8 a, F8 b) { return a < b ? a : b; }
 CAROM_INLINE F8 greatest(F8 a, F8 b) { return a > b ? a : b; }
+CAROM_INLINE F8 magnitude(F8 x) { return greatest(x, -x); }
 CAROM_INLINE F8 clamp(F8 x, F8 low, F8 high) { return least(greatest(x, low), high); }
 
 CAROM_INLINE F8 root(F8 x)
