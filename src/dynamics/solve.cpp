@@ -38,6 +38,7 @@ void UnitOutput::clear()
     flight_impacts = 0;
     bulk_impacts = 0;
     capped = false;
+    disturbed = false;
 }
 
 namespace {
@@ -180,7 +181,7 @@ void solve_units(StepContext& ctx)
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
         scratch.outputs[i].clear();
     mark_traced(ctx);
-    scratch.pushes.resize(scratch.states.size());
+    scratch.unpushed.resize(scratch.states.size());
     scratch.speeds.resize(scratch.states.size());
     form_batches(scratch);
     solve_large(ctx);

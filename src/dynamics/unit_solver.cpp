@@ -25,6 +25,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace carom::internal {
 
@@ -78,7 +79,7 @@ public:
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness, m_ctx.rest_speed},
           m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
-          m_starts_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.flier_count == 0),
+          m_may_start_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0),
           m_bins(contact_bins(m_scratch, unit)), m_joint_bins(joint_bins(m_scratch, unit))
     {}
 
@@ -133,7 +134,7 @@ private:
         if (m_watches_energy)
             m_energy.begin(m_view, m_ctx, m_joints, m_unit);
         integrate_velocities(k);
-        warm_start_all(k);
+        warm_start_all();
         predict_bends();
         solve(true);
         if (m_watches_energy)
@@ -149,8 +150,6 @@ private:
         relax();
         if (m_watches_energy)
             m_energy.note_load(m_rows, late_rows());
-        if (m_starts_by_body)
-            note_pushes();
         const bool kicked = bounce(k);
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
@@ -228,9 +227,11 @@ private:
     // v += h a, then damping. Balls in flight have their own way.
     void integrate_velocities(int k)
     {
-        if (m_starts_by_body)
+        if (m_may_start_by_body)
         {
-            integrate_and_push(k);
+            const bool disturbed = std::exchange(m_output.disturbed, false);
+            m_starts_by_body = k > 0 && !disturbed;
+            integrate_and_push();
             return;
         }
         over_states(
@@ -238,9 +239,15 @@ private:
             {
                 BodyState& s = m_view.states[i];
                 store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, speeds_of(s));
-                if ((s.flags & body_flag::dynamic) != 0 && (s.flags & body_flag::flier) == 0)
+                if (solver_moves(s))
                     set_speeds(s, accelerated(s, m_view.constants[i]));
             });
+    }
+
+    // Not kinematic, and not in flight.
+    [[nodiscard]] static bool solver_moves(const BodyState& s)
+    {
+        return (s.flags & (body_flag::dynamic | body_flag::flier)) == body_flag::dynamic;
     }
 
     template <class Visit>
@@ -262,30 +269,21 @@ private:
     }
 
     // Where points and normals keep through the step, all that the rows gave to a body in the last sub-step is given again at once: what warm
-    // starting adds up row by row.
-    void integrate_and_push(int k)
+    // starting adds up row by row. It is what the body's speeds are beyond those that they would be without.
+    void integrate_and_push()
     {
         over_states(
             [&](int i)
             {
                 BodyState& s = m_view.states[i];
-                float* const push = &m_scratch.pushes[static_cast<std::size_t>(i)].velocity.x;
-                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, speeds_of(s));
-                if ((s.flags & body_flag::dynamic) == 0)
+                const F4 now = speeds_of(s);
+                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, now);
+                if (!solver_moves(s))
                     return;
-                const F4 before = accelerated(s, m_view.constants[i]);
-                set_speeds(s, k > 0 ? before + load4(push) : before);
-                store4(push, before);
-            });
-    }
-
-    void note_pushes()
-    {
-        over_states(
-            [&](int i)
-            {
-                float* const push = &m_scratch.pushes[static_cast<std::size_t>(i)].velocity.x;
-                store4(push, speeds_of(m_view.states[i]) - load4(push));
+                float* const unpushed = &m_scratch.unpushed[static_cast<std::size_t>(i)].velocity.x;
+                const F4 next = accelerated(s, m_view.constants[i]);
+                set_speeds(s, m_starts_by_body ? next + (now - load4(unpushed)) : next);
+                store4(unpushed, next);
             });
     }
 
@@ -312,13 +310,13 @@ private:
         return decay * (speeds_of(s) + m_ctx.h * acceleration);
     }
 
-    void warm_start_all(int k)
+    void warm_start_all()
     {
         kick_springs_before(m_view, m_ctx.state, m_joints);
         prepare_direct();
         if (!m_joints.empty())
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
-        if (m_starts_by_body && k > 0)
+        if (m_starts_by_body)
             return;
         m_joint_bins.by_color(m_crew, [&](int first, int last)
                               { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
@@ -735,36 +733,39 @@ private:
         wide.untold &= ~bit;
         if (!strikes)
             return;
-        const ContactRow before = row;
         resolve_impact(row, approach, k);
         wide.may_hit &= ~bit;
         put_impulses(m_scratch, row, lane);
-        forget_pushes(before, row);
     }
 
     // What flies off is not pushed again by warm starting.
     void forget_pushes(const ContactRow& before, const ContactRow& after)
     {
-        if (!m_starts_by_body)
-            return;
         for (int i = 0; i < before.count; ++i)
         {
             if (after.points[i].normal_impulse != 0)
                 continue;
             const RowPoint& p = before.points[i];
-            const Vec2 impulse = p.normal_impulse * before.n + p.tangent_impulse * perp(before.n);
-            take_push(before.a, p.ra, -impulse);
-            take_push(before.b, p.rb, impulse);
+            note_push(before, p, p.normal_impulse * before.n + p.tangent_impulse * perp(before.n));
         }
     }
 
-    void take_push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    // Of an impulse that no row gives again.
+    void note_push(const ContactRow& row, const RowPoint& p, Vec2 impulse)
+    {
+        if (!m_may_start_by_body)
+            return;
+        note_push(row.a, p.ra, -impulse);
+        note_push(row.b, p.rb, impulse);
+    }
+
+    void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
     {
         const StateConstants& c = m_view.constants[state];
-        BodySpeeds& push = m_scratch.pushes[static_cast<std::size_t>(state)];
-        push.velocity.x -= c.inverse_mass.x * impulse.x;
-        push.velocity.y -= c.inverse_mass.y * impulse.y;
-        push.angular_velocity -= c.inverse_inertia * cross(arm, impulse);
+        BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
+        unpushed.velocity.x += c.inverse_mass.x * impulse.x;
+        unpushed.velocity.y += c.inverse_mass.y * impulse.y;
+        unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
     }
 
     void bounce_row(ContactRow& row, int k)
@@ -799,9 +800,11 @@ private:
         if (kick.b_fired)
             m_output.kicked_shapes.push_back(contact.shape_b);
         RawImpact raw{contact.shape_a, contact.shape_b, {}};
+        const ContactRow before = row;
         bounce_points(row, e, kick.speed);
         for (int i = 0; i < row.count; ++i)
             account_for_bounce(row.points[i], e, kick.speed, raw.event);
+        forget_pushes(before, row);
         fill_impact(row, raw.event, approach, e, kick.speed, k);
         m_output.impacts.push_back(raw);
         ++m_output.bulk_impacts;
@@ -821,15 +824,16 @@ private:
         return wanted_speed(p, e, kick) - dot(v, row.n);
     }
 
-    void push(const ContactRow& row, RowPoint& p, float impulse) const
+    void push(const ContactRow& row, RowPoint& p, float impulse)
     {
         p.normal_impulse += impulse;
+        note_push(row, p, impulse * row.n);
         apply_impulse(m_view.states[row.a], m_view.constants[row.a], p.ra, -impulse * row.n);
         apply_impulse(m_view.states[row.b], m_view.constants[row.b], p.rb, impulse * row.n);
     }
 
     // Two points struck at once bounce at once: a box that lands flat bounces flat.
-    void bounce_points(ContactRow& row, float e, float kick) const
+    void bounce_points(ContactRow& row, float e, float kick)
     {
         if (e <= 0 && kick <= 0)
             return;
@@ -951,7 +955,8 @@ private:
     WideSoftness m_softness;
     WideJoint* m_wide_joints;
     JointSoftness m_joint_softness;
-    bool m_starts_by_body;
+    bool m_may_start_by_body;
+    bool m_starts_by_body = false; ///< in this sub-step
     UnitBins m_bins;
     UnitBins m_joint_bins;
     const WideKernels& m_kernels = wide_kernels();

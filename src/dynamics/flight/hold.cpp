@@ -19,6 +19,7 @@ void push_back(const FlightSpan& span, const Hold& h, double time)
 {
     if (h.solved == none)
         return;
+    span.output.disturbed = true;
     BodyState& s = span.state_of(h.solved);
     const StateConstants& c = span.constants_of(h.solved);
     const Vec2 impulse = static_cast<float>(h.start - time) * (h.force * h.normal + h.friction * perp(h.normal));

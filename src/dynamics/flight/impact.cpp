@@ -169,7 +169,10 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
         deflect(*f, now, struck);
     }
     else if (m.state != none)
+    {
+        m_span.output.disturbed = true;
         correct_state(m_span.state_of(m.state), m_span.h - m_time, dvx, dvy, dw);
+    }
     else
         defer(static_cast<int>(i));
     if (m.state != none)

@@ -120,6 +120,7 @@ private:
 void land(const FlightSpan& span, Flier& f)
 {
     f.landed = true;
+    span.output.disturbed = true;
     const Flier held = f;
     release_holds(span, f, span.h);
     span.state_of(f.state).flags &= ~(body_flag::flier | body_flag::unbound);

@@ -360,6 +360,7 @@ void take_off(const FlightSpan& span, Flier& f, double time)
     }
     f.w = path.w;
     f.landed = false;
+    span.output.disturbed = true;
     note_deflected(span.scratch, span.output, span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
     span.state_of(f.state).flags |= body_flag::flier;
     const auto drop_rows = [&](std::span<ContactRow> rows)

@@ -295,6 +295,7 @@ struct UnitOutput
     int flight_impacts = 0;
     int bulk_impacts = 0;
     bool capped = false;
+    bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
 
     void clear();
     UnitOutput();
@@ -381,8 +382,8 @@ struct Scratch
     std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
-    std::vector<BodySpeeds> speeds; ///< by state: when the sub-step began
-    std::vector<BodySpeeds> pushes; ///< by state, of units that warm start by body: what constraints gave in the last sub-step
+    std::vector<BodySpeeds> speeds;   ///< by state: when the sub-step began
+    std::vector<BodySpeeds> unpushed; ///< by state, of units that may warm start by body: without what rows gave in the sub-step
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
