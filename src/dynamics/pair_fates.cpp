@@ -71,6 +71,27 @@ std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
     return seen ? fate::gets_contact | fate::goes : fate::goes;
 }
 
+// One that does not stay as it is.
+struct SeenPair
+{
+    std::int32_t pair;
+    bool plain;
+    bool near;
+    bool meet;
+};
+
+// What decides about it.
+[[gnu::always_inline]] inline void prefetch_pair(const SceneState& state, const BoxPair& pair)
+{
+    if (pair.contact != none)
+    {
+        prefetch(state.contacts[pair.contact]);
+        return;
+    }
+    prefetch(state.shapes[pair.a]);
+    prefetch(state.shapes[pair.b]);
+}
+
 // Of a task's pairs. Most stay as they are.
 void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairFate>& fates)
 {
@@ -83,6 +104,8 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
             fates.push_back({static_cast<std::int32_t>(i), what});
     };
     fates.clear();
+    SeenPair changes[pairs_per_task];
+    std::size_t count = 0;
     std::size_t i = first;
     for (; i + lane_count <= last; i += lane_count)
     {
@@ -93,8 +116,15 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
             const int lane = std::countr_zero(others);
             const std::size_t k = i + static_cast<std::size_t>(lane);
             const auto has = [lane](std::uint32_t lanes) { return (lanes >> lane & 1u) != 0; };
-            add(k, has(seen.plain) ? fate_of_moving(ctx, pairs[k], has(seen.near), has(seen.meet)) : fate_of(ctx, pairs[k]));
+            changes[count++] = {static_cast<std::int32_t>(k), has(seen.plain), has(seen.near), has(seen.meet)};
+            prefetch_pair(ctx.state, pairs[k]);
         }
+    }
+    for (const SeenPair& seen : std::span(changes, count))
+    {
+        const BoxPair& pair = pairs[static_cast<std::size_t>(seen.pair)];
+        add(static_cast<std::size_t>(seen.pair),
+            seen.plain ? fate_of_moving(ctx, pair, seen.near, seen.meet) : fate_of(ctx, pair));
     }
     for (; i < last; ++i)
         add(i, fate_of(ctx, pairs[i]));
@@ -111,7 +141,7 @@ public:
         for (std::size_t i = 0; i < fates.size(); ++i)
         {
             if (i + 2 * turns_ahead < fates.size())
-                prefetch_pair(m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
+                prefetch_pair(m_state, m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
             if (i + turns_ahead < fates.size())
                 prefetch_neighbours(m_state.box_pairs[as_index(fates[i + turns_ahead].pair)], fates[i + turns_ahead].what);
             fulfil(fates[i]);
@@ -127,17 +157,6 @@ public:
 
 private:
     static std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-    [[gnu::always_inline]] void prefetch_pair(const BoxPair& pair) const
-    {
-        if (pair.contact != none)
-        {
-            prefetch(m_state.contacts[pair.contact]);
-            return;
-        }
-        prefetch(m_state.shapes[pair.a]);
-        prefetch(m_state.shapes[pair.b]);
-    }
 
     [[gnu::always_inline]] void prefetch_neighbours(const BoxPair& pair, std::uint8_t what) const
     {
