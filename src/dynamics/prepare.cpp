@@ -11,14 +11,14 @@
 
 namespace carom::internal {
 
-BodyState initial_state(const SceneState& state, int body)
+void start_state(const SceneState& state, int body, BodyState& s)
 {
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    BodyState s;
     s.velocity = sim.velocity;
     s.angular_velocity = sim.angular_velocity;
     s.flags = state.bodies[body].type == BodyType::Dynamic ? body_flag::dynamic | body_flag::unbound : 0;
-    return s;
+    s.delta_position = {};
+    s.delta_rotation = {};
 }
 
 namespace {
@@ -30,12 +30,11 @@ float decay(float damping, float h)
 
 } // namespace
 
-StateConstants state_constants(const StepContext& ctx, int body)
+void set_constants(const StepContext& ctx, int body, StateConstants& c)
 {
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     const MotionLocks locks = ctx.state.bodies[body].locks;
     const Vec2 g = sim.gravity_scale * ctx.state.gravity;
-    StateConstants c;
     c.inverse_mass = sim.inverse_mass;
     c.inverse_inertia = sim.inverse_inertia;
     c.acceleration = {(locks.linear_x ? 0 : g.x) + sim.inverse_mass.x * sim.force.x,
@@ -43,7 +42,6 @@ StateConstants state_constants(const StepContext& ctx, int body)
     c.angular_acceleration = sim.inverse_inertia * sim.torque;
     c.linear_decay = decay(sim.linear_damping, ctx.h);
     c.angular_decay = decay(sim.angular_damping, ctx.h);
-    return c;
 }
 
 namespace {

@@ -296,12 +296,17 @@ private:
     {
         const int body = m_scratch.state_bodies[as_index(i)];
         BodyState& s = m_scratch.states[as_index(i)];
-        s = body == none ? BodyState{} : initial_state(m_state, body);
         StateConstants& c = m_scratch.constants[as_index(i)];
-        c = {};
+        if (body == none)
+            s = {};
+        else
+            start_state(m_state, body, s);
         if (!is_dynamic(unit, i))
+        {
+            c = {};
             return;
-        c = state_constants(unit_ctx, body);
+        }
+        set_constants(unit_ctx, body, c);
         m_state.sims[as_index(body)].crowded = !unit.precise && !unit.alone;
         if (unit.alone)
             s.flags |= body_flag::alone;

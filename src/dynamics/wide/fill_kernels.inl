@@ -20,10 +20,7 @@ CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane
     store(p.along_a, ax * nx + ay * ny);
     store(p.across_b, bx * ny - by * nx);
     store(p.along_b, bx * nx + by * ny);
-    LaneFloats separation;
-    for (int i = 0; i < lane_count; ++i)
-        separation.v[i] = point(i).separation;
-    store(p.base, load(separation));
+    store(p.base, lanes_from([&](int i) { return point(i).separation; }));
     store(p.total_impulse, all(0));
     store(p.total_tangent, all(0));
     store(p.approach, all(0));

@@ -76,20 +76,17 @@ CAROM_INLINE Arrow turned(const Turn& q, const Arrow& v) { return {q.c * v.x - q
 CAROM_INLINE Arrow centers_apart(const Places& places)
 {
     static_assert(offsetof(BodySim, center) == 0);
-    using D2 = double __attribute__((vector_size(16)));
-    LaneFloats x;
-    LaneFloats y;
-    for (int i = 0; i < lane_count; ++i)
+    const auto apart = [&](int i)
     {
         D2 from;
         D2 to;
         std::memcpy(&from, places.a[i], sizeof from);
         std::memcpy(&to, places.b[i], sizeof to);
-        const D2 apart = to - from;
-        x.v[i] = static_cast<float>(apart[0]);
-        y.v[i] = static_cast<float>(apart[1]);
-    }
-    return {load(x), load(y)};
+        return to - from;
+    };
+    Arrow arrow;
+    round_pairs(apart, arrow.x, arrow.y);
+    return arrow;
 }
 
 CAROM_INLINE F8 length_of(const Arrow& v) { return root(v.x * v.x + v.y * v.y); }
@@ -195,11 +192,9 @@ struct Stand : Two
             corners[i] = {offset.x + corner.x, offset.y + corner.y};
             along[i] = edge.x * (corners[i].x - start.x) + edge.y * (corners[i].y - start.y);
         }
-        LaneFloats extent;
-        for (int i = 0; i < lane_count; ++i)
-            extent.v[i] = ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent;
+        const F8 extent = lanes_from([&](int i) { return ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent; });
         const Change change(*this, kept.center, kept.rotation);
-        way = length_of(change.way) + load(extent) * change.chord();
+        way = length_of(change.way) + extent * change.chord();
         cosine = change.cosine;
     }
 

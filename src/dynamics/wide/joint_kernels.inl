@@ -26,16 +26,14 @@ CAROM_INLINE Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - 
 // As hinge_angle of joint_solver.cpp.
 CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], const Turn& a, const Turn& b)
 {
-    LaneFloats c;
-    LaneFloats s;
+    Rotation references[lane_count];
     for (int i = 0; i < lane_count; ++i)
     {
         const float angle = joints[i]->reference_angle;
-        const Rotation reference = angle != 0 ? Rotation::from_angle(-angle) : Rotation{};
-        c.v[i] = reference.c;
-        s.v[i] = reference.s;
+        references[i] = angle != 0 ? Rotation::from_angle(-angle) : Rotation{};
     }
-    const Turn relative = b * Turn{a.c, -a.s} * Turn{load(c), load(s)};
+    const Turn reference = {lanes_from([&](int i) { return references[i].c; }), lanes_from([&](int i) { return references[i].s; })};
+    const Turn relative = b * Turn{a.c, -a.s} * reference;
     return arc_tangent(relative.s, relative.c);
 }
 
@@ -45,15 +43,6 @@ CAROM_INLINE void fill_drive(WideAngle& t, const JointRecord* const (&joints)[la
     static_assert(offsetof(JointRecord, max_motor) == offsetof(JointRecord, lower) + 12 &&
                   offsetof(JointRecord, spring_target) == offsetof(JointRecord, motor_speed) + 12 && slot_spring == slot_lower + 3);
     constexpr float no_limit = 1e9f; // rad
-    LaneFloats hertz_of_lane;
-    LaneInts limited_lanes;
-    LaneInts driven_lanes;
-    for (int i = 0; i < lane_count; ++i)
-    {
-        hertz_of_lane.v[i] = joints[i]->hertz;
-        limited_lanes.v[i] = joints[i]->enable_limit ? -1 : 0;
-        driven_lanes.v[i] = joints[i]->enable_motor ? -1 : 0;
-    }
     const F8 none = all(0);
     F8 lower, upper, speed, most, ratio, target;
     gather4([&](int i) { return reinterpret_cast<const char*>(&joints[i]->lower); }, lower, upper, speed, most);
@@ -61,17 +50,17 @@ CAROM_INLINE void fill_drive(WideAngle& t, const JointRecord* const (&joints)[la
     F8 lower_impulse, upper_impulse, motor_impulse, spring_impulse;
     gather4([&](int i) { return reinterpret_cast<const char*>(joints[i]->impulses + slot_lower); }, lower_impulse, upper_impulse,
             motor_impulse, spring_impulse);
-    const I8 limited = load(limited_lanes);
+    const I8 limited = lanes_from([&](int i) { return joints[i]->enable_limit ? -1 : 0; });
     store(t.lower, select(limited, lower, all(-no_limit)));
     store(t.upper, select(limited, upper, all(no_limit)));
     store(t.lower_impulse, select(limited, lower_impulse, none));
     store(t.upper_impulse, select(limited, upper_impulse, none));
-    const I8 driven = load(driven_lanes);
+    const I8 driven = lanes_from([&](int i) { return joints[i]->enable_motor ? -1 : 0; });
     store(t.motor_speed, select(driven, speed, none));
     store(t.motor_max, select(driven, h * most, none));
     store(t.motor_impulse, select(driven, motor_impulse, none));
     // As make_softness.
-    const F8 hertz = load(hertz_of_lane);
+    const F8 hertz = lanes_from([&](int i) { return joints[i]->hertz; });
     const I8 sprung = hertz > none;
     const F8 omega = 2 * pi * hertz;
     const F8 a1 = 2 * ratio + h * omega;
@@ -108,14 +97,22 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
     store(j.sum_y, all(0));
     place_anchors(a, ax, ay, j.start.ax, j.start.ay);
     place_anchors(b, bx, by, j.start.bx, j.start.by);
-    for (int i = 0; i < lane_count; ++i)
+    const WideArms& arms = j.start;
+    const auto gap = [&](int i)
     { // in double: both anchors may be far out
-        const WideArms& arms = j.start;
-        const double x = a[i]->center.x + static_cast<double>(arms.ax.v[i]);
-        const double y = a[i]->center.y + static_cast<double>(arms.ay.v[i]);
-        j.start.gap_x.v[i] = static_cast<float>(b[i]->center.x + static_cast<double>(arms.bx.v[i]) - x);
-        j.start.gap_y.v[i] = static_cast<float>(b[i]->center.y + static_cast<double>(arms.by.v[i]) - y);
-    }
+        D2 from;
+        D2 to;
+        std::memcpy(&from, a[i], sizeof from);
+        std::memcpy(&to, b[i], sizeof to);
+        from += D2{static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i])};
+        to += D2{static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i])};
+        return to - from;
+    };
+    F8 gap_x;
+    F8 gap_y;
+    round_pairs(gap, gap_x, gap_y);
+    store(j.start.gap_x, gap_x);
+    store(j.start.gap_y, gap_y);
     j.now = j.start;
     if (j.turns != 0)
     {

@@ -72,13 +72,13 @@ CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
         add(x0, y0, load(eight.radii[0]));
         add(x1, y1, load(eight.radii[1]));
     }
-    D8 x;
-    D8 y;
-    for (int i = 0; i < lane_count; ++i)
+    const auto each = [&](double Position::*axis)
     {
-        x[i] = eight.bodies[i]->center.x;
-        y[i] = eight.bodies[i]->center.y;
-    }
+        const auto of = [&](int i) { return eight.bodies[i]->center.*axis; };
+        return D8{of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)};
+    };
+    D8 x = each(&Position::x);
+    D8 y = each(&Position::y);
     x -= __builtin_convertvector(c * center_x - s * center_y, D8);
     y -= __builtin_convertvector(s * center_x + c * center_y, D8);
     // As rounded_outwards.

@@ -18,6 +18,8 @@ namespace carom::internal {
 using F8 = float __attribute__((vector_size(32)));
 using I8 = std::int32_t __attribute__((vector_size(32)));
 using D8 = double __attribute__((vector_size(64)));
+using D4 = double __attribute__((vector_size(32)));
+using D2 = double __attribute__((vector_size(16)));
 
 /// Aligned as LaneFloats are.
 CAROM_INLINE F8 load(const float* eight)
@@ -67,12 +69,20 @@ CAROM_INLINE F8 root(F8 x)
     return r;
 }
 
-CAROM_INLINE D8 root(D8 x)
+CAROM_INLINE D4 root(D4 x)
 {
-    D8 r;
-    for (int i = 0; i < lane_count; ++i)
+    D4 r;
+    for (int i = 0; i < 4; ++i)
         r[i] = __builtin_sqrt(x[i]);
     return r;
+}
+
+// By halves: the kernels of all machines have registers for these.
+CAROM_INLINE D8 root(D8 x)
+{
+    const D4 first = root(__builtin_shufflevector(x, x, 0, 1, 2, 3));
+    const D4 second = root(__builtin_shufflevector(x, x, 4, 5, 6, 7));
+    return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 /// As arc_tangent of trigonometry.h, the same bits, then rounded to floats.
@@ -111,6 +121,30 @@ CAROM_INLINE unsigned bits(I8 mask)
     const I4 high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
     return bits(low) | bits(high) << 4;
 #endif
+}
+
+/// Lane i is value(i), a float or an int. Put together in registers: eight numbers that have just been written one by one are waited for when they are
+/// read as one.
+template <class Value>
+CAROM_INLINE auto lanes_from(const Value& value)
+{
+    using V = std::conditional_t<std::is_same_v<decltype(value(0)), float>, F8, I8>;
+    return V{value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7)};
+}
+
+/// Of two doubles in each lane the first ones and the second ones, rounded. value(i) is a vector of two.
+template <class Value>
+CAROM_INLINE void round_pairs(const Value& value, F8& first, F8& second)
+{
+    const auto two = [&](int i)
+    {
+        const D4 pairs = __builtin_shufflevector(value(i), value(i + 1), 0, 1, 2, 3);
+        return __builtin_convertvector(pairs, F4);
+    };
+    const F8 a = __builtin_shufflevector(two(0), two(4), 0, 1, 2, 3, 4, 5, 6, 7);
+    const F8 b = __builtin_shufflevector(two(2), two(6), 0, 1, 2, 3, 4, 5, 6, 7);
+    first = __builtin_shufflevector(a, b, 0, 2, 8, 10, 4, 6, 12, 14);
+    second = __builtin_shufflevector(a, b, 1, 3, 9, 11, 5, 7, 13, 15);
 }
 
 /// Eight records of four floats become four vectors of eight lanes. Lane i is what `at(i)` points to.

@@ -6,8 +6,9 @@
 
 namespace carom::internal {
 
-[[nodiscard]] BodyState initial_state(const SceneState& state, int body);
-[[nodiscard]] StateConstants state_constants(const StepContext& ctx, int body);
+/// Number by number, where they stand: a record that has just been written so is waited for by a copy.
+void start_state(const SceneState& state, int body, BodyState& s);
+void set_constants(const StepContext& ctx, int body, StateConstants& c);
 [[nodiscard]] ContactRow prepare_row(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
                                      std::int32_t b);
 /// The state of a body as the unit's rows see it: all that does not move shares the first, kinematic bodies have a copy in every unit. none: it
