@@ -81,7 +81,9 @@ struct NormalTarget
     float impulse_scale;
 };
 
-NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& p, bool use_bias)
+// Inlined in any case: three numbers are returned through memory, and waited for.
+[[gnu::always_inline]] inline NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& p,
+                                                         bool use_bias)
 {
     const float separation = row_separation(view, row, p);
     if (!use_bias)

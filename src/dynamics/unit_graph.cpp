@@ -168,12 +168,23 @@ public:
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
                           [&](std::size_t i)
                           {
+                              prefetch_hinge_of(i + turns_ahead);
                               const int body = state.awake_bodies[i];
                               note_place(body, static_cast<std::int32_t>(i));
                               note_uneven(body);
                               if (ctx.scene.def.continuous)
                                   scratch.flight[i] = kind_of_flight(body);
                           });
+    }
+
+    // What may turn about the world hangs on one joint alone.
+    [[gnu::always_inline]] void prefetch_hinge_of(std::size_t place) const
+    {
+        if (place >= state.awake_bodies.size())
+            return;
+        const BodyRecord& record = state.bodies[state.awake_bodies[place]];
+        if (record.joint_count == 1)
+            prefetch(state.joints[record.first_joint >> 1]);
     }
 
     // Of the bodies that were awake in the last step alone: what never moves costs nothing.
