@@ -199,6 +199,7 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     if (a->one_way != Vec2{} || b->one_way != Vec2{})
         contact.flags |= contact_flag::one_way;
     contact.pair = pair;
+    note_sleeper(state, contact);
     const int index = state.contacts.create(contact);
     const auto capacity = static_cast<std::size_t>(state.contacts.capacity());
     grow(state.kept_manifolds, capacity);

@@ -178,9 +178,7 @@ News news_of(const StepContext& ctx, const Contact& contact)
         return touching ? News::Ends : News::Begins;
     if (touching || contact.manifold.count == 0)
         return News::Nothing;
-    const auto sleeps = [&](int body) { return ctx.state.bodies[body].type == BodyType::Dynamic && !is_awake(ctx.state, body); };
-    const bool one_sleeps = sleeps(contact.body_a) || sleeps(contact.body_b);
-    return one_sleeps && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
+    return (contact.flags & contact_flag::sleeper) != 0 && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
 }
 
 } // namespace

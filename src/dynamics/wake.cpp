@@ -26,6 +26,7 @@ void enter_awake(SceneData& scene, int body)
                      [&](int contact)
                      {
                          state.contacts[contact].color = none; // others may have taken it meanwhile
+                         note_sleeper(state, state.contacts[contact]);
                          leave_lane(state, contact);
                          add_awake_contact(state, contact);
                          follow_again(state, contact);
@@ -48,7 +49,8 @@ void leave_awake(SceneData& scene, int body)
     for_each_contact(state, body,
                      [&](int contact)
                      {
-                         const Contact& c = state.contacts[contact];
+                         Contact& c = state.contacts[contact];
+                         note_sleeper(state, c);
                          const bool trigger = (c.flags & contact_flag::trigger) != 0;
                          if (!trigger && !is_awake(state, other_body(c, body)))
                              remove_awake_contact(state, contact);

@@ -111,7 +111,8 @@ void add_contact(Hasher& h, const SceneState& state, int index)
     const Contact& c = state.contacts[index];
     h.add(c.shape_a);
     h.add(c.shape_b);
-    h.add(static_cast<int>(c.flags & ~contact_flag::followed)); // which says only where the rest of it is
+    h.add(static_cast<int>(c.flags &
+                           ~(contact_flag::followed | contact_flag::sleeper))); // where the rest of it is, and what bodies say
     h.add(c.manifold.count);
     h.add(c.manifold.rolling_impulse);
     for (int i = 0; i < c.manifold.count; ++i)

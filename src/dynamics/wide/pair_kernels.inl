@@ -41,9 +41,6 @@ void look_at_pairs(const BoxPair* eight, const BoxPlace* places, float box_margi
 {
     const Boxes a(places, [&](int i) { return eight[i].a; });
     const Boxes b(places, [&](int i) { return eight[i].b; });
-    LaneInts contacts;
-    for (int i = 0; i < lane_count; ++i)
-        contacts.v[i] = eight[i].contact;
     // Without triggers and half-spaces, in one layer or the other.
     constexpr std::uint32_t layer_bytes = 0xff;
     constexpr std::uint32_t trait_bytes = 0xffff00;
@@ -52,7 +49,7 @@ void look_at_pairs(const BoxPair* eight, const BoxPlace* places, float box_margi
     const I8 both_move = (kinds & all_ints(layer_bytes)) == I8{};
     const I8 one_moves = ((a.kind & all_ints(layer_bytes)) == I8{}) | ((b.kind & all_ints(layer_bytes)) == I8{});
     const I8 meet = (a.fat_lx <= b.fat_ux) & (a.fat_ux >= b.fat_lx) & (a.fat_ly <= b.fat_uy) & (a.fat_uy >= b.fat_ly);
-    const I8 has_contact = load(contacts) >= I8{};
+    const I8 has_contact = lanes_from([&](int i) { return eight[i].contact; }) >= I8{};
     const I8 near = least_gap(a, b) <= select(both_move & ~has_contact, all(0.5f * box_margin), all(box_margin));
     seen.plain = bits(plain & one_moves);
     seen.near = bits(near);

@@ -10,6 +10,19 @@ namespace carom::internal {
 
 [[nodiscard]] inline bool is_awake(const SceneState& state, int body) { return state.bodies[body].awake_index != none; }
 
+[[nodiscard]] inline bool sleeps(const SceneState& state, int body)
+{
+    return state.bodies[body].type == BodyType::Dynamic && !is_awake(state, body);
+}
+
+/// In the contact's flags: who asks that of all contacts need not look at their bodies.
+inline void note_sleeper(const SceneState& state, Contact& contact)
+{
+    contact.flags &= ~contact_flag::sleeper;
+    if (sleeps(state, contact.body_a) || sleeps(state, contact.body_b))
+        contact.flags |= contact_flag::sleeper;
+}
+
 /// Wakes the body and everything that touches or is joined to it through dynamic bodies. Static and disabled bodies stay.
 void wake_body(SceneData& scene, int body);
 
