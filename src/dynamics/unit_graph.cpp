@@ -224,15 +224,20 @@ public:
     {
         scratch.links.swap(scratch.kept_units.links); // those of the last step: to be compared with these
         const TaskHooks& tasks = ctx.scene.def.tasks;
-        const std::span<SomeLinks> parts =
-            find_in_parts(tasks, state.awake_contacts.size(), contacts_per_task, scratch.links_of_task,
-                          [&](std::size_t first, std::size_t last, SomeLinks& some) { gather_some(first, last, some); });
+        const std::span<SomeLinks> parts = find_in_parts(
+            tasks, state.awake_contacts.size(), part_of(state.awake_contacts.size(), contacts_per_task), scratch.links_of_task,
+            [&](std::size_t first, std::size_t last, SomeLinks& some) { gather_some(first, last, some); });
         std::size_t count = 0;
         for (SomeLinks& some : parts)
         {
             some.first = count;
             count += some.links.size();
             ctx.report.touching += some.touching;
+        }
+        if (parts.size() == 1)
+        {
+            scratch.links.swap(parts[0].links);
+            return;
         }
         scratch.links.resize(count);
         for_each_in_parts(tasks, parts.size(), 4,
@@ -241,6 +246,12 @@ public:
                               std::copy(parts[i].links.begin(), parts[i].links.end(),
                                         scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first));
                           });
+    }
+
+    // One thread alone finds all in one place.
+    [[nodiscard]] std::size_t part_of(std::size_t count, std::size_t per_task) const
+    {
+        return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
     }
 
     // Writes to its own contacts, and grounds bodies, which others may do as well.
@@ -312,17 +323,23 @@ public:
     {
         scratch.joint_links.swap(scratch.kept_units.joints);
         using Some = std::vector<JointLink>;
-        const std::span<Some> parts = find_in_parts(ctx.scene.def.tasks, static_cast<std::size_t>(state.joints.capacity()),
-                                                    joints_per_task, scratch.joints_of_task,
-                                                    [&](std::size_t first, std::size_t last, Some& some)
-                                                    {
-                                                        some.clear();
-                                                        for (auto j = static_cast<int>(first); j < static_cast<int>(last); ++j)
-                                                        {
-                                                            if (state.joints.is_live(j))
-                                                                gather_joint(j, some);
-                                                        }
-                                                    });
+        const auto joints = static_cast<std::size_t>(state.joints.capacity());
+        const std::span<Some> parts =
+            find_in_parts(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.joints_of_task,
+                          [&](std::size_t first, std::size_t last, Some& some)
+                          {
+                              some.clear();
+                              for (auto j = static_cast<int>(first); j < static_cast<int>(last); ++j)
+                              {
+                                  if (state.joints.is_live(j))
+                                      gather_joint(j, some);
+                              }
+                          });
+        if (parts.size() == 1)
+        {
+            scratch.joint_links.swap(parts[0]);
+            return;
+        }
         scratch.joint_links.clear();
         for (const Some& some : parts)
             scratch.joint_links.insert(scratch.joint_links.end(), some.begin(), some.end());
