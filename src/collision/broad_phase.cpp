@@ -21,6 +21,7 @@ void BroadPhase::insert(int item, const FloatBox& box, Layer layer, ItemTraits t
     m_places[static_cast<std::size_t>(item)] = {{}, layer, traits, box, {}};
     m_leaves[static_cast<std::size_t>(item)] = {};
     stand_still(item);
+    m_trigger_count += traits.trigger ? 1 : 0;
     if (traits.unbounded)
         m_unbounded.insert(std::lower_bound(m_unbounded.begin(), m_unbounded.end(), item), item);
     else
@@ -36,7 +37,17 @@ void BroadPhase::remove(int item)
         std::erase(m_unbounded, item);
     else
         take_out(item);
+    m_trigger_count -= place.traits.trigger ? 1 : 0;
     place = {};
+}
+
+void BroadPhase::set_trigger(int item, bool trigger)
+{
+    if (!has(item))
+        return;
+    bool& was = m_places[static_cast<std::size_t>(item)].traits.trigger;
+    m_trigger_count += (trigger ? 1 : 0) - (was ? 1 : 0);
+    was = trigger;
 }
 
 void BroadPhase::move_to(int item, Layer layer)

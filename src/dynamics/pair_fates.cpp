@@ -165,6 +165,7 @@ private:
             const Contact& contact = m_state.contacts[pair.contact];
             prefetch(m_state.bodies[contact.body_a]);
             prefetch(m_state.bodies[contact.body_b]);
+            __builtin_prefetch(&m_state.contacts.generation(pair.contact));
             for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
             {
                 if (edge != none)

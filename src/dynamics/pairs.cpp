@@ -244,6 +244,8 @@ void find_deflected_pairs(StepContext& ctx)
     const SceneState& state = ctx.state;
     std::vector<std::uint64_t>& pairs = ctx.scratch.new_pairs;
     pairs.clear();
+    if (!state.broad_phase.has_triggers())
+        return;
     for (const Flier& flier : ctx.scratch.fliers)
     {
         if (!flier.deflected || !is_awake(state, flier.body))

@@ -4,6 +4,7 @@
 
 #include "dynamics/flight.h"
 
+#include "core/float4.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/flight/impact.h"
 #include "dynamics/flight/landing.h"
@@ -12,17 +13,49 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
+#include <span>
 
 namespace carom::internal {
 
 namespace {
 
+// Eight side by side: one comparison after the other would each wait for the last.
+double least_of(std::span<const double> times)
+{
+    constexpr std::size_t side_by_side = 4;
+    const auto pair = [&](std::size_t i)
+    {
+        D2 two;
+        std::memcpy(&two, &times[i], sizeof two);
+        return two;
+    };
+    D2 least_pairs[side_by_side];
+    std::ranges::fill(least_pairs, D2{1e300, 1e300});
+    std::size_t i = 0;
+    for (; i + 2 * side_by_side <= times.size(); i += 2 * side_by_side)
+    {
+        for (std::size_t k = 0; k < side_by_side; ++k)
+            least_pairs[k] = least(pair(i + 2 * k), least_pairs[k]);
+    }
+    double best = 1e300;
+    for (const D2& two : least_pairs)
+        best = std::min({best, two[0], two[1]});
+    for (; i < times.size(); ++i)
+        best = std::min(best, times[i]);
+    return best;
+}
+
 // The first by time; of equals the first in the unit.
 Flier* earliest(const FlightSpan& span)
 {
-    const auto first = span.scratch.event_times.begin() + span.unit.first_flier;
-    const auto best = std::min_element(first, first + span.unit.flier_count);
-    return *best <= span.h ? &span.scratch.fliers[static_cast<std::size_t>(best - span.scratch.event_times.begin())] : nullptr;
+    const std::span<const double> times =
+        std::span(span.scratch.event_times)
+            .subspan(static_cast<std::size_t>(span.unit.first_flier), static_cast<std::size_t>(span.unit.flier_count));
+    const double best = least_of(times);
+    if (best > span.h)
+        return nullptr;
+    return &span.fliers()[static_cast<std::size_t>(std::ranges::find(times, best) - times.begin())];
 }
 
 // A deflected body is off on another way.

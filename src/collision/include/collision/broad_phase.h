@@ -93,11 +93,8 @@ public:
     void remove(int item);
     void move_to(int item, Layer layer);
     void set_box(int item, const FloatBox& box);
-    void set_trigger(int item, bool trigger)
-    {
-        if (has(item))
-            m_places[static_cast<std::size_t>(item)].traits.trigger = trigger;
-    }
+    void set_trigger(int item, bool trigger);
+    [[nodiscard]] bool has_triggers() const { return m_trigger_count > 0; }
 
     void set_filter(int item, const FilterBits& filter);
 
@@ -292,6 +289,7 @@ private:
     Forest m_forests[2];
     std::vector<BlockPast> m_past; ///< of the blocks of the moving layer, once all are fitted
     std::vector<std::int32_t> m_unbounded;
+    std::int32_t m_trigger_count = 0;
     int m_fits = 0; ///< of the moving layer since it was sorted
 };
 

@@ -12,6 +12,7 @@ namespace carom::internal {
 
 using F4 = float __attribute__((vector_size(16)));
 using I4 = std::int32_t __attribute__((vector_size(16)));
+using D2 = double __attribute__((vector_size(16)));
 
 CAROM_INLINE F4 load4(const float* p)
 {
@@ -23,6 +24,7 @@ CAROM_INLINE F4 load4(const float* p)
 CAROM_INLINE void store4(float* p, F4 v) { std::memcpy(p, &v, sizeof v); }
 
 CAROM_INLINE F4 least(F4 a, F4 b) { return a < b ? a : b; }
+CAROM_INLINE D2 least(D2 a, D2 b) { return a < b ? a : b; }
 CAROM_INLINE F4 greatest(F4 a, F4 b) { return a > b ? a : b; }
 CAROM_INLINE F4 magnitude(F4 a) { return greatest(a, -a); }
 CAROM_INLINE F4 swap_halves(F4 a) { return __builtin_shufflevector(a, a, 2, 3, 0, 1); }

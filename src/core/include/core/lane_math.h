@@ -19,7 +19,6 @@ using F8 = float __attribute__((vector_size(32)));
 using I8 = std::int32_t __attribute__((vector_size(32)));
 using D8 = double __attribute__((vector_size(64)));
 using D4 = double __attribute__((vector_size(32)));
-using D2 = double __attribute__((vector_size(16)));
 
 /// Aligned as LaneFloats are.
 CAROM_INLINE F8 load(const float* eight)

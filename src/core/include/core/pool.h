@@ -54,7 +54,7 @@ public:
     {
         return is_live(slot) && m_generations[static_cast<std::size_t>(slot)] == generation;
     }
-    [[nodiscard]] std::uint32_t generation(int slot) const { return m_generations[static_cast<std::size_t>(slot)]; }
+    [[nodiscard]] const std::uint32_t& generation(int slot) const { return m_generations[static_cast<std::size_t>(slot)]; }
     [[nodiscard]] int count() const { return m_count; }
     [[nodiscard]] int capacity() const { return static_cast<int>(m_items.size()); }
 
