@@ -20,6 +20,8 @@ constexpr float creep_time = 0.5f;               // s
 constexpr float time_to_sleep = 0.5f;            // s: long enough for a body at the top of its flight not to fall asleep
 constexpr std::uint64_t steps_between_sleep = 8; // to look for islands in each costs a pile of which some never rest a twentieth
 
+bool looks_for_islands(const SceneState& state) { return state.step_count % steps_between_sleep == 0; }
+
 bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
 {
     for (int edge = record.first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
@@ -94,14 +96,17 @@ void forget_target(SceneState& state, int body)
     state.bodies[body].has_target = false;
 }
 
+// Often enough that nothing carried grows tired.
 void settle_kinematic_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
+    const bool is_time = looks_for_islands(state) || ctx.dt * static_cast<float>(steps_between_sleep) >= time_to_sleep;
+    const bool keeps_awake = ctx.scene.def.sleeping && is_time;
     for (const std::int32_t body : state.awake_bodies)
     {
         if (state.bodies[body].type != BodyType::Kinematic)
             continue;
-        if (ctx.scene.def.sleeping)
+        if (keeps_awake)
             keep_carried_awake(state, body);
         if (state.bodies[body].has_target)
             forget_target(state, body);
@@ -170,7 +175,7 @@ void settle_bodies(StepContext& ctx)
                       });
     if (ctx.scratch.has_kinematic)
         settle_kinematic_bodies(ctx);
-    if (ctx.scene.def.sleeping && any_tired && state.step_count % steps_between_sleep == 0)
+    if (ctx.scene.def.sleeping && any_tired && looks_for_islands(state))
         put_islands_to_sleep(ctx);
 }
 
