@@ -224,23 +224,25 @@ private:
             .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
     }
 
-    // v += h a, then damping. Balls in flight have their own way.
+    // v += h a, then damping. Balls in flight have their own way. Where points and normals keep through the step, all that the rows gave to a body in the
+    // last sub-step is given again at once: what warm starting adds up row by row. It is what the body's speeds are beyond those that they would be without.
     void integrate_velocities(int k)
     {
-        if (m_may_start_by_body)
-        {
-            const bool disturbed = std::exchange(m_output.disturbed, false);
-            m_starts_by_body = k > 0 && !disturbed;
-            integrate_and_push();
-            return;
-        }
+        const bool disturbed = std::exchange(m_output.disturbed, false);
+        m_starts_by_body = m_may_start_by_body && k > 0 && !disturbed;
         over_states(
             [&](int i)
             {
                 BodyState& s = m_view.states[i];
-                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, speeds_of(s));
-                if (solver_moves(s))
-                    set_speeds(s, accelerated(s, m_view.constants[i]));
+                const F4 now = speeds_of(s);
+                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, now);
+                if (!solver_moves(s))
+                    return;
+                float* const unpushed = &m_scratch.unpushed[static_cast<std::size_t>(i)].velocity.x;
+                const F4 next = accelerated(s, m_view.constants[i]);
+                set_speeds(s, m_starts_by_body ? next + (now - load4(unpushed)) : next);
+                if (m_may_start_by_body)
+                    store4(unpushed, next);
             });
     }
 
@@ -266,25 +268,6 @@ private:
     {
         m_crew.share(m_unit.state_count, enough_states,
                      [&](int first, int last) { work(m_unit.first_state + first, m_unit.first_state + last); });
-    }
-
-    // Where points and normals keep through the step, all that the rows gave to a body in the last sub-step is given again at once: what warm
-    // starting adds up row by row. It is what the body's speeds are beyond those that they would be without.
-    void integrate_and_push()
-    {
-        over_states(
-            [&](int i)
-            {
-                BodyState& s = m_view.states[i];
-                const F4 now = speeds_of(s);
-                store4(&m_scratch.speeds[static_cast<std::size_t>(i)].velocity.x, now);
-                if (!solver_moves(s))
-                    return;
-                float* const unpushed = &m_scratch.unpushed[static_cast<std::size_t>(i)].velocity.x;
-                const F4 next = accelerated(s, m_view.constants[i]);
-                set_speeds(s, m_starts_by_body ? next + (now - load4(unpushed)) : next);
-                store4(unpushed, next);
-            });
     }
 
     static_assert(sizeof(BodySpeeds) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);

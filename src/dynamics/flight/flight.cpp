@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <span>
 
 namespace carom::internal {
@@ -24,19 +23,13 @@ namespace {
 double least_of(std::span<const double> times)
 {
     constexpr std::size_t side_by_side = 4;
-    const auto pair = [&](std::size_t i)
-    {
-        D2 two;
-        std::memcpy(&two, &times[i], sizeof two);
-        return two;
-    };
     D2 least_pairs[side_by_side];
     std::ranges::fill(least_pairs, D2{1e300, 1e300});
     std::size_t i = 0;
     for (; i + 2 * side_by_side <= times.size(); i += 2 * side_by_side)
     {
         for (std::size_t k = 0; k < side_by_side; ++k)
-            least_pairs[k] = least(pair(i + 2 * k), least_pairs[k]);
+            least_pairs[k] = least(load2(&times[i + 2 * k]), least_pairs[k]);
     }
     double best = 1e300;
     for (const D2& two : least_pairs)

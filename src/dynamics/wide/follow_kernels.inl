@@ -75,15 +75,7 @@ CAROM_INLINE Arrow turned(const Turn& q, const Arrow& v) { return {q.c * v.x - q
 // From center to center, taken in double.
 CAROM_INLINE Arrow centers_apart(const Places& places)
 {
-    static_assert(offsetof(BodySim, center) == 0);
-    const auto apart = [&](int i)
-    {
-        D2 from;
-        D2 to;
-        std::memcpy(&from, places.a[i], sizeof from);
-        std::memcpy(&to, places.b[i], sizeof to);
-        return to - from;
-    };
+    const auto apart = [&](int i) { return load2(&places.b[i]->center.x) - load2(&places.a[i]->center.x); };
     Arrow arrow;
     round_pairs(apart, arrow.x, arrow.y);
     return arrow;

@@ -100,12 +100,8 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
     const WideArms& arms = j.start;
     const auto gap = [&](int i)
     { // in double: both anchors may be far out
-        D2 from;
-        D2 to;
-        std::memcpy(&from, a[i], sizeof from);
-        std::memcpy(&to, b[i], sizeof to);
-        from += D2{static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i])};
-        to += D2{static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i])};
+        const D2 from = load2(&a[i]->center.x) + D2{static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i])};
+        const D2 to = load2(&b[i]->center.x) + D2{static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i])};
         return to - from;
     };
     F8 gap_x;

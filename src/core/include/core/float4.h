@@ -21,6 +21,13 @@ CAROM_INLINE F4 load4(const float* p)
     return v;
 }
 
+CAROM_INLINE D2 load2(const double* p)
+{
+    D2 v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+
 CAROM_INLINE void store4(float* p, F4 v) { std::memcpy(p, &v, sizeof v); }
 
 CAROM_INLINE F4 least(F4 a, F4 b) { return a < b ? a : b; }
