@@ -57,6 +57,7 @@ void move_center(SceneState& state, int body, Vec2 local_center)
     sim.previous_center += shift;
     sim.center = center;
     sim.local_center = local_center;
+    state.graph_dirty = true; // lanes of hinges have anchors from there
 }
 
 void update_inverse_mass(SceneState& state, int body)
@@ -72,6 +73,7 @@ void update_inverse_mass(SceneState& state, int body)
     sim.inverse_mass = inverse_mass;
     sim.inverse_inertia = inverse_inertia;
     for_each_contact(state, body, [&](int contact) { leave_lane(state, contact); }); // which has its masses in it
+    state.graph_dirty = true;                                                        // and so have those of hinges
 }
 
 namespace {

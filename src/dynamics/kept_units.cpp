@@ -48,9 +48,8 @@ bool units_stay(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
     const KeptUnits& kept = scratch.kept_units;
-    return kept.are_plain && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && !scratch.has_uneven &&
-           scratch.flying.empty() && bodies_stay(ctx) && are_same(kept.links, scratch.links) &&
-           kept.joints == scratch.joint_links;
+    return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() &&
+           are_same(kept.links, scratch.links) && (kept.joints_stay || kept.joints == scratch.joint_links);
 }
 
 void keep_units(StepContext& ctx)

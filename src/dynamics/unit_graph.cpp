@@ -10,6 +10,7 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
 #include "dynamics/joint_bodies.h"
+#include "dynamics/kept_units.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/wide_prepare.h"
 
@@ -163,7 +164,7 @@ public:
     {
         scratch.flight.assign(state.awake_bodies.size(), earthbound);
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
-        scratch.has_uneven = scratch.has_kinematic = false;
+        scratch.has_uneven = scratch.has_kinematic = scratch.has_hung = false;
         forget_places();
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
                           [&](std::size_t i)
@@ -216,7 +217,12 @@ public:
         if (state.bodies[body].type != BodyType::Dynamic)
             return earthbound;
         const std::int32_t kind = flight_of(state, body);
-        return kind == earthbound || kind == none || is_closed(ctx, kind, body) ? kind : earthbound;
+        if (kind == earthbound || kind == none)
+            return kind;
+        if (!is_closed(ctx, kind, body))
+            return earthbound;
+        std::atomic_ref(scratch.has_hung).store(true, std::memory_order_relaxed);
+        return kind;
     }
 
     // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
@@ -318,10 +324,16 @@ public:
         state.contacts[contact].color = none;
     }
 
-    // The same for joints.
+    // The same for joints. But for what may fly, their links say nothing that a step changes.
     void gather_joints()
     {
-        scratch.joint_links.swap(scratch.kept_units.joints);
+        KeptUnits& kept = scratch.kept_units;
+        kept.stay_so = kept.are_plain && !state.graph_dirty && bodies_stay(ctx);
+        kept.joints_stay = kept.stay_so && !scratch.has_hung && !kept.has_hung;
+        kept.has_hung = scratch.has_hung;
+        if (kept.joints_stay)
+            return;
+        scratch.joint_links.swap(kept.joints);
         using Some = std::vector<JointLink>;
         const auto joints = static_cast<std::size_t>(state.joints.capacity());
         const std::span<Some> parts =

@@ -96,6 +96,11 @@ void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
     }
 }
 
+void fill_joint_group(const StepContext& ctx, WideJoint& group)
+{
+    wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.scratch.constants.data(), ctx.h);
+}
+
 void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
 {
     const auto lanes =
@@ -118,7 +123,19 @@ void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int 
             group.joint.v[i] = l->place.joint;
             group.turns = l->bin % 2; // the same in all lanes
         }
-        wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.scratch.constants.data(), ctx.h);
+        fill_joint_group(ctx, group);
+    }
+}
+
+void follow_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
+{
+    for (WideJoint& group :
+         std::span(ctx.scratch.wide_joints).subspan(as_index(unit.first_wide_joint + first), as_index(last - first)))
+    {
+        if (group.turns == 0)
+            wide_kernels().follow_joints(group, ctx.state.sims.data());
+        else
+            fill_joint_group(ctx, group);
     }
 }
 
@@ -143,7 +160,15 @@ void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
                        const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
                        ctx.scratch.joints[as_index(i)] = prepare_joint(unit_ctx, place.joint, place.a, place.b);
                    });
-    joint_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { fill_joint_groups(unit_ctx, unit, first, last); });
+    joint_bins(ctx.scratch, unit)
+        .all(crew,
+             [&](int first, int last)
+             {
+                 if (ctx.scratch.kept_units.hinges_stay)
+                     follow_joint_groups(unit_ctx, unit, first, last);
+                 else
+                     fill_joint_groups(unit_ctx, unit, first, last);
+             });
 }
 
 void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
@@ -161,7 +186,12 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
     for_each_place(crew, unit.first_joint, unit.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
     joint_bins(scratch, unit)
-        .for_each(crew, [&](int g) { commit_wide_joint(ctx, scratch.wide_joints[as_index(unit.first_wide_joint + g)]); });
+        .for_each(crew,
+                  [&](int g)
+                  {
+                      wide_kernels().take_joint_impulses(scratch.wide_joints[as_index(unit.first_wide_joint + g)],
+                                                         &ctx.state.joints[0], ctx.dt);
+                  });
 }
 
 void commit_row(SceneState& state, const ContactRow& row)

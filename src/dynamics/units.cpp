@@ -1,5 +1,5 @@
 // Stage 4, units: first who is solved together (unit_graph.cpp), then all that each unit needs side by side (unit_layout.cpp). Where nothing has changed
-// since the last step, and nothing flies, everyone stays in place (kept_units.cpp), and so do the rows (kept_rows.cpp).
+// since the last step, and nothing flies, everyone stays in place (kept_units.cpp), and so do rows (kept_rows.cpp) and hinges (WideKernels::follow_joints).
 
 #include "dynamics/kept_rows.h"
 #include "dynamics/kept_units.h"
@@ -17,7 +17,8 @@ void build_units(StepContext& ctx)
         return;
     }
     gather_unit_graph(ctx);
-    if (units_stay(ctx))
+    ctx.scratch.kept_units.hinges_stay = units_stay(ctx);
+    if (ctx.scratch.kept_units.hinges_stay)
     {
         refill_units(ctx);
         keep_rows(ctx);

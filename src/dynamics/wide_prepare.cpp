@@ -171,26 +171,4 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
 
 bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }
 
-void commit_wide_joint(const StepContext& ctx, const WideJoint& wide)
-{
-    for (int i = 0; i < lane_count; ++i)
-    {
-        if (wide.joint.v[i] == none)
-            continue;
-        JointRecord& joint = ctx.state.joints[wide.joint.v[i]];
-        forget_impulses(joint);
-        joint.impulses[slot_x] = wide.impulse_x.v[i];
-        joint.impulses[slot_y] = wide.impulse_y.v[i];
-        joint.force = {wide.sum_x.v[i] / ctx.dt, wide.sum_y.v[i] / ctx.dt};
-        joint.torque = 0;
-        if (wide.turns == 0)
-            continue;
-        joint.impulses[slot_spring] = wide.angle.spring_impulse.v[i];
-        joint.impulses[slot_motor] = wide.angle.motor_impulse.v[i];
-        joint.impulses[slot_lower] = wide.angle.lower_impulse.v[i];
-        joint.impulses[slot_upper] = wide.angle.upper_impulse.v[i];
-        joint.torque = wide.angle.torque_sum.v[i] / ctx.dt;
-    }
-}
-
 } // namespace carom::internal

@@ -292,6 +292,7 @@ void Body::set_type(BodyType type)
     }
     destroy_contacts_of_body(*m_data, t.slot);
     leave_awake(*m_data, t.slot);
+    m_data->state.graph_dirty = true;
     t.record().type = type;
     t.record().has_target = false;
     t.sim().crowded = type != BodyType::Dynamic;
@@ -509,6 +510,7 @@ void Body::set_enabled(bool enabled)
     const Target t(m_data, m_id, "Body::set_enabled");
     if (!t || t.record().enabled == enabled)
         return;
+    m_data->state.graph_dirty = true;
     if (!enabled)
     {
         destroy_contacts_of_body(*m_data, t.slot);

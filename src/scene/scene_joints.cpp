@@ -454,6 +454,7 @@ void Joint::set_def(const JointDef& def)
                              anchor_in_world(m_data->state, record.body_a, d.anchor_a);
             write(record, d, length(gap));
             m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data = d.user_data;
+            m_data->state.graph_dirty = true;
             if (forbids_now)
                 drop_contacts_between(*m_data, record.body_a, record.body_b);
             wake_joined(*m_data, record);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Two worlds alike, of which the second never keeps rows: they must come out the same, whatever happens between steps.
+// Two worlds alike, of which the second never keeps rows or hinges: they must come out the same, whatever happens between steps.
 
 #include "dynamics/scene_data.h"
 #include "support/test_scene.h"
@@ -66,6 +66,7 @@ public:
             stayed += rows_stay() ? 1 : 0;
             const std::string when = "step " + std::to_string(m_followed.scene.step_count());
             EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.rows_stay);
+            EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.hinges_stay);
             EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
             EXPECT_EQ(m_followed.scene.report().touching, m_anew.scene.report().touching) << when;
             EXPECT_EQ(m_followed.scene.report().pairs, m_anew.scene.report().pairs) << when;
@@ -77,6 +78,7 @@ public:
     }
 
     [[nodiscard]] bool rows_stay() { return m_followed.scene.data().scratch.kept_units.rows_stay; }
+    [[nodiscard]] bool hinges_stay() { return m_followed.scene.data().scratch.kept_units.hinges_stay; }
     [[nodiscard]] const World& followed() const { return m_followed; }
     [[nodiscard]] const World& anew() const { return m_anew; }
 

@@ -9,17 +9,45 @@ namespace joints {
 constexpr JointRecord nothing{};
 constexpr BodySim world{};
 
-// Anchors of eight bodies from their centers of mass, world axes.
-CAROM_INLINE void place_anchors(const BodySim* const (&sims)[lane_count], F8 x, F8 y, LaneFloats& arm_x, LaneFloats& arm_y)
+// Anchors of eight bodies from their centers of mass, axes of the bodies.
+CAROM_INLINE void place_anchors(const BodySim* const (&sims)[lane_count], F8 x, F8 y, LaneFloats& local_x, LaneFloats& local_y)
 {
     static_assert(offsetof(BodySim, rotation) == 16 && offsetof(BodySim, local_center) == 24);
-    F8 c, s, center_x, center_y;
-    gather4([&](int i) { return reinterpret_cast<const char*>(sims[i]) + 16; }, c, s, center_x, center_y);
-    x -= center_x;
-    y -= center_y;
-    store(arm_x, c * x - s * y);
-    store(arm_y, s * x + c * y);
+    F8 unused_c, unused_s, center_x, center_y;
+    gather4([&](int i) { return reinterpret_cast<const char*>(sims[i]) + 16; }, unused_c, unused_s, center_x, center_y);
+    store(local_x, x - center_x);
+    store(local_y, y - center_y);
 }
+
+CAROM_INLINE void turn(const Turn& q, const LaneFloats& x, const LaneFloats& y, LaneFloats& arm_x, LaneFloats& arm_y)
+{
+    store(arm_x, q.c * load(x) - q.s * load(y));
+    store(arm_y, q.s * load(x) + q.c * load(y));
+}
+
+// Bodies are where the step begins.
+CAROM_INLINE void start(WideJoint& j, const BodySim* const (&a)[lane_count], const BodySim* const (&b)[lane_count])
+{
+    WideArms& arms = j.start;
+    turn(turns_of(a), j.anchors.ax, j.anchors.ay, arms.ax, arms.ay);
+    turn(turns_of(b), j.anchors.bx, j.anchors.by, arms.bx, arms.by);
+    const auto gap = [&](int i)
+    { // in double: both anchors may be far out
+        const D2 from = load2(&a[i]->center.x) + D2{static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i])};
+        const D2 to = load2(&b[i]->center.x) + D2{static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i])};
+        return to - from;
+    };
+    F8 gap_x;
+    F8 gap_y;
+    round_pairs(gap, gap_x, gap_y);
+    store(arms.gap_x, gap_x);
+    store(arms.gap_y, gap_y);
+    j.now = arms;
+    store(j.sum_x, all(0));
+    store(j.sum_y, all(0));
+}
+
+CAROM_INLINE const BodySim* sim_of(const BodySim* sims, std::int32_t body) { return body < 0 ? &world : sims + body; }
 
 CAROM_INLINE Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 
@@ -81,35 +109,22 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
     const JointRecord* of_lane[lane_count];
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
-    const auto sim_of = [&](std::int32_t body) { return body < 0 ? &world : sims + body; };
     for (int i = 0; i < lane_count; ++i)
     {
         of_lane[i] = j.joint.v[i] < 0 ? &nothing : joints + j.joint.v[i];
-        a[i] = sim_of(of_lane[i]->body_a);
-        b[i] = sim_of(of_lane[i]->body_b);
+        j.anchors.body_a.v[i] = of_lane[i]->body_a;
+        j.anchors.body_b.v[i] = of_lane[i]->body_b;
+        a[i] = sim_of(sims, of_lane[i]->body_a);
+        b[i] = sim_of(sims, of_lane[i]->body_b);
     }
     F8 ax, ay, bx, by, impulse_x, impulse_y, unused_x, unused_y;
     gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->anchor_a); }, ax, ay, bx, by);
     gather4([&](int i) { return reinterpret_cast<const char*>(of_lane[i]->impulses); }, impulse_x, impulse_y, unused_x, unused_y);
     store(j.impulse_x, impulse_x);
     store(j.impulse_y, impulse_y);
-    store(j.sum_x, all(0));
-    store(j.sum_y, all(0));
-    place_anchors(a, ax, ay, j.start.ax, j.start.ay);
-    place_anchors(b, bx, by, j.start.bx, j.start.by);
-    const WideArms& arms = j.start;
-    const auto gap = [&](int i)
-    { // in double: both anchors may be far out
-        const D2 from = load2(&a[i]->center.x) + D2{static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i])};
-        const D2 to = load2(&b[i]->center.x) + D2{static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i])};
-        return to - from;
-    };
-    F8 gap_x;
-    F8 gap_y;
-    round_pairs(gap, gap_x, gap_y);
-    store(j.start.gap_x, gap_x);
-    store(j.start.gap_y, gap_y);
-    j.now = j.start;
+    place_anchors(a, ax, ay, j.anchors.ax, j.anchors.ay);
+    place_anchors(b, bx, by, j.anchors.bx, j.anchors.by);
+    start(j, a, b);
     if (j.turns != 0)
     {
         const F8 angles = hinge_angles(of_lane, turns_of(a), turns_of(b));
@@ -119,6 +134,37 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
     }
     fill_masses(j, constants);
     mark_fixed(j);
+}
+
+void follow(WideJoint& j, const BodySim* sims)
+{
+    const BodySim* a[lane_count];
+    const BodySim* b[lane_count];
+    for (int i = 0; i < lane_count; ++i)
+    {
+        a[i] = sim_of(sims, j.anchors.body_a.v[i]);
+        b[i] = sim_of(sims, j.anchors.body_b.v[i]);
+    }
+    start(j, a, b);
+}
+
+// A hinge uses no other slots than these.
+void take_impulses(const WideJoint& j, JointRecord* joints, float dt)
+{
+    static_assert(offsetof(JointRecord, impulses) == offsetof(JointRecord, force) + 8 && slot_x == 0 && slot_y == 1);
+    static_assert(slot_upper == slot_lower + 1 && slot_motor == slot_lower + 2 && slot_spring == slot_lower + 3);
+    JointRecord unused;
+    const auto record = [&](int i) { return j.joint.v[i] < 0 ? &unused : joints + j.joint.v[i]; };
+    const WideAngle& t = j.angle;
+    const auto of_angle = [&](const LaneFloats& impulse) { return j.turns != 0 ? load(impulse) : all(0); };
+    scatter4([&](int i) { return reinterpret_cast<char*>(&record(i)->force); }, load(j.sum_x) / dt, load(j.sum_y) / dt, load(j.impulse_x),
+             load(j.impulse_y));
+    scatter4([&](int i) { return reinterpret_cast<char*>(record(i)->impulses + slot_lower); }, of_angle(t.lower_impulse),
+             of_angle(t.upper_impulse), of_angle(t.motor_impulse), of_angle(t.spring_impulse));
+    LaneFloats torque;
+    store(torque, of_angle(t.torque_sum) / dt);
+    for (int i = 0; i < lane_count; ++i)
+        record(i)->torque = torque.v[i];
 }
 
 struct Hinge

@@ -107,7 +107,7 @@ CAROM_INLINE void mark_fixed(Wide& wide)
 
 extern const WideKernels kernels;
 const WideKernels kernels = {CAROM_ISA_NAME,          fills::fill, fills::prepare, contacts::warm_start, contacts::solve, contacts::relax,
-                             joints::fill,   joints::warm_start,   joints::solve,   joints::relax,
+                             joints::fill,            joints::follow,   joints::warm_start,   joints::solve,   joints::relax,  joints::take_impulses,
                              follows::follow,        follows::follow_contacts, follows::stay_apart, follows::take_impulses, states::move,
                              sweeps::sweep,           pairs::look_at_pairs,            pairs::new_overlaps};
 

@@ -282,14 +282,14 @@ struct JointRecord
     bool enable_motor = false;
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
-    float hertz = 0; ///< of the soft limits, or of the spring along the free axis
+    float torque = 0; ///< over the last step, to be read; so is force
+    Vec2 force{};
+    float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
+    float hertz = 0;                  ///< of the soft limits, or of the spring along the free axis
     float limit_restitution = 0;
-    std::int32_t next[2] = {none, none};
     Vec2 anchor_a{};
     Vec2 anchor_b{};
-    float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
-    float torque = 0;                 ///< over the last step, to be read; so is force
-    Vec2 force{};
+    std::int32_t next[2] = {none, none};
     std::int32_t previous[2] = {none, none};
     Vec2 axis_a{1, 0};
     float reference_angle = 0;

@@ -183,6 +183,10 @@ struct KeptUnits
     std::vector<JointLink> joints;
     std::vector<std::uint8_t> bound;    ///< of each state: rows, limits or motors hold it
     bool are_plain = false;             ///< nothing in them depends on anything else
+    bool stay_so = false;               ///< and no body or joint has changed, come or gone since
+    bool joints_stay = false;           ///< so that links of joints are what they were
+    bool hinges_stay = false;           ///< and wide hinges stand where they stood
+    bool has_hung = false;              ///< as Scratch::has_hung when links of joints were gathered
     bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
     bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
     std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
@@ -344,6 +348,7 @@ struct Scratch
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
     bool has_kinematic = false;              ///< a kinematic body is awake
+    bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
     std::vector<SomeLinks> links_of_task;
     std::vector<Link> links;

@@ -41,6 +41,17 @@ struct WideArms
     LaneFloats gap_y;
 };
 
+/// What the arms are turned from.
+struct WideAnchors
+{
+    LaneInts body_a; ///< none: the world
+    LaneInts body_b;
+    LaneFloats ax; ///< anchors from the centers of mass, axes of the bodies
+    LaneFloats ay;
+    LaneFloats bx;
+    LaneFloats by;
+};
+
 struct WideJoint
 {
     LaneInts a; ///< states
@@ -50,6 +61,7 @@ struct WideJoint
     LaneFloats inverse_mass_b;
     LaneFloats inverse_inertia_a;
     LaneFloats inverse_inertia_b;
+    WideAnchors anchors;
     WideArms start; ///< of the step
     WideArms now;   ///< at the poses that bodies have, as relaxing found them
     LaneFloats impulse_x;

@@ -107,10 +107,14 @@ struct WideKernels
     /// Joints from their records, bodies, and the constants of their states, for sub-steps of h. `joints` has a, b, joint and turns of each lane.
     void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const StateConstants* constants,
                         float h);
+    /// The same where no angle matters, of hinges that have been solved in the last step: that poses are others is all that has changed.
+    void (*follow_joints)(WideJoint& joints, const BodySim* sims);
     void (*warm_start_joints)(WideJoint* joints, std::int32_t count, BodyState* states);
     void (*solve_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
     /// At the poses that the bodies have come to; the other passes are at those that relaxing last found.
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
+    /// To the records: forces over the step dt, and what the next one is warm started with.
+    void (*take_joint_impulses)(const WideJoint& joints, JointRecord* records, float dt);
     /// Normal, arms and separations of a row whose contacts it held in the last step, at the poses that bodies have now.
     void (*follow)(WideRow& row, const FollowedScene& scene, FollowedRow& found);
     /// The manifolds of eight contacts that have as many points and are kept, likewise; of those that are not sure it is to be found by itself.

@@ -28,6 +28,4 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);
 /// A hinge that bounces off no limit; its bodies must be able to move along every axis.
 [[nodiscard]] bool fits_joint_lane(const JointRecord& joint);
 
-void commit_wide_joint(const StepContext& ctx, const WideJoint& wide);
-
 } // namespace carom::internal
