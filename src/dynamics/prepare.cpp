@@ -1,6 +1,5 @@
 #include "dynamics/prepare.h"
 
-#include "core/trigonometry.h"
 #include "dynamics/body_store.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/scene_data.h"
@@ -10,39 +9,6 @@
 #include <cmath>
 
 namespace carom::internal {
-
-void start_state(const SceneState& state, int body, BodyState& s)
-{
-    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    s.velocity = sim.velocity;
-    s.angular_velocity = sim.angular_velocity;
-    s.flags = state.bodies[body].type == BodyType::Dynamic ? body_flag::dynamic | body_flag::unbound : 0;
-    s.delta_position = {};
-    s.delta_rotation = {};
-}
-
-namespace {
-
-float decay(float damping, float h)
-{
-    return damping > 0 ? static_cast<float>(exponential(-static_cast<double>(damping) * static_cast<double>(h))) : 1.0f;
-}
-
-} // namespace
-
-void set_constants(const StepContext& ctx, int body, StateConstants& c)
-{
-    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
-    const MotionLocks locks = ctx.state.bodies[body].locks;
-    const Vec2 g = sim.gravity_scale * ctx.state.gravity;
-    c.inverse_mass = sim.inverse_mass;
-    c.inverse_inertia = sim.inverse_inertia;
-    c.acceleration = {(locks.linear_x ? 0 : g.x) + sim.inverse_mass.x * sim.force.x,
-                      (locks.linear_y ? 0 : g.y) + sim.inverse_mass.y * sim.force.y};
-    c.angular_acceleration = sim.inverse_inertia * sim.torque;
-    c.linear_decay = decay(sim.linear_damping, ctx.h);
-    c.angular_decay = decay(sim.angular_damping, ctx.h);
-}
 
 namespace {
 

@@ -2,13 +2,42 @@
 
 // From records to what the solver iterates over.
 
+#include "core/trigonometry.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
 /// Number by number, where they stand: a record that has just been written so is waited for by a copy.
-void start_state(const SceneState& state, int body, BodyState& s);
-void set_constants(const StepContext& ctx, int body, StateConstants& c);
+inline void start_state(const SceneState& state, int body, BodyState& s)
+{
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    s.velocity = sim.velocity;
+    s.angular_velocity = sim.angular_velocity;
+    s.flags = state.bodies[body].type == BodyType::Dynamic ? body_flag::dynamic | body_flag::unbound : 0;
+    s.delta_position = {};
+    s.delta_rotation = {};
+}
+
+/// What is left of a speed after a time h. damping: 1/s
+[[nodiscard]] inline float decay(float damping, float h)
+{
+    return damping > 0 ? static_cast<float>(exponential(-static_cast<double>(damping) * static_cast<double>(h))) : 1.0f;
+}
+
+inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    const MotionLocks locks = ctx.state.bodies[body].locks;
+    const Vec2 g = sim.gravity_scale * ctx.state.gravity;
+    c.inverse_mass = sim.inverse_mass;
+    c.inverse_inertia = sim.inverse_inertia;
+    c.acceleration = {(locks.linear_x ? 0 : g.x) + sim.inverse_mass.x * sim.force.x,
+                      (locks.linear_y ? 0 : g.y) + sim.inverse_mass.y * sim.force.y};
+    c.angular_acceleration = sim.inverse_inertia * sim.torque;
+    c.linear_decay = decay(sim.linear_damping, ctx.h);
+    c.angular_decay = decay(sim.angular_damping, ctx.h);
+}
+
 [[nodiscard]] ContactRow prepare_row(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
                                      std::int32_t b);
 /// The state of a body as the unit's rows see it: all that does not move shares the first, kinematic bodies have a copy in every unit. none: it

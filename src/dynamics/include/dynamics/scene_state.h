@@ -328,7 +328,7 @@ struct SceneState
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
-    bool graph_dirty = true;                ///< touching contacts, joints or sleep changed since units were built
+    bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since units were built
     Vec2 gravity{};
     double time = 0;
     std::uint64_t step_count = 0;
