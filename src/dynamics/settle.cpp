@@ -1,5 +1,7 @@
 // The last of stage 6: bodies come to rest, islands fall asleep, and what a user asked for this step alone is forgotten.
 
+#include "core/nonzero.h"
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
@@ -15,6 +17,7 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t bodies_per_task = 512;
+constexpr std::size_t contacts_per_task = 2048;
 constexpr float creeping = 0.2f;                 // of the sleep speed
 constexpr float creep_time = 0.5f;               // s
 constexpr float time_to_sleep = 0.5f;            // s: long enough for a body at the top of its flight not to fall asleep
@@ -113,45 +116,99 @@ void settle_kinematic_bodies(StepContext& ctx)
     }
 }
 
-bool is_tired(const SceneState& state, int body)
-{
-    return state.sims[static_cast<std::size_t>(body)].sleep_time >= time_to_sleep;
-}
-
 // What hangs together through the tired sleeps, unless one of it has a neighbour who is awake and not tired.
-void put_islands_to_sleep(StepContext& ctx)
+class TiredIslands
 {
-    SceneState& state = ctx.state;
-    std::vector<std::int32_t>& tired = ctx.scratch.tired; // island by island
-    std::vector<std::uint8_t>& seen = ctx.scratch.seen;
-    std::vector<std::int32_t>& sleepers = ctx.scratch.order;
-    tired.clear();
-    sleepers.clear();
-    seen.resize(std::max(seen.size(), static_cast<std::size_t>(state.bodies.capacity())));
-    for (const std::int32_t body : state.awake_bodies)
+public:
+    explicit TiredIslands(StepContext& ctx)
+        : m_ctx(ctx), m_state(ctx.state), m_sets(ctx.scratch.sets), m_is_tired(ctx.scratch.is_tired),
+          m_is_kept_awake(ctx.scratch.is_kept_awake)
+    {}
+
+    void put_to_sleep()
     {
-        if (seen[static_cast<std::size_t>(body)] != 0 || !is_tired(state, body))
-            continue;
-        bool all_tired = true;
-        const auto belongs = [&](int other)
+        find_tired();
+        link_at_contacts();
+        for (int j = 0; j < m_state.joints.capacity(); ++j)
         {
-            if (!is_awake(state, other))
-                return false;
-            const bool tired_too = is_tired(state, other);
-            all_tired &= tired_too;
-            return tired_too;
-        };
-        const auto first = static_cast<std::ptrdiff_t>(tired.size());
-        gather_island(state, body, seen, tired, belongs);
-        if (all_tired)
-            sleepers.insert(sleepers.end(), tired.begin() + first, tired.end());
+            if (m_state.joints.is_live(j))
+                link(m_state.joints[j].body_a, m_state.joints[j].body_b);
+        }
+        std::vector<std::int32_t>& sleepers = m_ctx.scratch.order;
+        list_sleepers(sleepers);
+        for (const std::int32_t body : sleepers)
+            sleep_body(m_ctx.scene, body);
     }
-    for (const std::int32_t body : tired)
-        seen[static_cast<std::size_t>(body)] = 0;
-    std::ranges::sort(sleepers, {}, [&](std::int32_t body) { return state.bodies[body].awake_index; });
-    for (const std::int32_t body : sleepers)
-        sleep_body(ctx.scene, body);
-}
+
+private:
+    void find_tired()
+    {
+        const std::size_t count = m_state.awake_bodies.size();
+        m_sets.reset(count);
+        m_is_tired.resize(count);
+        m_is_kept_awake.assign(count, 0);
+        for_each_in_parts(m_ctx.scene.def.tasks, count, bodies_per_task,
+                          [&](std::size_t i)
+                          {
+                              const auto body = static_cast<std::size_t>(m_state.awake_bodies[i]);
+                              m_is_tired[i] = m_state.sims[body].sleep_time >= time_to_sleep ? 1 : 0;
+                          });
+    }
+
+    void link_at_contacts()
+    {
+        for_each_in_parts(m_ctx.scene.def.tasks, m_state.awake_contacts.size(), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              if (i + turns_ahead < m_state.awake_contacts.size())
+                                  __builtin_prefetch(&m_state.contacts[m_state.awake_contacts[i + turns_ahead]]);
+                              const Contact& contact = m_state.contacts[m_state.awake_contacts[i]];
+                              if ((contact.flags & contact_flag::touching) != 0)
+                                  link(contact.body_a, contact.body_b);
+                          });
+    }
+
+    // On all threads.
+    void link(std::int32_t body_a, std::int32_t body_b)
+    {
+        const std::int32_t a = place_of(body_a);
+        const std::int32_t b = place_of(body_b);
+        if (a == none || b == none)
+            return;
+        const bool a_is_tired = m_is_tired[static_cast<std::size_t>(a)] != 0;
+        const bool b_is_tired = m_is_tired[static_cast<std::size_t>(b)] != 0;
+        if (a_is_tired && b_is_tired)
+            m_sets.link(a, b, true);
+        else if (a_is_tired != b_is_tired)
+            std::atomic_ref(m_is_kept_awake[static_cast<std::size_t>(a_is_tired ? a : b)]).store(1, std::memory_order_relaxed);
+    }
+
+    // Of what is dynamic and awake: nothing else hangs together.
+    [[nodiscard]] std::int32_t place_of(std::int32_t body) const
+    {
+        return body != none && m_state.bodies[body].type == BodyType::Dynamic ? m_state.bodies[body].awake_index : none;
+    }
+
+    void list_sleepers(std::vector<std::int32_t>& sleepers)
+    {
+        const auto of_set = [&](std::size_t i) -> std::uint8_t&
+        { return m_is_kept_awake[static_cast<std::size_t>(m_sets.root(static_cast<std::int32_t>(i)))]; };
+        for_each_nonzero(m_is_kept_awake.data(), m_is_kept_awake.size(), [&](std::size_t i) { of_set(i) = 1; });
+        sleepers.clear();
+        for_each_nonzero(m_is_tired.data(), m_is_tired.size(),
+                         [&](std::size_t i)
+                         {
+                             if (of_set(i) == 0)
+                                 sleepers.push_back(m_state.awake_bodies[i]);
+                         });
+    }
+
+    StepContext& m_ctx;
+    SceneState& m_state;
+    UnionFind& m_sets;
+    std::vector<std::uint8_t>& m_is_tired;      ///< by place in awake_bodies
+    std::vector<std::uint8_t>& m_is_kept_awake; ///< a neighbour does; in the end of the root of a set: of one of it
+};
 
 } // namespace
 
@@ -176,7 +233,7 @@ void settle_bodies(StepContext& ctx)
     if (ctx.scratch.has_kinematic)
         settle_kinematic_bodies(ctx);
     if (ctx.scene.def.sleeping && any_tired && looks_for_islands(state))
-        put_islands_to_sleep(ctx);
+        TiredIslands(ctx).put_to_sleep();
 }
 
 } // namespace carom::internal

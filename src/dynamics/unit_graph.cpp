@@ -38,66 +38,6 @@ constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr float calm_swing = 0.1f;           // rad, in a step
 constexpr int enough_bodies = 256;           // in a unit of heaps, or of bodies that are alone
 
-// --- union-find over places in awake_bodies, also by several threads at once --------------------------------------------------------
-
-// A parent comes before its children, and only ever gives way to one that comes before it: whatever a thread reads is an ancestor.
-std::atomic_ref<std::int32_t> parent_of(std::vector<std::int32_t>& parent, std::int32_t i)
-{
-    return std::atomic_ref(parent[static_cast<std::size_t>(i)]);
-}
-
-std::int32_t find_root(std::vector<std::int32_t>& parent, std::int32_t i)
-{
-    for (;;)
-    {
-        const std::int32_t up = parent_of(parent, i).load(std::memory_order_relaxed);
-        const std::int32_t above = parent_of(parent, up).load(std::memory_order_relaxed);
-        if (above == up)
-            return up;
-        parent_of(parent, i).store(above, std::memory_order_relaxed);
-        i = above;
-    }
-}
-
-// True if it was a root still.
-bool hang(std::vector<std::int32_t>& parent, std::int32_t root, std::int32_t under, bool shared)
-{
-    if (shared)
-        return parent_of(parent, root).compare_exchange_strong(root, under, std::memory_order_relaxed);
-    parent_of(parent, root).store(under, std::memory_order_relaxed);
-    return true;
-}
-
-bool are_linked(const std::int32_t* parent, std::int32_t a, std::int32_t b)
-{
-    const auto above = [&](std::int32_t i)
-    { return std::atomic_ref(const_cast<std::int32_t&>(parent[i])).load(std::memory_order_relaxed); };
-    return above(a) == above(b);
-}
-
-// The lesser place becomes the root: which ones are roots in the end does not depend on the order of the links. False where they were linked already.
-// `shared`: by threads side by side.
-bool link(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b, bool shared)
-{
-    for (;;)
-    {
-        a = find_root(parent, a);
-        b = find_root(parent, b);
-        if (a == b)
-            return false;
-        if (hang(parent, std::max(a, b), std::min(a, b), shared))
-            return true;
-    }
-}
-
-void reset_parents(StepContext& ctx)
-{
-    std::vector<std::int32_t>& parent = ctx.scratch.parent;
-    parent.resize(ctx.state.awake_bodies.size());
-    for (std::size_t i = 0; i < parent.size(); ++i)
-        parent[i] = static_cast<std::int32_t>(i);
-}
-
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
 bool gets_rows(const SceneState& state, const Contact& contact)
@@ -402,7 +342,7 @@ public:
 
     void link_units()
     {
-        reset_parents(ctx);
+        scratch.sets.reset(state.awake_bodies.size());
         link_all(scratch.links);
         link_all(scratch.joint_links);
     }
@@ -415,11 +355,10 @@ public:
         run_parts(tasks, links.size(), items_per_task,
                   [&](std::size_t first, std::size_t last)
                   {
-                      const std::int32_t* parent = scratch.parent.data();
                       for (const AnyLink& l : std::span(links).subspan(first, last - first))
                       {
-                          if (l.a >= 0 && l.b >= 0 && !are_linked(parent, l.a, l.b)) // most are already
-                              link(scratch.parent, l.a, l.b, shared);
+                          if (l.a >= 0 && l.b >= 0)
+                              scratch.sets.link(l.a, l.b, shared);
                       }
                   });
     }
@@ -694,7 +633,7 @@ public:
         for (const Meetings& some : parts)
         {
             for (const auto& [place, other] : some)
-                linked |= link(scratch.parent, place, other, false);
+                linked |= scratch.sets.link(place, other, false);
         }
         return linked;
     }
@@ -800,15 +739,15 @@ public:
         {
             if (scratch.has_kinematic && state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
                 continue;
-            const auto parent = static_cast<std::size_t>(scratch.parent[i]); // comes before it, or is it
-            if (parent == i)
+            const auto before = static_cast<std::size_t>(scratch.sets.before(i));
+            if (before == i)
             {
                 scratch.unit_of[i] = static_cast<std::int32_t>(scratch.tallies.size());
                 scratch.tallies.emplace_back().first = static_cast<std::int32_t>(i);
             }
             else
             {
-                scratch.unit_of[i] = scratch.unit_of[parent];
+                scratch.unit_of[i] = scratch.unit_of[before];
             }
         }
         for_each_run(

@@ -5,6 +5,7 @@
 #include "carom/event.h"
 #include "collision/hilbert_order.h"
 #include "collision/time_of_impact.h"
+#include "core/union_find.h"
 #include "dynamics/joint_rows.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
@@ -339,7 +340,7 @@ struct Scratch
     std::vector<std::int32_t> places;   ///< by body slot, as in Link
     std::vector<std::int32_t> placed;   ///< bodies that have one
     std::vector<float> swings;          ///< of joint_links, see UnitTally::swing
-    std::vector<std::int32_t> parent;   ///< union-find, by place in awake_bodies
+    UnionFind sets;                     ///< of what hangs together, by place in awake_bodies
     std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
     std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
@@ -404,9 +405,9 @@ struct Scratch
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
     std::vector<FlierSeed> flier_seeds;
-    std::vector<Surroundings> surroundings; ///< of each block of the moving layer
-    std::vector<std::int32_t> tired;        ///< bodies that have been quiet for long enough, by island
-    std::vector<std::uint8_t> seen;         ///< of these, by body slot; all 0 between steps
+    std::vector<Surroundings> surroundings;  ///< of each block of the moving layer
+    std::vector<std::uint8_t> is_tired;      ///< has been quiet for long enough, by place in awake_bodies
+    std::vector<std::uint8_t> is_kept_awake; ///< of these, by a neighbour
     std::vector<std::int32_t> order;
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
