@@ -1,6 +1,7 @@
 #include "dynamics/contact_store.h"
 
 #include "collision/manifold.h"
+#include "dynamics/contact_colors.h"
 #include "dynamics/material.h"
 #include "dynamics/wake.h"
 
@@ -276,6 +277,7 @@ void destroy_contact(SceneData& scene, int index, Events& events, float time)
     SceneState& state = scene.state;
     end_touch(scene, index, events, time);
     remove_awake_contact(state, index);
+    leave_color(state, state.contacts[index]);
     unlink_contact(state, index);
     const Contact& contact = state.contacts[index];
     if (contact.pair != none)

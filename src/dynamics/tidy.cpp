@@ -168,13 +168,14 @@ private:
     // With what they name renamed.
     void move_contacts(const std::vector<std::int32_t>& slots)
     {
+        std::ranges::fill(m_state.colors, 0); // chosen in the new order
         move_items(slots, [&](int slot) -> Contact& { return m_state.contacts[slot]; });
         for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
                           [&](std::size_t i)
                           {
                               Contact& contact = m_state.contacts[slots[i]];
                               contact.awake_index = static_cast<std::int32_t>(i);
-                              contact.color = none; // chosen in the new order
+                              contact.color = none;
                               rename_edges(contact);
                               if (contact.pair != none)
                                   m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = slots[i];

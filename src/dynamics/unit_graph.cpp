@@ -224,7 +224,7 @@ public:
             const std::int32_t b = place_of(contact.body_b);
             if (a < 0 && b < 0)
             {
-                contact.color = none;
+                leave_color(state, contact);
                 continue;
             }
             Link& l = *next++; // filled where it stands: a copy would wait for its bytes
@@ -261,7 +261,7 @@ public:
     void leave_row(std::int32_t contact) const
     {
         forget_impulses(state, contact);
-        state.contacts[contact].color = none;
+        leave_color(state, state.contacts[contact]);
     }
 
     // The same for joints. But for what may fly, their links say nothing that a step changes.

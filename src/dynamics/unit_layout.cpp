@@ -1,5 +1,5 @@
-// Everything that a unit needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its rows sorted by colour. States are
-// filled here, on all threads; rows and joints in unit_rows.cpp, just before the unit is solved.
+// Everything that a unit needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its rows (row_places.cpp), its joints.
+// States are filled here, on all threads; rows and joints in unit_rows.cpp, just before the unit is solved.
 
 #include "dynamics/unit_layout.h"
 
@@ -9,6 +9,7 @@
 #include "dynamics/joint_direct.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
+#include "dynamics/row_places.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_graph.h"
@@ -23,13 +24,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int color_limit = 63; // the mask's last bit stands for "no colour left"
 constexpr int items_per_task = 512;
 constexpr std::size_t links_per_task = 2048;
-constexpr int most_parts = plane_cells;
-constexpr int links_to_a_part = 2048; // what rows keep of them stays in a cache
-constexpr std::uint8_t no_part = 255; // of what does not give way
-constexpr int bins_to_a_part = 2 * color_limit;
 
 std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -63,11 +59,13 @@ public:
                   [&](int task)
                   {
                       if (task == 0)
-                          place_rows();
+                          place_rows_of_small_units(m_ctx);
                       else
                           fill_some_states(task - 1);
                   });
-        unbind_all(m_scratch.color_masks);
+        place_rows_of_large_units(m_ctx);
+        unbind_those([&](std::size_t s)
+                     { return m_scratch.state_bodies[s] != none && colors_of(m_state, m_scratch.state_bodies[s]) != 0; });
     }
 
     // --- fliers and laws --------------------------------------------------------------------------------------------------------------
@@ -113,6 +111,7 @@ public:
         m_scratch.joint_places.clear();
         m_scratch.joint_lanes.clear();
         m_scratch.joint_bin_starts.clear();
+        m_scratch.joint_colors.resize(m_scratch.state_bodies.size());
         m_groups = 0;
         for (Unit& unit : m_scratch.units)
             place_joints_of(unit);
@@ -127,7 +126,10 @@ public:
     }
 
     // What held each state when the rows were placed holds it still.
-    void bind_as_before() { unbind_all(m_scratch.kept_units.bound); }
+    void bind_as_before()
+    {
+        unbind_those([&](std::size_t s) { return m_scratch.kept_units.bound[s] != 0; });
+    }
 
     void count()
     {
@@ -137,6 +139,19 @@ public:
 
 private:
     [[nodiscard]] static int tasks_for(std::int32_t items) { return (items + items_per_task - 1) / items_per_task; }
+
+    // On all threads.
+    template <class IsBound>
+    void unbind_those(const IsBound& is_bound)
+    {
+        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.states.size(), items_per_task,
+                          [&](std::size_t s)
+                          {
+                              if (is_bound(s))
+                                  unbind(static_cast<std::int32_t>(s));
+                          });
+    }
+
     [[nodiscard]] int state_tasks() const { return tasks_for(static_cast<std::int32_t>(m_scratch.state_bodies.size())); }
 
     void fill_some_states(int task)
@@ -227,24 +242,34 @@ private:
     void copy_kinematic_bodies(const Unit& unit)
     {
         const std::span<Link> links = links_of(unit);
-        if (m_scratch.has_kinematic)
-        { // first, one after the other: they may get a state here
-            for (Link& l : links)
+        const auto of_what_rests_or_gives = [&](std::int32_t place)
+        {
+            return place >= 0 ? m_scratch.state_of[as_index(place)] : place == none ? unit.first_state : place;
+        };
+        using Some = std::vector<std::int32_t>;
+        const std::span<Some> parts =
+            find_in_parts(m_ctx.scene.def.tasks, links.size(), links_per_task, m_scratch.kinematic_links_of_task,
+                          [&](std::size_t first, std::size_t last, Some& kinematic)
+                          {
+                              kinematic.clear();
+                              for (std::size_t i = first; i < last; ++i)
+                              {
+                                  Link& l = links[i];
+                                  l.a = of_what_rests_or_gives(l.a);
+                                  l.b = of_what_rests_or_gives(l.b);
+                                  if (l.a < 0 || l.b < 0)
+                                      kinematic.push_back(static_cast<std::int32_t>(i));
+                              }
+                          });
+        for (const Some& kinematic : parts)
+        { // one after the other: they may get a state here
+            for (const std::int32_t i : kinematic)
             {
-                l.a = l.a < none ? -2 - state_at(unit, l.a) : l.a;
-                l.b = l.b < none ? -2 - state_at(unit, l.b) : l.b;
+                Link& l = links[as_index(i)];
+                l.a = l.a < 0 ? state_at(unit, l.a) : l.a;
+                l.b = l.b < 0 ? state_at(unit, l.b) : l.b;
             }
         }
-        const auto state_of = [&](std::int32_t place)
-        {
-            return place >= 0 ? m_scratch.state_of[as_index(place)] : place == none ? unit.first_state : -2 - place;
-        };
-        for_each_in_parts(m_ctx.scene.def.tasks, links.size(), links_per_task,
-                          [&](std::size_t i)
-                          {
-                              links[i].a = state_of(links[i].a);
-                              links[i].b = state_of(links[i].b);
-                          });
         for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
         {
             JointLink& j = m_scratch.solved_joints[as_index(i)];
@@ -312,11 +337,6 @@ private:
             s.flags |= body_flag::alone;
     }
 
-    [[nodiscard]] static bool is_dynamic(const Unit& unit, std::int32_t s)
-    {
-        return static_cast<std::uint32_t>(s - unit.first_state - 1) < static_cast<std::uint32_t>(unit.dynamic_count);
-    }
-
     void add_flier(const StepContext& unit_ctx, std::int32_t i)
     {
         const FlierSeed& seed = m_scratch.flier_seeds[as_index(i)];
@@ -329,241 +349,20 @@ private:
             m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
     }
 
-    void place_rows()
-    {
-        m_scratch.color_masks.assign(m_scratch.state_bodies.size(), 0);
-        m_scratch.parts.resize(m_scratch.state_bodies.size());
-        m_scratch.row_links.clear();
-        m_scratch.lane_links.clear();
-        m_scratch.impact_rows.clear();
-        m_scratch.cores.clear();
-        m_scratch.bin_starts.clear();
-        for (Unit& unit : m_scratch.units)
-            place_rows_of(unit);
-    }
-
-    void place_rows_of(Unit& unit)
-    {
-        unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
-        unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
-        unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
-        unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
-        find_parts(unit);
-        choose_colors(unit);
-        give_out_places(unit);
-        place_links(unit);
-        clear_bins(unit);
-        unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - unit.first_wide;
-        unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - unit.first_row;
-        unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - unit.first_core;
-        // Those of one body are of different colours: in this order wherever in a bin their lanes are.
-        std::ranges::sort(m_scratch.cores.begin() + unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
-        unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - unit.first_impact_row;
-    }
-
-    // Of whole cells of the plane, and about as many bodies to each.
-    void find_parts(Unit& unit)
-    {
-        unit.parts = parts_of(unit);
-        if (unit.parts == 0)
-            return;
-        std::fill_n(m_scratch.parts.begin() + unit.first_state, unit.state_count, no_part);
-        const std::int32_t end = unit.first_state + 1 + unit.dynamic_count;
-        for (std::int32_t first = unit.first_state + 1; first < end;)
-        {
-            const std::uint8_t cell = cell_of(first);
-            std::int32_t last = first + 1;
-            while (last < end && cell_of(last) == cell)
-                ++last;
-            const std::int32_t middle = (first + last) / 2 - unit.first_state - 1;
-            const auto part = static_cast<std::uint8_t>(std::int64_t{middle} * unit.parts / unit.dynamic_count);
-            std::fill(m_scratch.parts.begin() + first, m_scratch.parts.begin() + last, part);
-            first = last;
-        }
-    }
-
-    [[nodiscard]] std::uint8_t cell_of(std::int32_t state) const
-    {
-        return m_state.bodies[m_scratch.state_bodies[as_index(state)]].plane_cell;
-    }
-
-    // Whatever the number of threads: the order in which rows are solved depends on it.
-    [[nodiscard]] static int parts_of(const Unit& unit)
-    {
-        const auto parts = std::bit_floor(static_cast<unsigned>(unit.link_count / links_to_a_part));
-        return is_wide(unit) && parts > 1 ? std::min(static_cast<int>(parts), most_parts) : 0;
-    }
-
-    // Not what is looked at anew within the step, sliced, or watched for its energy.
-    [[nodiscard]] static bool is_wide(const Unit& unit)
-    {
-        return unit.heap ||
-               (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
-    }
-
-    // What had a row in the last step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Counts what
-    // goes into each bin.
-    void choose_colors(Unit& unit)
-    {
-        const bool wide = is_wide(unit);
-        const bool uniform = wide && is_uniform(unit);
-        const std::span<Link> links = links_of(unit);
-        for (Link& l : links)
-        {
-            if (!keeps_color(unit, l))
-                l.color = none;
-        }
-        for (Link& l : links)
-        {
-            if (l.color == none)
-                l.color = static_cast<std::int16_t>(free_color(unit, l.a, l.b));
-            l.in_lane = wide && l.color != color_limit && l.plain && (uniform || give_evenly(l));
-            l.bin = bin_of(unit, l);
-            ++place_for(l);
-            if (l.color == color_limit)
-                m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
-        }
-        std::uint64_t colors = 0;
-        for (std::int32_t s = unit.first_state; s < unit.first_state + unit.state_count; ++s)
-            colors |= m_scratch.color_masks[as_index(s)];
-        unit.colors = static_cast<std::int32_t>(std::bit_width(colors));
-    }
-
     // Marks it as taken.
-    [[nodiscard]] bool keeps_color(const Unit& unit, const Link& l)
-    {
-        if (l.color == none || l.color == color_limit || (colors_at(unit, l.a, l.b) >> l.color & 1u) != 0)
-            return false;
-        take_color(l.a, l.b, l.color);
-        return true;
-    }
-
-    // All of its bodies may move along every axis, or along none.
-    [[nodiscard]] bool is_uniform(const Unit& unit) const
-    {
-        for (std::int32_t s = unit.first_state; m_scratch.has_uneven && s < unit.first_state + unit.state_count; ++s)
-        {
-            if (!gives_evenly(s))
-                return false;
-        }
-        return true;
-    }
-
-    // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
-    [[nodiscard]] int part_of(const Unit& unit, const Link& l) const
-    {
-        if (unit.parts == 0)
-            return 0;
-        const std::uint8_t a = m_scratch.parts[as_index(l.a)];
-        const std::uint8_t b = m_scratch.parts[as_index(l.b)];
-        return a == b || b == no_part ? a : a == no_part ? b : unit.parts;
-    }
-
-    // Lanes by part, color and number of points; rows by color.
-    [[nodiscard]] std::int16_t bin_of(const Unit& unit, const Link& l) const
-    {
-        return l.in_lane ? static_cast<std::int16_t>(part_of(unit, l) * bins_to_a_part + 2 * l.color + (l.points == 2 ? 0 : 1))
-                         : l.color;
-    }
-
-    // Of how many go there; then of where the next one goes.
-    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.in_lane ? m_bins[l.bin] : m_row_bins[l.bin]; }
-
-    // Those that what moves of the two has already.
-    [[nodiscard]] std::uint64_t colors_at(const Unit& unit, std::int32_t a, std::int32_t b) const
-    {
-        return (is_dynamic(unit, a) ? m_scratch.color_masks[as_index(a)] : 0) |
-               (is_dynamic(unit, b) ? m_scratch.color_masks[as_index(b)] : 0);
-    }
-
-    void take_color(std::int32_t a, std::int32_t b, int color)
-    {
-        m_scratch.color_masks[as_index(a)] |= std::uint64_t{1} << color;
-        m_scratch.color_masks[as_index(b)] |= std::uint64_t{1} << color;
-    }
-
     int free_color(const Unit& unit, std::int32_t a, std::int32_t b)
     {
-        const int color = std::min(std::countr_one(colors_at(unit, a, b)), color_limit);
-        if (color != color_limit)
-            take_color(a, b, color);
+        std::uint64_t& of_a = m_scratch.joint_colors[as_index(a)];
+        std::uint64_t& of_b = m_scratch.joint_colors[as_index(b)];
+        const int color = std::countr_one((is_dynamic(unit, a) ? of_a : 0) | (is_dynamic(unit, b) ? of_b : 0));
+        if (color >= color_limit)
+            return color_limit;
+        of_a |= std::uint64_t{1} << color;
+        of_b |= std::uint64_t{1} << color;
         return color;
     }
 
-    // States whose number is not 0, on all threads.
-    template <class Number>
-    void unbind_all(const std::vector<Number>& bound)
-    {
-        for_each_in_parts(m_ctx.scene.def.tasks, bound.size(), items_per_task,
-                          [&](std::size_t s)
-                          {
-                              if (bound[s] != 0)
-                                  unbind(static_cast<std::int32_t>(s));
-                          });
-    }
-
     void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
-
-    // Eight lanes to a group, each of one part, one colour and one number of points.
-    void give_out_places(Unit& unit)
-    {
-        auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
-        const auto groups = [&] { return lane / lane_count - unit.first_wide; };
-        unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
-        unit.bin_count = 2 * unit.colors;
-        for (std::int32_t part = 0; part <= unit.parts; ++part)
-        {
-            for (std::int32_t bin = 0; bin < unit.bin_count; ++bin)
-            {
-                m_scratch.bin_starts.push_back(groups());
-                lane += std::exchange(m_bins[part * bins_to_a_part + bin], lane);
-                lane = (lane + lane_count - 1) / lane_count * lane_count;
-            }
-        }
-        m_scratch.bin_starts.push_back(groups());
-        auto row = unit.first_row;
-        for (int color = 0; color < unit.colors; ++color)
-            row += std::exchange(m_row_bins[color], row);
-        row += std::exchange(m_row_bins[color_limit], row);
-        m_scratch.lane_links.resize(as_index(lane), none);
-        m_scratch.row_links.resize(as_index(row));
-    }
-
-    void clear_bins(const Unit& unit)
-    {
-        for (std::int32_t part = 0; part <= unit.parts; ++part)
-            std::fill_n(m_bins + part * bins_to_a_part, unit.bin_count, 0);
-        std::fill_n(m_row_bins, unit.colors, 0);
-        m_row_bins[color_limit] = 0;
-    }
-
-    void place_links(const Unit& unit)
-    {
-        for (std::int32_t i = unit.first_link; i < unit.first_link + unit.link_count; ++i)
-        {
-            const Link& l = m_scratch.solved_links[as_index(i)];
-            const std::int32_t place = place_for(l)++;
-            (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(place)] = i;
-            if (l.in_lane && l.round && l.points == 1)
-                add_core(unit, l, place);
-        }
-        for (auto row = unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
-        {
-            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].bears)
-                m_scratch.impact_rows.push_back(row);
-        }
-    }
-
-    // A ball against what does not give way.
-    void add_core(const Unit& unit, const Link& l, std::int32_t lane)
-    {
-        if (is_dynamic(unit, l.a) && is_dynamic(unit, l.b))
-            return;
-        const Contact& contact = m_state.contacts[l.contact];
-        const Leaf& leaf = m_state.shapes[is_dynamic(unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
-        if (leaf.type == LeafType::Circle)
-            m_scratch.cores.push_back({lane - unit.first_wide * lane_count, 0.5f * leaf.r0});
-    }
 
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.
     void place_joints_of(Unit& unit)
@@ -571,11 +370,11 @@ private:
         const std::int32_t first = unit.first_joint;
         const std::int32_t count = unit.joint_count;
         const bool wide = is_wide(unit) && (unit.heap || count > DirectSolve::most_rows / 2);
-        const bool uniform = wide && is_uniform(unit);
+        const bool uniform = wide && is_uniform(m_ctx, unit);
         unit.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
         unit.first_wide_joint = m_groups;
         if (wide)
-            std::fill_n(m_scratch.color_masks.begin() + unit.first_state, unit.state_count, 0);
+            std::fill_n(m_scratch.joint_colors.begin() + unit.first_state, unit.state_count, 0);
         const std::size_t first_lane = m_scratch.joint_lanes.size();
         for (std::int32_t i = first; i < first + count; ++i)
         {
@@ -598,29 +397,13 @@ private:
     // Finds its colour; false where it must stand alone.
     bool place_joint_in_lane(const Unit& unit, const JointLink& j, bool uniform)
     {
-        if (!j.hinge || j.flies || !(uniform || give_evenly(j)))
+        if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, j)))
             return false;
         const std::int32_t color = free_color(unit, j.a, j.b);
         if (color == color_limit)
             return false;
         m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, {j.joint, j.a, j.b}});
         return true;
-    }
-
-    // Contacts that roll or convey, and what holds a body that may not move along every axis, have rows of their own.
-    template <class AnyLink>
-    [[nodiscard]] bool give_evenly(const AnyLink& l) const
-    {
-        return gives_evenly(l.a) && gives_evenly(l.b);
-    }
-
-    [[nodiscard]] bool gives_evenly(std::int32_t state) const
-    {
-        const int body = m_scratch.state_bodies[as_index(state)];
-        if (body == none)
-            return true;
-        const Vec2 inverse_mass = m_state.sims[as_index(body)].inverse_mass;
-        return inverse_mass.x == inverse_mass.y;
     }
 
     // By counting; those of a bin stay in order.
@@ -672,11 +455,34 @@ private:
     SceneState& m_state;
     Scratch& m_scratch;
     std::int32_t m_groups = 0; ///< of wide joints
-    std::int32_t m_bins[(most_parts + 1) * bins_to_a_part] = {};
-    std::int32_t m_row_bins[color_limit + 1] = {};
 };
 
 } // namespace
+
+bool is_wide(const Unit& unit)
+{
+    return unit.heap ||
+           (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
+}
+
+bool is_uniform(const StepContext& ctx, const Unit& unit)
+{
+    for (std::int32_t s = unit.first_state; ctx.scratch.has_uneven && s < unit.first_state + unit.state_count; ++s)
+    {
+        if (!gives_evenly(ctx, s))
+            return false;
+    }
+    return true;
+}
+
+bool gives_evenly(const StepContext& ctx, std::int32_t state)
+{
+    const int body = ctx.scratch.state_bodies[as_index(state)];
+    if (body == none)
+        return true;
+    const Vec2 inverse_mass = ctx.state.sims[as_index(body)].inverse_mass;
+    return inverse_mass.x == inverse_mass.y;
+}
 
 void refill_units(StepContext& ctx)
 {

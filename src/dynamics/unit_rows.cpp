@@ -64,7 +64,6 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
         row.contact.v[i] = l.contact;
         row.count = l.points; // the same in all lanes
         Contact& contact = ctx.state.contacts[l.contact];
-        contact.color = l.color;
         contact.wide = (unit.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
     }
@@ -74,8 +73,7 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
 void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
 {
     const Link& l = ctx.scratch.solved_links[as_index(ctx.scratch.row_links[as_index(i)])];
-    Contact& contact = ctx.state.contacts[l.contact];
-    contact.color = l.color;
+    const Contact& contact = ctx.state.contacts[l.contact];
     ContactRow& row = ctx.scratch.rows[as_index(i)];
     row = prepare_row(ctx, l.contact, contact.manifold, l.a, l.b);
     follow_closely(contact, unit, row);

@@ -7,6 +7,7 @@
 #include "core/nonzero.h"
 #include "core/prefetch.h"
 #include "core/trigonometry.h"
+#include "dynamics/contact_colors.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
@@ -625,8 +626,9 @@ private:
         set_row_geometry(m_scratch, row, now.manifold);
         if (now.contact == row.contact)
             return;
-        m_ctx.state.contacts[now.contact].color = m_ctx.state.contacts[row.contact].color;
-        m_ctx.state.contacts[row.contact].color = none;
+        leave_color(m_ctx.state, m_ctx.state.contacts[now.contact]);
+        m_ctx.state.contacts[now.contact].color =
+            std::exchange(m_ctx.state.contacts[row.contact].color, none); // of the same bodies
         forget_impulses(m_ctx.state, row.contact);
         row.contact = now.contact;
     }

@@ -1,6 +1,7 @@
 #include "dynamics/wake.h"
 
 #include "dynamics/body_store.h"
+#include "dynamics/contact_colors.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/kept_manifold.h"
 
@@ -25,7 +26,7 @@ void enter_awake(SceneData& scene, int body)
     for_each_contact(state, body,
                      [&](int contact)
                      {
-                         state.contacts[contact].color = none; // others may have taken it meanwhile
+                         leave_color(state, state.contacts[contact]); // others may have taken it meanwhile
                          note_sleeper(state, state.contacts[contact]);
                          leave_lane(state, contact);
                          add_awake_contact(state, contact);
@@ -44,6 +45,7 @@ void leave_awake(SceneData& scene, int body)
     state.bodies[state.awake_bodies[place]].awake_index = record.awake_index;
     state.awake_bodies.pop_back();
     record.awake_index = none;
+    colors_of(state, body) = 0;
     state.graph_dirty = true;
     for_each_leaf(state, body, [&](int shape) { state.broad_phase.move_to(shape, Layer::Resting); });
     for_each_contact(state, body,

@@ -60,6 +60,7 @@ BodyId Scene::create_body(const BodyDef& def)
     const int slot = state.bodies.create(record);
     const auto index = static_cast<std::size_t>(slot);
     grow(state.sims, index + 1);
+    grow(state.colors, index + 1);
     state.sims[index] = make_sim(def);
     grow(m_data->body_extras, index + 1);
     m_data->body_extras[index] = {.user_data = def.user_data};

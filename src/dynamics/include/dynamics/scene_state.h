@@ -189,7 +189,7 @@ struct alignas(64) Contact
     float friction = 0;
     float rolling_resistance = 0;
     float surface_speed = 0;   ///< of b against a along perp(normal)
-    std::int32_t color = none; ///< of its row; kept as long as it has one
+    std::int32_t color = none; ///< of its row; kept as long as it has one, see contact_colors.h
     std::int32_t wide = none;  ///< during a step: where its wide row is, group * lane_count + lane
     Manifold manifold{};
 };
@@ -308,8 +308,9 @@ inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.imp
 struct SceneState
 {
     Pool<BodyRecord> bodies;
-    std::vector<BodySim> sims;       ///< by body slot
-    std::vector<BodyTarget> targets; ///< by body slot, as far as any body has had one
+    std::vector<BodySim> sims;         ///< by body slot
+    std::vector<std::uint64_t> colors; ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
+    std::vector<BodyTarget> targets;   ///< by body slot, as far as any body has had one
     Pool<ShapeRecord> shapes;
     std::vector<RestitutionCurve> curves; ///< by slot of the public shape, as far as any shape has had one
     std::vector<Field> fields;            ///< likewise

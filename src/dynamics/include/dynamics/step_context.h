@@ -6,6 +6,7 @@
 #include "collision/hilbert_order.h"
 #include "collision/time_of_impact.h"
 #include "core/union_find.h"
+#include "dynamics/contact_colors.h"
 #include "dynamics/joint_rows.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
@@ -114,6 +115,28 @@ struct Link
 };
 static_assert(sizeof(Link) == 24);
 
+/// A ball in a wide row against what does not give way.
+struct WideCore
+{
+    std::int32_t lane; ///< of the unit: group * lane_count + lane
+    float depth;
+};
+
+inline constexpr int most_parts = plane_cells;
+inline constexpr int bins_to_a_part = 2 * color_limit;
+
+/// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
+struct SomePlaces
+{
+    std::int32_t lanes[(most_parts + 1) * bins_to_a_part] = {};
+    std::int32_t rows[color_limit + 1] = {};
+    std::uint64_t colors = 0;            ///< that they have
+    std::vector<std::int32_t> uncolored; ///< of the unit's links
+    std::vector<WideCore> cores;
+
+    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.in_lane ? lanes[l.bin] : rows[l.bin]; }
+};
+
 /// What a task has found.
 struct SomeLinks
 {
@@ -219,13 +242,6 @@ struct FlierSeed
     std::int32_t body;
     std::int32_t kind; ///< none, or the hinge it turns on
     bool landed;
-};
-
-/// A ball in a wide row against what does not give way.
-struct WideCore
-{
-    std::int32_t lane; ///< of the unit: group * lane_count + lane
-    float depth;
 };
 
 /// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
@@ -399,8 +415,10 @@ struct Scratch
     std::vector<UnitOutput> outputs;
     std::vector<PathPiece> paths; ///< of all units, by body
     std::vector<Crossing> crossings;
-    std::vector<std::uint64_t> color_masks;
-    std::vector<std::uint8_t> parts; ///< of the states of units that have some
+    std::vector<SomePlaces> places_of_task;
+    std::vector<std::vector<std::int32_t>> kinematic_links_of_task; ///< of a unit's links, those with a kinematic body
+    std::vector<std::uint64_t> joint_colors;                        ///< by state: a bit for each that its hinges in lanes have
+    std::vector<std::uint8_t> parts;                                ///< of the states of units that have some
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;

@@ -2,6 +2,7 @@
 
 // Who is solved together in this step, and what a body does in it: the first half of the units stage.
 
+#include "dynamics/contact_colors.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
@@ -14,10 +15,5 @@ void gather_unit_graph(StepContext& ctx);
 
 /// After gather_unit_graph: fills Scratch::units with how many states, links and joints each has, solved_links and solved_joints in their order, and who flies.
 void build_unit_graph(StepContext& ctx);
-
-[[nodiscard]] inline bool is_moving_dynamic(const SceneState& state, int body)
-{
-    return body != none && state.bodies[body].type == BodyType::Dynamic && state.bodies[body].awake_index != none;
-}
 
 } // namespace carom::internal

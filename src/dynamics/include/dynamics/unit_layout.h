@@ -12,4 +12,24 @@ void lay_out_units(StepContext& ctx);
 /// The same for units whose places are those of the last step.
 void refill_units(StepContext& ctx);
 
+/// Are its contacts solved in lanes? Not what is looked at anew within the step, sliced, or watched for its energy.
+[[nodiscard]] bool is_wide(const Unit& unit);
+
+/// May all of its bodies move along every axis, or along none?
+[[nodiscard]] bool is_uniform(const StepContext& ctx, const Unit& unit);
+[[nodiscard]] bool gives_evenly(const StepContext& ctx, std::int32_t state);
+
+/// Contacts that roll or convey, and what holds a body that may not move along every axis, have rows of their own.
+template <class AnyLink>
+[[nodiscard]] bool give_evenly(const StepContext& ctx, const AnyLink& l)
+{
+    return gives_evenly(ctx, l.a) && gives_evenly(ctx, l.b);
+}
+
+/// Not a copy of a kinematic body, nor what stands for all that rests.
+[[nodiscard]] inline bool is_dynamic(const Unit& unit, std::int32_t state)
+{
+    return static_cast<std::uint32_t>(state - unit.first_state - 1) < static_cast<std::uint32_t>(unit.dynamic_count);
+}
+
 } // namespace carom::internal

@@ -1,0 +1,13 @@
+#pragma once
+
+// Where contact rows stand: the last part of the units stage.
+
+#include "dynamics/step_context.h"
+
+namespace carom::internal {
+
+/// After states have their places, those of small units one after the other; large ones, on all threads, behind them.
+void place_rows_of_small_units(StepContext& ctx);
+void place_rows_of_large_units(StepContext& ctx);
+
+} // namespace carom::internal

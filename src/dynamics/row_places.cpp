@@ -1,0 +1,287 @@
+// Rows of a unit stand sorted by colour, those of a large unit eight to a group and part of the plane by part, see unit_bins.h. What had a row in the last
+// step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Links are counted by tasks, each its own, and
+// then put where the counts of all say.
+
+#include "dynamics/row_places.h"
+
+#include "core/task_pool.h"
+#include "dynamics/contact_colors.h"
+#include "dynamics/scene_data.h"
+#include "dynamics/unit_layout.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t links_per_task = 1024;
+constexpr int links_to_a_part = 2048; // what rows keep of them stays in a cache
+constexpr std::uint8_t no_part = 255; // of what does not give way
+
+std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+class RowPlaces
+{
+public:
+    RowPlaces(StepContext& ctx, Unit& unit) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit) {}
+
+    void find()
+    {
+        m_unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
+        m_unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
+        m_unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
+        m_unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
+        m_is_wide = is_wide(m_unit);
+        m_is_uniform = m_is_wide && is_uniform(m_ctx, m_unit);
+        find_parts();
+        const std::span<SomePlaces> tasks = count_links();
+        color_new_rows(tasks);
+        give_out_places(tasks);
+        run_tasks(m_ctx.scene.def.tasks, static_cast<int>(tasks.size()),
+                  [&](int t) { place(as_index(t) * links_of_task(), tasks[as_index(t)]); });
+        gather(tasks);
+        m_unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - m_unit.first_wide;
+        m_unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - m_unit.first_row;
+        m_unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_unit.first_core;
+        m_unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - m_unit.first_impact_row;
+    }
+
+private:
+    // --- parts of the plane -----------------------------------------------------------------------------------------------------------
+
+    // Of whole cells of the plane, and about as many bodies to each.
+    void find_parts()
+    {
+        if (m_unit.parts == 0)
+            return;
+        std::fill_n(m_scratch.parts.begin() + m_unit.first_state, m_unit.state_count, no_part);
+        const std::int32_t end = m_unit.first_state + 1 + m_unit.dynamic_count;
+        for (std::int32_t first = m_unit.first_state + 1; first < end;)
+        {
+            const std::uint8_t cell = cell_of(first);
+            std::int32_t last = first + 1;
+            while (last < end && cell_of(last) == cell)
+                ++last;
+            const std::int32_t middle = (first + last) / 2 - m_unit.first_state - 1;
+            const auto part = static_cast<std::uint8_t>(std::int64_t{middle} * m_unit.parts / m_unit.dynamic_count);
+            std::fill(m_scratch.parts.begin() + first, m_scratch.parts.begin() + last, part);
+            first = last;
+        }
+    }
+
+    [[nodiscard]] std::uint8_t cell_of(std::int32_t state) const
+    {
+        return m_state.bodies[m_scratch.state_bodies[as_index(state)]].plane_cell;
+    }
+
+    // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
+    [[nodiscard]] int part_of(const Link& l) const
+    {
+        if (m_unit.parts == 0)
+            return 0;
+        const std::uint8_t a = m_scratch.parts[as_index(l.a)];
+        const std::uint8_t b = m_scratch.parts[as_index(l.b)];
+        return a == b || b == no_part ? a : a == no_part ? b : m_unit.parts;
+    }
+
+    // --- colours and counts -----------------------------------------------------------------------------------------------------------
+
+    [[nodiscard]] std::span<Link> links() const
+    {
+        return std::span(m_scratch.solved_links).subspan(as_index(m_unit.first_link), as_index(m_unit.link_count));
+    }
+
+    // A small unit is one task.
+    [[nodiscard]] std::size_t links_of_task() const
+    {
+        return m_unit.parts > 0 ? links_per_task : std::max<std::size_t>(links().size(), 1);
+    }
+
+    [[nodiscard]] std::span<SomePlaces> count_links()
+    {
+        return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), links_of_task(),
+                             m_scratch.places_of_task,
+                             [&](std::size_t first, std::size_t last, SomePlaces& some)
+                             {
+                                 some.uncolored.clear();
+                                 some.cores.clear();
+                                 some.colors = 0;
+                                 for (std::size_t i = first; i < std::min(last, links().size()); ++i)
+                                 {
+                                     Link& l = links()[i];
+                                     if (l.color == none || l.color == color_limit)
+                                         some.uncolored.push_back(static_cast<std::int32_t>(i));
+                                     else
+                                         count(l, some);
+                                 }
+                             });
+    }
+
+    void color_new_rows(std::span<SomePlaces> tasks)
+    {
+        for (SomePlaces& some : tasks)
+        {
+            for (const std::int32_t i : some.uncolored)
+            {
+                Link& l = links()[as_index(i)];
+                Contact& contact = m_state.contacts[l.contact];
+                take_color(m_state, contact);
+                l.color = static_cast<std::int16_t>(contact.color);
+                if (l.color == color_limit)
+                    m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
+                count(l, some);
+            }
+        }
+    }
+
+    void count(Link& l, SomePlaces& some) const
+    {
+        l.in_lane = m_is_wide && l.color != color_limit && l.plain && (m_is_uniform || give_evenly(m_ctx, l));
+        l.bin = bin_of(l);
+        ++some.place_for(l);
+        some.colors |= l.color != color_limit ? std::uint64_t{1} << l.color : 0;
+    }
+
+    // Lanes by part, color and number of points; rows by color.
+    [[nodiscard]] std::int16_t bin_of(const Link& l) const
+    {
+        return l.in_lane ? static_cast<std::int16_t>(part_of(l) * bins_to_a_part + 2 * l.color + (l.points == 2 ? 0 : 1))
+                         : l.color;
+    }
+
+    // --- places -----------------------------------------------------------------------------------------------------------------------
+
+    // Eight lanes to a group, each of one part, one colour and one number of points.
+    void give_out_places(std::span<SomePlaces> tasks)
+    {
+        std::uint64_t colors = 0;
+        for (const SomePlaces& some : tasks)
+            colors |= some.colors;
+        m_unit.colors = static_cast<std::int32_t>(std::bit_width(colors));
+        auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
+        m_unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
+        m_unit.bin_count = 2 * m_unit.colors;
+        for (std::int32_t part = 0; part <= m_unit.parts; ++part)
+        {
+            for (std::int32_t bin = 0; bin < m_unit.bin_count; ++bin)
+            {
+                m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
+                give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.lanes[part * bins_to_a_part + bin]; }, lane);
+                lane = (lane + lane_count - 1) / lane_count * lane_count;
+            }
+        }
+        m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
+        auto row = m_unit.first_row;
+        for_each_row_bin(
+            [&](int color)
+            {
+                give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.rows[color]; }, row);
+            });
+        m_scratch.lane_links.resize(as_index(lane), none);
+        m_scratch.row_links.resize(as_index(row));
+    }
+
+    // From how many of a bin each task has to where its first goes.
+    template <class Count>
+    static void give_out(std::span<SomePlaces> tasks, const Count& count_of, std::int32_t& place)
+    {
+        for (SomePlaces& some : tasks)
+            place += std::exchange(count_of(some), place);
+    }
+
+    template <class Visit>
+    void for_each_row_bin(const Visit& visit) const
+    {
+        for (int color = 0; color < m_unit.colors; ++color)
+            visit(color);
+        visit(color_limit);
+    }
+
+    void place(std::size_t first, SomePlaces& some)
+    {
+        for (std::size_t i = first; i < std::min(first + links_of_task(), links().size()); ++i)
+        {
+            const Link& l = links()[i];
+            const std::int32_t at = some.place_for(l)++;
+            (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
+                m_unit.first_link + static_cast<std::int32_t>(i);
+            if (l.in_lane && l.round && l.points == 1)
+                add_core(l, at, some);
+        }
+        for (std::int32_t part = 0; part <= m_unit.parts; ++part)
+            std::fill_n(some.lanes + part * bins_to_a_part, m_unit.bin_count, 0);
+        for_each_row_bin([&](int color) { some.rows[color] = 0; });
+    }
+
+    // A ball against what does not give way.
+    void add_core(const Link& l, std::int32_t lane, SomePlaces& some) const
+    {
+        if (is_dynamic(m_unit, l.a) && is_dynamic(m_unit, l.b))
+            return;
+        const Contact& contact = m_state.contacts[l.contact];
+        const Leaf& leaf = m_state.shapes[is_dynamic(m_unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
+        if (leaf.type == LeafType::Circle)
+            some.cores.push_back({lane - m_unit.first_wide * lane_count, 0.5f * leaf.r0});
+    }
+
+    // Cores of one body are of different colours: in the order of lanes wherever in a bin these are.
+    void gather(std::span<SomePlaces> tasks)
+    {
+        for (const SomePlaces& some : tasks)
+            m_scratch.cores.insert(m_scratch.cores.end(), some.cores.begin(), some.cores.end());
+        std::ranges::sort(m_scratch.cores.begin() + m_unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
+        for (auto row = m_unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
+        {
+            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].bears)
+                m_scratch.impact_rows.push_back(row);
+        }
+    }
+
+    StepContext& m_ctx;
+    SceneState& m_state;
+    Scratch& m_scratch;
+    Unit& m_unit;
+    bool m_is_wide = false;
+    bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
+};
+
+// Whatever the number of threads: the order in which rows are solved depends on it.
+int parts_of(const Unit& unit)
+{
+    const auto parts = std::bit_floor(static_cast<unsigned>(unit.link_count / links_to_a_part));
+    return is_wide(unit) && parts > 1 ? std::min(static_cast<int>(parts), most_parts) : 0;
+}
+
+} // namespace
+
+void place_rows_of_small_units(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    scratch.parts.resize(scratch.state_bodies.size());
+    scratch.row_links.clear();
+    scratch.lane_links.clear();
+    scratch.impact_rows.clear();
+    scratch.cores.clear();
+    scratch.bin_starts.clear();
+    for (Unit& unit : scratch.units)
+    {
+        unit.parts = parts_of(unit);
+        if (unit.parts == 0)
+            RowPlaces(ctx, unit).find();
+    }
+}
+
+void place_rows_of_large_units(StepContext& ctx)
+{
+    for (Unit& unit : ctx.scratch.units)
+    {
+        if (unit.parts > 0)
+            RowPlaces(ctx, unit).find();
+    }
+}
+
+} // namespace carom::internal
