@@ -16,6 +16,11 @@
 
 namespace carom::internal {
 
+Told::Told() = default;
+Told::~Told() = default;
+Told::Told(Told&&) noexcept = default;
+Told& Told::operator=(Told&&) noexcept = default;
+
 UnitOutput::UnitOutput() = default;
 UnitOutput::~UnitOutput() = default;
 UnitOutput::UnitOutput(UnitOutput&&) noexcept = default;

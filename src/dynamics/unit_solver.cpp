@@ -1,11 +1,9 @@
 // One unit through all its sub-steps. In every sub-step the soft rows advance first, then the unit's balls in flight through the same interval, then
-// everything relaxes and bounces.
+// everything relaxes and bounces (unit_bounces.cpp).
 
 #include "dynamics/unit_solver.h"
 
 #include "core/float4.h"
-#include "core/nonzero.h"
-#include "core/prefetch.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/contact_solver.h"
@@ -14,10 +12,10 @@
 #include "dynamics/flight.h"
 #include "dynamics/force_laws.h"
 #include "dynamics/joint_solver.h"
-#include "dynamics/material.h"
 #include "dynamics/prepare.h"
 #include "dynamics/springs.h"
 #include "dynamics/unit_bins.h"
+#include "dynamics/unit_bounces.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
@@ -214,15 +212,8 @@ private:
 
     void note_approaches()
     {
-        for (int i = 0; i < m_unit.impact_row_count; ++i)
-            note_approach(m_view, impact_row(i));
+        internal::note_approaches(bouncing());
         note_limit_approach(m_view, m_ctx.state, m_joints);
-    }
-
-    [[nodiscard]] ContactRow& impact_row(int i)
-    {
-        return m_scratch
-            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
     }
 
     // v += h a, then damping. Balls in flight have their own way. Where points and normals keep through the step, all that the rows gave to a body in the
@@ -652,256 +643,18 @@ private:
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------
 
+    [[nodiscard]] BouncingUnit bouncing() { return {m_ctx, m_unit, m_output, m_view, m_may_start_by_body}; }
+
     // True where something kicked.
     bool bounce(int k)
     {
         const int before = m_output.bulk_impacts;
         const std::size_t kicks = m_output.kicked_shapes.size();
-        for (int i = 0; i < m_unit.impact_row_count; ++i)
-            bounce_row(impact_row(i), k);
-        bounce_lanes(k);
+        internal::bounce(bouncing(), k, m_crew);
         bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
             m_output.direct->keep_together();
         return m_output.kicked_shapes.size() != kicks;
-    }
-
-    void bounce_lanes(int k)
-    {
-        std::vector<std::int32_t>& lanes = m_output.struck_lanes;
-        lanes.clear();
-        for_each_nonzero(m_struck, static_cast<std::size_t>(m_unit.wide_count),
-                         [&](std::size_t g)
-                         {
-                             for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
-                                 lanes.push_back(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
-                         });
-        for (std::size_t i = 0; i < lanes.size(); ++i)
-        {
-            prefetch_struck(i);
-            bounce_lane(m_wide[lanes[i] / lane_count], m_unit.wide_store * lane_count + lanes[i], k);
-        }
-    }
-
-    // First the contact, then its shapes and where it is.
-    [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
-    {
-        const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
-        const SceneState& state = m_ctx.state;
-        const auto contact_of = [&](std::size_t lane)
-        { return m_wide[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
-        if (i + turns_ahead < lanes.size())
-            prefetch(state.contacts[contact_of(i + turns_ahead)]);
-        if (i + turns_ahead / 2 >= lanes.size())
-            return;
-        const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
-        for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
-            prefetch(state.shapes[shape]);
-        __builtin_prefetch(&state.sims[static_cast<std::size_t>(contact.body_a)]);
-    }
-
-    // It bears a load: told once, bounced once.
-    void bounce_lane(WideRow& wide, std::int32_t lane, int k)
-    {
-        const unsigned bit = 1u << (lane % lane_count);
-        float approach = 0;
-        for (int p = 0; p < wide.count; ++p)
-        {
-            if (wide.points[p].normal_impulse.v[lane % lane_count] > 0)
-                approach = std::max(approach, wide.points[p].approach.v[lane % lane_count]);
-        }
-        const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
-        ContactRow row = row_of_lane(m_scratch, lane);
-        row.hit = strikes ? 0 : 1;
-        if ((wide.untold & bit) != 0)
-            begin_touch(row, k);
-        wide.untold &= ~bit;
-        if (!strikes)
-            return;
-        resolve_impact(row, approach, k);
-        wide.may_hit &= ~bit;
-        put_impulses(m_scratch, row, lane);
-    }
-
-    // What flies off is not pushed again by warm starting.
-    void forget_pushes(const ContactRow& before, const ContactRow& after)
-    {
-        for (int i = 0; i < before.count; ++i)
-        {
-            if (after.points[i].normal_impulse != 0)
-                continue;
-            const RowPoint& p = before.points[i];
-            note_push(before, p, p.normal_impulse * before.n + p.tangent_impulse * perp(before.n));
-        }
-    }
-
-    // Of an impulse that no row gives again.
-    void note_push(const ContactRow& row, const RowPoint& p, Vec2 impulse)
-    {
-        if (!m_may_start_by_body)
-            return;
-        note_push(row.a, p.ra, -impulse);
-        note_push(row.b, p.rb, impulse);
-    }
-
-    void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
-    {
-        const StateConstants& c = m_view.constants[state];
-        BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
-        unpushed.velocity.x += c.inverse_mass.x * impulse.x;
-        unpushed.velocity.y += c.inverse_mass.y * impulse.y;
-        unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
-    }
-
-    void bounce_row(ContactRow& row, int k)
-    {
-        if (row.hit != 0)
-            return;
-        float approach = 0;
-        float load = 0;
-        for (int i = 0; i < row.count; ++i)
-        {
-            load += row.points[i].normal_impulse;
-            if (row.points[i].normal_impulse > 0)
-                approach = std::max(approach, row.points[i].approach);
-        }
-        if (load <= 0)
-            return;
-        const bool first_touch = (m_ctx.state.contacts[row.contact].flags & contact_flag::touching) == 0;
-        if (first_touch)
-            begin_touch(row, k);
-        if (approach > m_ctx.rest_speed)
-            resolve_impact(row, approach, k);
-    }
-
-    void resolve_impact(ContactRow& row, float approach, int k)
-    {
-        row.hit = 1;
-        const Contact& contact = m_ctx.state.contacts[row.contact];
-        const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
-        const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
-        if (kick.a_fired)
-            m_output.kicked_shapes.push_back(contact.shape_a);
-        if (kick.b_fired)
-            m_output.kicked_shapes.push_back(contact.shape_b);
-        RawImpact raw{contact.shape_a, contact.shape_b, {}};
-        const ContactRow before = row;
-        bounce_points(row, e, kick.speed);
-        for (int i = 0; i < row.count; ++i)
-            account_for_bounce(row.points[i], e, kick.speed, raw.event);
-        forget_pushes(before, row);
-        fill_impact(row, raw.event, approach, e, kick.speed, k);
-        m_output.impacts.push_back(raw);
-        ++m_output.bulk_impacts;
-    }
-
-    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
-    {
-        return e * std::max(p.approach, 0.0f) + kick;
-    }
-
-    // How much separating speed a point still lacks.
-    [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
-    {
-        const BodyState& a = m_view.states[row.a];
-        const BodyState& b = m_view.states[row.b];
-        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
-        return wanted_speed(p, e, kick) - dot(v, row.n);
-    }
-
-    void push(const ContactRow& row, RowPoint& p, float impulse)
-    {
-        p.normal_impulse += impulse;
-        note_push(row, p, impulse * row.n);
-        apply_impulse(m_view.states[row.a], m_view.constants[row.a], p.ra, -impulse * row.n);
-        apply_impulse(m_view.states[row.b], m_view.constants[row.b], p.rb, impulse * row.n);
-    }
-
-    // Two points struck at once bounce at once: a box that lands flat bounces flat.
-    void bounce_points(ContactRow& row, float e, float kick)
-    {
-        if (e <= 0 && kick <= 0)
-            return;
-        RowPoint& p = row.points[0];
-        RowPoint& q = row.points[1];
-        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
-        {
-            const float k11 = 1 / p.normal_mass;
-            const float k22 = 1 / q.normal_mass;
-            const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
-            const float d1 = missing_speed(row, p, e, kick);
-            const float d2 = missing_speed(row, q, e, kick);
-            const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
-            const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
-            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0)
-            {
-                push(row, p, j1);
-                push(row, q, j2);
-                return;
-            }
-        }
-        for (int i = 0; i < row.count; ++i)
-        {
-            RowPoint& r = row.points[i];
-            if (r.normal_impulse > 0)
-                push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
-        }
-    }
-
-    static void account_for_bounce(RowPoint& p, float e, float kick, ImpactEvent& event)
-    {
-        const float wanted = wanted_speed(p, e, kick);
-        event.impulse += p.normal_impulse;
-        event.friction_impulse += p.tangent_impulse;
-        event.energy_lost += 0.5f * p.normal_impulse * (p.approach - wanted);
-        if (wanted > 0)
-        { // what flies off is not pushed again by warm starting
-            p.total_impulse += p.normal_impulse;
-            p.total_tangent += p.tangent_impulse;
-            p.normal_impulse = p.tangent_impulse = 0;
-        }
-    }
-
-    void fill_impact(const ContactRow& row, ImpactEvent& event, float approach, float e, float kick, int k)
-    {
-        const RowPoint& p = row.points[0];
-        const float mass_a = point_mass(m_view.constants[row.a], row.n, p.ra);
-        const float mass_b = point_mass(m_view.constants[row.b], row.n, p.rb);
-        event.normal = row.n;
-        event.point = point_of(row);
-        event.time = m_ctx.h * static_cast<float>(k + 1);
-        event.approach_speed = approach;
-        event.restitution = e;
-        event.friction = row.friction;
-        event.kick_speed = kick;
-        event.effective_mass_a = mass_a;
-        event.effective_mass_b = mass_b;
-        // Speeds before the impact, from those after it and the impulse.
-        const BodyState& a = m_view.states[row.a];
-        event.speed_a = dot(a.velocity + cross(a.angular_velocity, p.ra), row.n) + (mass_a > 0 ? event.impulse / mass_a : 0);
-        event.speed_b = event.speed_a - approach;
-    }
-
-    static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
-    {
-        const float turn = cross(arm, n);
-        const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
-        return inverse > 0 ? 1 / inverse : 0;
-    }
-
-    [[nodiscard]] Position point_of(const ContactRow& row) const
-    {
-        const Contact& contact = m_ctx.state.contacts[row.contact];
-        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position +
-               row.points[0].ra;
-    }
-
-    void begin_touch(const ContactRow& row, int k)
-    {
-        Contact& contact = m_ctx.state.contacts[row.contact];
-        contact.flags |= contact_flag::touching | contact_flag::begun;
-        m_output.begins.push_back(
-            {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
     }
 
     // --- sums over the step ------------------------------------------------------------------------------------------------------------

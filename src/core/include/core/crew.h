@@ -41,6 +41,7 @@ public:
                   });
     }
 
+    [[nodiscard]] int members() const { return m_members; }
     [[nodiscard]] bool has_helpers() const { return m_members > 1; }
 
     /// Calls work(part, parts) for each part. For the leader.

@@ -295,26 +295,39 @@ struct StoppedJoint
     double energy;
 };
 
-/// Per unit, so that units may run side by side; merged in the order of the units.
-struct UnitOutput
+/// What a thread tells of a unit's impacts.
+struct Told
 {
     std::vector<RawImpact> impacts;
+    std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
+    std::vector<std::int32_t> kicked_shapes;
+    int bulk_impacts = 0;
+
+    Told();
+    ~Told();
+    Told(Told&&) noexcept;
+    Told& operator=(Told&&) noexcept;
+    Told(const Told&) = delete;
+    Told& operator=(const Told&) = delete;
+};
+
+/// Per unit, so that units may run side by side; merged in the order of the units.
+struct UnitOutput : Told
+{
     std::size_t told_impacts = 0;           ///< the first so many are known to force laws
     std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
-    std::vector<RawTouch> begins;           ///< contacts that first bore a load in this step
     std::vector<ContactRow> late_rows;
     std::vector<DeferredImpulse> deferred;
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
-    std::vector<std::int32_t> kicked_shapes;
-    std::vector<std::int32_t> struck_lanes; ///< of the unit, in this sub-step
-    std::vector<std::int32_t> deflected;    ///< fliers off the way they set out on, in order
-    std::vector<Reach> reaches;             ///< of each of these
-    std::vector<PathPiece> path;            ///< of traced bodies, of each in the order of time
-    std::vector<std::int32_t> last_piece;   ///< of each state of the unit; empty before the first
-    std::vector<RecordedPose> poses;        ///< after each sub-step, when asked for
-    std::unique_ptr<DirectSolve> direct;    ///< of what joints hold, where a unit of this place in the order has had any
+    std::vector<std::int32_t> struck_lanes;   ///< of the unit, in this sub-step
+    std::vector<Told> told_by_others;         ///< by all threads but the leader's, empty but for while they tell
+    std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
+    std::vector<Reach> reaches;               ///< of each of these
+    std::vector<PathPiece> path;              ///< of traced bodies, of each in the order of time
+    std::vector<std::int32_t> last_piece;     ///< of each state of the unit; empty before the first
+    std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
+    std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where a unit of this place in the order has had any
     int flight_impacts = 0;
-    int bulk_impacts = 0;
     bool capped = false;
     bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
 

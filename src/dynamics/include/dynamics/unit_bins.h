@@ -54,6 +54,16 @@ public:
             });
     }
 
+    /// Calls work(first, last, member) for the groups of each member's parts, side by side. Returns where what crosses begins.
+    template <class Work>
+    int by_part(Crew& crew, const Work& work) const
+    {
+        if (m_parts > 0)
+            crew.in_parts([&](int member, int members)
+                          { work(start(bound(member, members)), start(bound(member + 1, members)), member); });
+        return start(m_parts * m_bins);
+    }
+
     /// Calls visit(group), each by the member that solves it.
     template <class Visit>
     void for_each(Crew& crew, const Visit& visit) const

@@ -1,0 +1,346 @@
+// What rows have stopped in a sub-step bounces off, and users are told of it. Rows of small units are asked one by one, of lanes those that the kernels have
+// found struck while relaxing.
+
+#include "dynamics/unit_bounces.h"
+
+#include "core/nonzero.h"
+#include "core/prefetch.h"
+#include "dynamics/material.h"
+#include "dynamics/scene_data.h"
+#include "dynamics/unit_bins.h"
+#include "dynamics/wide_prepare.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t enough_lanes = 64; // to share
+
+class Bounces
+{
+public:
+    explicit Bounces(const BouncingUnit& of)
+        : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_unit(of.unit), m_output(of.output), m_view(of.view),
+          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_rows.data() + m_unit.wide_store),
+          m_struck(m_scratch.struck.data() + m_unit.wide_store)
+    {}
+
+    void note_approaches()
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            note_approach(m_view, impact_row(i));
+    }
+
+    void bounce(int k, Crew& crew)
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            bounce_row(impact_row(i), k);
+        bounce_lanes(k, crew);
+    }
+
+private:
+    [[nodiscard]] ContactRow& impact_row(int i)
+    {
+        return m_scratch
+            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
+    }
+
+    // What two parts of the plane have shares no body that gives way: members bounce what is in theirs side by side, then one what crosses.
+    void bounce_lanes(int k, Crew& crew)
+    {
+        find_struck_lanes();
+        if (m_output.struck_lanes.size() < enough_lanes)
+        {
+            bounce_groups(0, m_unit.wide_count, k, m_output);
+            return;
+        }
+        std::vector<Told>& others = m_output.told_by_others;
+        others.resize(std::max(others.size(), static_cast<std::size_t>(crew.members()) - 1));
+        const auto bounce_of_member = [&](int first, int last, int member)
+        { bounce_groups(first, last, k, member == 0 ? m_output : others[static_cast<std::size_t>(member) - 1]); };
+        const int crossing = contact_bins(m_scratch, m_unit).by_part(crew, bounce_of_member);
+        for (Told& told : others)
+            take(told);
+        bounce_groups(crossing, m_unit.wide_count, k, m_output);
+    }
+
+    void find_struck_lanes()
+    {
+        std::vector<std::int32_t>& lanes = m_output.struck_lanes;
+        lanes.clear();
+        for_each_nonzero(m_struck, static_cast<std::size_t>(m_unit.wide_count),
+                         [&](std::size_t g)
+                         {
+                             for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
+                                 lanes.push_back(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
+                         });
+    }
+
+    void take(Told& told)
+    {
+        m_output.impacts.insert(m_output.impacts.end(), told.impacts.begin(), told.impacts.end());
+        m_output.begins.insert(m_output.begins.end(), told.begins.begin(), told.begins.end());
+        m_output.kicked_shapes.insert(m_output.kicked_shapes.end(), told.kicked_shapes.begin(), told.kicked_shapes.end());
+        m_output.bulk_impacts += std::exchange(told.bulk_impacts, 0);
+        told.impacts.clear();
+        told.begins.clear();
+        told.kicked_shapes.clear();
+    }
+
+    void bounce_groups(int first, int last, int k, Told& told)
+    {
+        const std::span<const std::int32_t> lanes = m_output.struck_lanes;
+        for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(lanes, first * lane_count) - lanes.begin());
+             i < lanes.size() && lanes[i] < last * lane_count; ++i)
+        {
+            prefetch_struck(i);
+            bounce_lane(lanes[i], k, told);
+        }
+    }
+
+    // First the contact, then its shapes and where it is.
+    [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
+    {
+        const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
+        const SceneState& state = m_ctx.state;
+        const auto contact_of = [&](std::size_t lane)
+        { return m_wide[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
+        if (i + turns_ahead < lanes.size())
+            prefetch(state.contacts[contact_of(i + turns_ahead)]);
+        if (i + turns_ahead / 2 >= lanes.size())
+            return;
+        const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
+        for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
+            prefetch(state.shapes[shape]);
+        __builtin_prefetch(&state.sims[static_cast<std::size_t>(contact.body_a)]);
+    }
+
+    // It bears a load: told once, bounced once.
+    void bounce_lane(std::int32_t lane, int k, Told& told)
+    {
+        WideRow& wide = m_wide[lane / lane_count];
+        const int i = lane % lane_count;
+        const unsigned bit = 1u << i;
+        float approach = 0;
+        for (int p = 0; p < wide.count; ++p)
+        {
+            if (wide.points[p].normal_impulse.v[i] > 0)
+                approach = std::max(approach, wide.points[p].approach.v[i]);
+        }
+        const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
+        const std::int32_t index = m_unit.wide_store * lane_count + lane;
+        ContactRow row = row_of_lane(m_scratch, index);
+        row.hit = strikes ? 0 : 1;
+        if ((wide.untold & bit) != 0)
+            begin_touch(row, k, told);
+        wide.untold &= ~bit;
+        if (!strikes)
+            return;
+        resolve_impact(row, approach, k, told);
+        wide.may_hit &= ~bit;
+        put_impulses(m_scratch, row, index);
+    }
+
+    // What flies off is not pushed again by warm starting.
+    void forget_pushes(const ContactRow& before, const ContactRow& after)
+    {
+        for (int i = 0; i < before.count; ++i)
+        {
+            if (after.points[i].normal_impulse != 0)
+                continue;
+            const RowPoint& p = before.points[i];
+            note_push(before, p, p.normal_impulse * before.n + p.tangent_impulse * perp(before.n));
+        }
+    }
+
+    // Of an impulse that no row gives again.
+    void note_push(const ContactRow& row, const RowPoint& p, Vec2 impulse)
+    {
+        if (!m_notes_pushes)
+            return;
+        note_push(row.a, p.ra, -impulse);
+        note_push(row.b, p.rb, impulse);
+    }
+
+    void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    {
+        const StateConstants& c = m_view.constants[state];
+        BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
+        unpushed.velocity.x += c.inverse_mass.x * impulse.x;
+        unpushed.velocity.y += c.inverse_mass.y * impulse.y;
+        unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
+    }
+
+    void bounce_row(ContactRow& row, int k)
+    {
+        if (row.hit != 0)
+            return;
+        float approach = 0;
+        float load = 0;
+        for (int i = 0; i < row.count; ++i)
+        {
+            load += row.points[i].normal_impulse;
+            if (row.points[i].normal_impulse > 0)
+                approach = std::max(approach, row.points[i].approach);
+        }
+        if (load <= 0)
+            return;
+        const bool first_touch = (m_ctx.state.contacts[row.contact].flags & contact_flag::touching) == 0;
+        if (first_touch)
+            begin_touch(row, k, m_output);
+        if (approach > m_ctx.rest_speed)
+            resolve_impact(row, approach, k, m_output);
+    }
+
+    void resolve_impact(ContactRow& row, float approach, int k, Told& told)
+    {
+        row.hit = 1;
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        if (kick.a_fired)
+            told.kicked_shapes.push_back(contact.shape_a);
+        if (kick.b_fired)
+            told.kicked_shapes.push_back(contact.shape_b);
+        RawImpact raw{contact.shape_a, contact.shape_b, {}};
+        const ContactRow before = row;
+        bounce_points(row, e, kick.speed);
+        for (int i = 0; i < row.count; ++i)
+            account_for_bounce(row.points[i], e, kick.speed, raw.event);
+        forget_pushes(before, row);
+        fill_impact(row, raw.event, approach, e, kick.speed, k);
+        told.impacts.push_back(raw);
+        ++told.bulk_impacts;
+    }
+
+    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
+    {
+        return e * std::max(p.approach, 0.0f) + kick;
+    }
+
+    // How much separating speed a point still lacks.
+    [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
+    {
+        const BodyState& a = m_view.states[row.a];
+        const BodyState& b = m_view.states[row.b];
+        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
+        return wanted_speed(p, e, kick) - dot(v, row.n);
+    }
+
+    void push(const ContactRow& row, RowPoint& p, float impulse)
+    {
+        p.normal_impulse += impulse;
+        note_push(row, p, impulse * row.n);
+        apply_impulse(m_view.states[row.a], m_view.constants[row.a], p.ra, -impulse * row.n);
+        apply_impulse(m_view.states[row.b], m_view.constants[row.b], p.rb, impulse * row.n);
+    }
+
+    // Two points struck at once bounce at once: a box that lands flat bounces flat.
+    void bounce_points(ContactRow& row, float e, float kick)
+    {
+        if (e <= 0 && kick <= 0)
+            return;
+        RowPoint& p = row.points[0];
+        RowPoint& q = row.points[1];
+        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
+        {
+            const float k11 = 1 / p.normal_mass;
+            const float k22 = 1 / q.normal_mass;
+            const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
+            const float d1 = missing_speed(row, p, e, kick);
+            const float d2 = missing_speed(row, q, e, kick);
+            const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
+            const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
+            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0)
+            {
+                push(row, p, j1);
+                push(row, q, j2);
+                return;
+            }
+        }
+        for (int i = 0; i < row.count; ++i)
+        {
+            RowPoint& r = row.points[i];
+            if (r.normal_impulse > 0)
+                push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
+        }
+    }
+
+    static void account_for_bounce(RowPoint& p, float e, float kick, ImpactEvent& event)
+    {
+        const float wanted = wanted_speed(p, e, kick);
+        event.impulse += p.normal_impulse;
+        event.friction_impulse += p.tangent_impulse;
+        event.energy_lost += 0.5f * p.normal_impulse * (p.approach - wanted);
+        if (wanted > 0)
+        { // what flies off is not pushed again by warm starting
+            p.total_impulse += p.normal_impulse;
+            p.total_tangent += p.tangent_impulse;
+            p.normal_impulse = p.tangent_impulse = 0;
+        }
+    }
+
+    void fill_impact(const ContactRow& row, ImpactEvent& event, float approach, float e, float kick, int k) const
+    {
+        const RowPoint& p = row.points[0];
+        const float mass_a = point_mass(m_view.constants[row.a], row.n, p.ra);
+        const float mass_b = point_mass(m_view.constants[row.b], row.n, p.rb);
+        event.normal = row.n;
+        event.point = point_of(row);
+        event.time = m_ctx.h * static_cast<float>(k + 1);
+        event.approach_speed = approach;
+        event.restitution = e;
+        event.friction = row.friction;
+        event.kick_speed = kick;
+        event.effective_mass_a = mass_a;
+        event.effective_mass_b = mass_b;
+        // Speeds before the impact, from those after it and the impulse.
+        const BodyState& a = m_view.states[row.a];
+        event.speed_a = dot(a.velocity + cross(a.angular_velocity, p.ra), row.n) + (mass_a > 0 ? event.impulse / mass_a : 0);
+        event.speed_b = event.speed_a - approach;
+    }
+
+    static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
+    {
+        const float turn = cross(arm, n);
+        const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
+        return inverse > 0 ? 1 / inverse : 0;
+    }
+
+    [[nodiscard]] Position point_of(const ContactRow& row) const
+    {
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position +
+               row.points[0].ra;
+    }
+
+    void begin_touch(const ContactRow& row, int k, Told& told) const
+    {
+        Contact& contact = m_ctx.state.contacts[row.contact];
+        contact.flags |= contact_flag::touching | contact_flag::begun;
+        told.begins.push_back(
+            {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
+    }
+
+    const StepContext& m_ctx;
+    Scratch& m_scratch;
+    const Unit& m_unit;
+    UnitOutput& m_output;
+    const SolverView& m_view;
+    bool m_notes_pushes;
+    WideRow* m_wide;
+    const std::uint8_t* m_struck; ///< lanes of each group
+};
+
+} // namespace
+
+void note_approaches(const BouncingUnit& unit) { Bounces(unit).note_approaches(); }
+
+void bounce(const BouncingUnit& unit, int k, Crew& crew) { Bounces(unit).bounce(k, crew); }
+
+} // namespace carom::internal
