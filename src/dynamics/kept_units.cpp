@@ -22,18 +22,6 @@ bool is_plain(const Unit& unit)
            unit.core_count == 0 && !unit.heap && !unit.alone;
 }
 
-// Who bears a load matters to rows and heaps only.
-bool is_same(const Link& a, const Link& b)
-{
-    return a.contact == b.contact && a.a == b.a && a.b == b.b && a.touching == b.touching && a.solved == b.solved &&
-           a.plain == b.plain && a.round == b.round && a.points == b.points && a.color == b.color;
-}
-
-bool are_same(const std::vector<Link>& a, const std::vector<Link>& b)
-{
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), is_same);
-}
-
 } // namespace
 
 bool bodies_stay(const StepContext& ctx)
@@ -49,7 +37,7 @@ bool units_stay(const StepContext& ctx)
     const Scratch& scratch = ctx.scratch;
     const KeptUnits& kept = scratch.kept_units;
     return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() &&
-           are_same(kept.links, scratch.links) && (kept.joints_stay || kept.joints == scratch.joint_links);
+           kept.links_stay && (kept.joints_stay || kept.joints == scratch.joint_links);
 }
 
 void keep_units(StepContext& ctx)

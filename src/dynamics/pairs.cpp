@@ -1,5 +1,6 @@
 // Stage 2, pairs: boxes that moved or are new ask both layers what they overlap. What then becomes of a pair stands in pair_fates.cpp.
 
+#include "core/grow.h"
 #include "core/pair_set.h"
 #include "core/task_pool.h"
 #include "dynamics/body_path.h"
@@ -222,7 +223,7 @@ void leave_out_doubles(Pairs& pairs)
 void add_pairs(StepContext& ctx)
 {
     for (const std::uint64_t key : ctx.scratch.new_pairs)
-        ctx.state.box_pairs.push_back({static_cast<std::int32_t>(key & 0xffffffffu), static_cast<std::int32_t>(key >> 32), none});
+        append(ctx.state.box_pairs, {static_cast<std::int32_t>(key & 0xffffffffu), static_cast<std::int32_t>(key >> 32), none});
 }
 
 } // namespace

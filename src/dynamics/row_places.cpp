@@ -4,6 +4,7 @@
 
 #include "dynamics/row_places.h"
 
+#include "core/grow.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/scene_data.h"
@@ -181,6 +182,7 @@ private:
             {
                 give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.rows[color]; }, row);
             });
+        make_room(m_scratch.lane_links, as_index(lane));
         m_scratch.lane_links.resize(as_index(lane), none);
         m_scratch.row_links.resize(as_index(row));
     }

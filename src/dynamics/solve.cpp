@@ -37,6 +37,7 @@ void UnitOutput::clear()
     kicked_shapes.clear();
     deflected.clear();
     reaches.clear();
+    hold_sets.clear();
     path.clear();
     last_piece.clear();
     poses.clear();

@@ -2,6 +2,7 @@
 // last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
 // in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
+#include "core/grow.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
@@ -53,6 +54,8 @@ void part_bodies(StepContext& ctx)
         body_of(rank).plane_cell = cell_of(rank);
 }
 
+std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
 class ContactOrder
 {
 public:
@@ -64,6 +67,7 @@ public:
     void find()
     {
         m_order.clear();
+        make_room(m_order, m_state.awake_contacts.size());
         m_scratch.order.assign(m_state.awake_contacts.size(), 0); // placed already
         for (const Unit& unit : m_scratch.units)
         {
@@ -147,7 +151,7 @@ private:
             ++starts[key(p) + 1];
         for (std::size_t k = 0; k < keys; ++k)
             starts[k + 1] += starts[k];
-        m_sorted.resize(m_order.size());
+        set_size(m_sorted, m_order.size());
         for (const ContactPlace& p : m_order)
             m_sorted[static_cast<std::size_t>(starts[key(p)]++)] = p;
         m_order.swap(m_sorted);
@@ -169,7 +173,17 @@ private:
     void move_contacts(const std::vector<std::int32_t>& slots)
     {
         std::ranges::fill(m_state.colors, 0); // chosen in the new order
-        move_items(slots, [&](int slot) -> Contact& { return m_state.contacts[slot]; });
+        find_cycles(slots);
+        run_tasks(m_tasks, 3,
+                  [&](int task)
+                  {
+                      switch (task)
+                      {
+                      case 0: move_items([&](int slot) -> Contact& { return m_state.contacts[slot]; }); break;
+                      case 1: move_items([&](int slot) -> KeptManifold& { return m_state.kept_manifolds[as_index(slot)]; }); break;
+                      default: move_items([&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); }); break;
+                      }
+                  });
         for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
                           [&](std::size_t i)
                           {
@@ -178,25 +192,52 @@ private:
                               contact.color = none;
                               rename_edges(contact);
                               if (contact.pair != none)
-                                  m_state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = slots[i];
+                                  m_state.box_pairs[as_index(contact.pair)].contact = slots[i];
                           });
-        move_items(slots, [&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); });
-        move_items(slots, [&](int slot) -> KeptManifold& { return m_state.kept_manifolds[static_cast<std::size_t>(slot)]; });
     }
 
-    // Through one room for both kinds of items.
-    template <class At>
-    void move_items(const std::vector<std::int32_t>& slots, const At& at)
+    // What goes to another's slot, that to a third's, and so on until the first slot is free to be taken: one after the other, the first marked.
+    void find_cycles(const std::vector<std::int32_t>& slots)
     {
-        using Item = std::remove_reference_t<decltype(at(0))>;
-        static_assert(std::is_trivially_copyable_v<Item>);
-        std::vector<std::byte>& room = m_scratch.moved_items;
-        room.resize(std::max(room.size(), slots.size() * sizeof(Item)));
-        const auto place = [&](std::size_t i) -> void* { return room.data() + i * sizeof(Item); };
-        for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
-                          [&](std::size_t i) { std::memcpy(place(i), &at(m_order[i].contact), sizeof(Item)); });
-        for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
-                          [&](std::size_t i) { std::memcpy(static_cast<void*>(&at(slots[i])), place(i), sizeof(Item)); });
+        std::vector<std::int32_t>& cycles = m_scratch.move_cycles;
+        cycles.clear();
+        for (const std::int32_t first : slots)
+        {
+            if (is_marked(m_moved_to[as_index(first)]) || m_moved_to[as_index(first)] == first)
+                continue;
+            cycles.push_back(marked(first));
+            for (std::int32_t slot = first;;)
+            {
+                const std::int32_t next = std::exchange(m_moved_to[as_index(slot)], marked(m_moved_to[as_index(slot)]));
+                if (next == first)
+                    break;
+                cycles.push_back(next);
+                slot = next;
+            }
+        }
+        for (std::int32_t& slot : m_moved_to)
+            slot = is_marked(slot) ? marked(slot) : slot;
+    }
+
+    static bool is_marked(std::int32_t slot) { return slot < 0; }
+    static std::int32_t marked(std::int32_t slot) { return ~slot; } // and back
+
+    // From the last of each cycle to its first, so that there is always room.
+    template <class At>
+    void move_items(const At& at) const
+    {
+        static_assert(std::is_trivially_copyable_v<std::remove_reference_t<decltype(at(0))>>);
+        const std::vector<std::int32_t>& cycles = m_scratch.move_cycles;
+        for (std::size_t i = cycles.size(); i-- > 0;)
+        {
+            const auto last = at(cycles[i]);
+            for (; !is_marked(cycles[i]); --i)
+            {
+                const std::int32_t from = is_marked(cycles[i - 1]) ? marked(cycles[i - 1]) : cycles[i - 1];
+                at(cycles[i]) = at(from);
+            }
+            at(marked(cycles[i])) = last;
+        }
     }
 
     void rename_others()

@@ -3,6 +3,7 @@
 
 #include "dynamics/unit_graph.h"
 
+#include "core/grow.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/body_store.h"
@@ -93,6 +94,13 @@ void for_each_run(std::size_t count, const UnitOf& unit_of, const Visit& visit)
     }
 }
 
+// Who bears a load matters to rows and heaps only.
+bool is_same(const Link& a, const Link& b)
+{
+    return a.contact == b.contact && a.a == b.a && a.b == b.b && a.touching == b.touching && a.solved == b.solved &&
+           a.plain == b.plain && a.round == b.round && a.points == b.points && a.color == b.color;
+}
+
 // --- the graph --------------------------------------------------------------------------------------------------------------------
 
 class UnitGraph
@@ -165,14 +173,36 @@ public:
         return kind;
     }
 
-    // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly.
+    // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly. Links of the last step
+    // are compared with these, and give their place to them.
     void gather_links()
     {
-        scratch.links.swap(scratch.kept_units.links); // those of the last step: to be compared with these
         const TaskHooks& tasks = ctx.scene.def.tasks;
-        const std::span<SomeLinks> parts = find_in_parts(
-            tasks, state.awake_contacts.size(), part_of(state.awake_contacts.size(), contacts_per_task), scratch.links_of_task,
-            [&](std::size_t first, std::size_t last, SomeLinks& some) { gather_some(first, last, some); });
+        const std::size_t contacts = state.awake_contacts.size();
+        const std::size_t part = part_of(contacts, contacts_per_task);
+        const bool in_place = contacts > 0 && contacts <= part;
+        if (in_place)
+        {
+            scratch.links_of_task.resize(std::max<std::size_t>(scratch.links_of_task.size(), 1));
+            scratch.links.swap(scratch.links_of_task[0].links);
+        }
+        const std::span<SomeLinks> parts =
+            find_in_parts(tasks, contacts, part, scratch.links_of_task, [&](std::size_t first, std::size_t last, SomeLinks& some)
+                          { gather_some(first, last, in_place && scratch.kept_units.are_plain, some); });
+        if (in_place)
+        {
+            scratch.links.swap(parts[0].links);
+            scratch.kept_units.links_stay = parts[0].stay;
+            ctx.report.touching += parts[0].touching;
+        }
+        else
+        {
+            join_links(parts);
+        }
+    }
+
+    void join_links(std::span<SomeLinks> parts)
+    {
         std::size_t count = 0;
         for (SomeLinks& some : parts)
         {
@@ -180,18 +210,16 @@ public:
             count += some.links.size();
             ctx.report.touching += some.touching;
         }
-        if (parts.size() == 1)
-        {
-            scratch.links.swap(parts[0].links);
-            return;
-        }
-        scratch.links.resize(count);
-        for_each_in_parts(tasks, parts.size(), 4,
+        const bool may_stay = scratch.kept_units.are_plain && scratch.links.size() == count;
+        set_size(scratch.links, count);
+        for_each_in_parts(ctx.scene.def.tasks, parts.size(), 4,
                           [&](std::size_t i)
                           {
-                              std::copy(parts[i].links.begin(), parts[i].links.end(),
-                                        scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first));
+                              const auto to = scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
+                              parts[i].stay = may_stay && std::equal(parts[i].links.begin(), parts[i].links.end(), to, is_same);
+                              std::copy(parts[i].links.begin(), parts[i].links.end(), to);
                           });
+        scratch.kept_units.links_stay = may_stay && std::ranges::all_of(parts, &SomeLinks::stay);
     }
 
     // One thread alone finds all in one place.
@@ -201,11 +229,14 @@ public:
     }
 
     // Writes to its own contacts, and grounds bodies, which others may do as well.
-    void gather_some(std::size_t first, std::size_t last, SomeLinks& some) const
+    void gather_some(std::size_t first, std::size_t last, bool compare, SomeLinks& some) const
     {
         some.touching = 0;
-        some.links.resize(last - first);
+        const std::size_t before = some.links.size();
+        set_size(some.links, std::max(before, last - first));
         Link* next = some.links.data();
+        const Link* const end_before = next + (compare ? before : 0);
+        bool stay = compare;
         for (std::size_t i = first; i < last; ++i)
         {
             const std::int32_t index = state.awake_contacts[i];
@@ -227,7 +258,13 @@ public:
                 leave_color(state, contact);
                 continue;
             }
+            const bool plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
+            const bool round = (contact.flags & contact_flag::round) != 0;
+            const auto points = static_cast<std::int16_t>(contact.manifold.count);
+            const auto color = static_cast<std::int16_t>(contact.color);
             Link& l = *next++; // filled where it stands: a copy would wait for its bytes
+            if (stay)
+                stay = &l < end_before && is_same(l, {index, a, b, touching, solved, false, plain, round, false, points, color});
             l.contact = index;
             l.a = a;
             l.b = b;
@@ -240,11 +277,12 @@ public:
                 ground(a);
                 ground(b);
             }
-            l.plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
-            l.round = (contact.flags & contact_flag::round) != 0;
-            l.points = static_cast<std::int16_t>(contact.manifold.count);
-            l.color = static_cast<std::int16_t>(contact.color);
+            l.plain = plain;
+            l.round = round;
+            l.points = points;
+            l.color = color;
         }
+        some.stay = stay && next == end_before;
         some.links.resize(static_cast<std::size_t>(next - some.links.data()));
     }
 
@@ -765,7 +803,7 @@ public:
     // On all threads: what follows goes by these alone.
     void find_units_of_links()
     {
-        scratch.unit_of_link.resize(scratch.links.size());
+        set_size(scratch.unit_of_link, scratch.links.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), items_per_task,
                           [&](std::size_t i) { scratch.unit_of_link[i] = unit_of_row(scratch.links[i]); });
     }
@@ -846,7 +884,7 @@ private:
             set_range(scratch.units[u], starts[u], starts[u + 1]);
             starts[u + 1] += starts[u];
         }
-        sorted.resize(static_cast<std::size_t>(starts.back()));
+        set_size(sorted, static_cast<std::size_t>(starts.back()));
         for_each_run(items.size(), unit_of,
                      [&](std::size_t first, std::size_t last, std::int32_t unit)
                      {

@@ -73,7 +73,6 @@ public:
     void add_fliers()
     {
         m_scratch.fliers.resize(m_scratch.flier_seeds.size());
-        m_scratch.holds.resize(std::max(m_scratch.holds.size(), m_scratch.fliers.size() * Flier::most_held));
         m_scratch.event_times.assign(m_scratch.fliers.size(), 1e300);
         m_scratch.flier_of_state.assign(m_scratch.state_bodies.size(), none);
         m_scratch.versions.assign(m_scratch.state_bodies.size(), 0);
@@ -343,7 +342,6 @@ private:
         Flier& flier = m_scratch.fliers[as_index(i)];
         flier = make_flier(unit_ctx, seed.state, seed.body, seed.kind);
         flier.landed = seed.landed;
-        flier.held = m_scratch.holds.data() + as_index(i) * Flier::most_held;
         m_scratch.flier_of_state[as_index(seed.state)] = i;
         if (!seed.landed)
             m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;

@@ -40,8 +40,8 @@ void push_back(const FlightSpan& span, const Hold& h, double time)
 
 void release_holds(const FlightSpan& span, Flier& f, double time)
 {
-    for (int i = 0; i < f.held_count; ++i)
-        push_back(span, f.held[i], time);
+    for (const Hold& h : span.holds_of(f))
+        push_back(span, h, time);
     fall_freely(span, f);
 }
 

@@ -71,7 +71,7 @@ int ImpactSet::member_of(int body)
         {
             if (!is_capped(m_span, *m.flier))
                 advance(m_span, *m.flier, m_time);
-            released.assign(m.flier->held, m.flier->held + m.flier->held_count);
+            released.assign(m_span.holds_of(*m.flier).begin(), m_span.holds_of(*m.flier).end());
             held = {.vx = m.flier->ax, .vy = m.flier->ay, .w = m.flier->alpha};
             release_holds(m_span, *m.flier, m_time);
             held = {.vx = held.vx - m.flier->ax, .vy = held.vy - m.flier->ay, .w = held.w - m.flier->alpha};

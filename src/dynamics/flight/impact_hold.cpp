@@ -196,8 +196,15 @@ void ImpactSet::add_hold(Flier& f, const Hold& h) const
     const bool moves = holder.velocity != Vec2{} || holder.angular_velocity != 0;
     const std::int32_t carrier = !firm || conveys ? none : moves ? m_state.shapes[h.other].body : held_by_world;
     f.carrier = f.held_count == 0 || f.carrier == carrier ? carrier : none;
-    if (f.held_count < Flier::most_held)
-        f.held[f.held_count++] = h;
+    if (f.held_count == Flier::most_held)
+        return;
+    std::vector<HoldSet>& sets = m_span.output.hold_sets;
+    if (f.hold_set == none)
+    {
+        f.hold_set = static_cast<std::int32_t>(sets.size());
+        sets.emplace_back();
+    }
+    sets[static_cast<std::size_t>(f.hold_set)][static_cast<std::size_t>(f.held_count++)] = h;
 }
 
 // Whatever turns under it: the bend of the surface, what carries the surface, and the body itself where it is no ball.

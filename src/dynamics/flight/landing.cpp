@@ -7,6 +7,7 @@
 #include "dynamics/prepare.h"
 
 #include <cmath>
+#include <span>
 
 namespace carom::internal {
 
@@ -17,14 +18,12 @@ constexpr double most_bend = 0.25;
 constexpr double most_bend_in_step = 1;
 
 // Between two points of one shape, as a plank in a narrow bowl.
-bool is_wedged(const Flier& f)
+bool is_wedged(std::span<const Hold> holds)
 {
-    for (int i = 0; i < f.held_count; ++i)
+    for (const Hold& a : holds)
     {
-        for (int j = 0; j < i; ++j)
+        for (const Hold& b : holds)
         {
-            const Hold& a = f.held[i];
-            const Hold& b = f.held[j];
             if (a.own == b.own && a.other == b.other && dot(a.normal, b.normal) < one_normal)
                 return true;
         }
@@ -84,9 +83,8 @@ private:
         const std::int32_t other = is_a ? contact.shape_b : contact.shape_a;
         const BodyState& a = m_span.state_of(row.a);
         const Vec2 center = to_vec2(m_span.sim_of(contact.body_a).center + a.delta_position);
-        for (int i = 0; i < m_flier.held_count; ++i)
+        for (const Hold& h : m_span.holds_of(m_flier))
         {
-            const Hold& h = m_flier.held[i];
             if (h.own != own || h.other != other)
                 continue;
             const auto distance = [&](const RowPoint& p) { return length(center + p.ra - h.point); };
@@ -160,7 +158,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
     if (f.held_count == 0 && !f.rests)
         return;
     const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
-    const bool is_beyond_rows = f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || is_wedged(f);
+    const bool is_beyond_rows = f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || is_wedged(span.holds_of(f));
     if (is_beyond_rows || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
         release_holds(span, f, span.h);
     else

@@ -9,18 +9,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace carom::internal {
 
 namespace {
 
 // Of a pair whose other corners may come down yet: held at one of them it turns about that.
-ProbeSet held_corners(const Flier& f, std::int32_t own, std::int32_t other)
+ProbeSet held_corners(std::span<const Hold> holds, std::int32_t own, std::int32_t other)
 {
     ProbeSet held;
-    for (int i = 0; i < f.held_count; ++i)
+    for (const Hold& h : holds)
     {
-        const Hold& h = f.held[i];
         if (h.own != own || h.other != other)
             continue;
         held.of_a |= h.other_corners;
@@ -200,7 +200,7 @@ private:
         const std::optional<Touch> hit =
             first_touch(a, target, b, own_path, left, m_span.least_approach,
                         state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : Press{},
-                        held_corners(m_flier, own, shape), normal.is_none() ? line : normal);
+                        held_corners(m_span.holds_of(m_flier), own, shape), normal.is_none() ? line : normal);
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.

@@ -6,6 +6,7 @@
 #include "carom/math.h"
 #include "dynamics/scene_state.h"
 
+#include <array>
 #include <cstdint>
 
 namespace carom::internal {
@@ -172,7 +173,7 @@ struct Flier
     float limit_reaction = 0; ///< N m s, of the limits, over the step
 
     static constexpr int most_held = 12;
-    Hold* held = nullptr; ///< its place in Scratch::holds
+    std::int32_t hold_set = none; ///< in UnitOutput::hold_sets; none: nothing has held it in this step
     std::int32_t held_count = 0;
     bool rests = false; ///< against something that gives way
     bool led = false;   ///< what holds it does not give way
@@ -194,5 +195,7 @@ struct Flier
     bool constrained = false;        ///< its accelerations are those of a hold
     bool landed = false;             ///< does not fly: the solver has it, until something makes it fast
 };
+
+using HoldSet = std::array<Hold, Flier::most_held>;
 
 } // namespace carom::internal

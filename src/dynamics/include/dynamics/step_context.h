@@ -143,6 +143,7 @@ struct SomeLinks
     std::vector<Link> links;
     std::size_t first = 0; ///< where they go among all
     int touching = 0;
+    bool stay = false; ///< they are what they were
 };
 
 /// Where what may be deflected may come, and its leaves.
@@ -203,11 +204,11 @@ struct KeptBody
 struct KeptUnits
 {
     std::vector<KeptBody> bodies;
-    std::vector<Link> links;
     std::vector<JointLink> joints;
     std::vector<std::uint8_t> bound;    ///< of each state: rows, limits or motors hold it
     bool are_plain = false;             ///< nothing in them depends on anything else
     bool stay_so = false;               ///< and no body or joint has changed, come or gone since
+    bool links_stay = false;            ///< those of contacts are what they were
     bool joints_stay = false;           ///< so that links of joints are what they were
     bool hinges_stay = false;           ///< and wide hinges stand where they stood
     bool has_hung = false;              ///< as Scratch::has_hung when links of joints were gathered
@@ -323,6 +324,7 @@ struct UnitOutput : Told
     std::vector<Told> told_by_others;         ///< by all threads but the leader's, empty but for while they tell
     std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;               ///< of each of these
+    std::vector<HoldSet> hold_sets;           ///< of fliers that something has held
     std::vector<PathPiece> path;              ///< of traced bodies, of each in the order of time
     std::vector<std::int32_t> last_piece;     ///< of each state of the unit; empty before the first
     std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
@@ -422,7 +424,6 @@ struct Scratch
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
-    std::vector<Hold> holds;         ///< Flier::most_held of each flier
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
     std::vector<UnitOutput> outputs;
@@ -443,7 +444,7 @@ struct Scratch
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
     std::vector<std::int32_t> moved_to; ///< by contact slot
-    std::vector<std::byte> moved_items; ///< on their way
+    std::vector<std::int32_t> move_cycles; ///< see tidy.cpp
     HilbertOrder plane_order;           ///< of the awake bodies
 };
 

@@ -30,6 +30,7 @@ struct FlightSpan
     FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out);
 
     [[nodiscard]] std::span<Flier> fliers() const;
+    [[nodiscard]] std::span<const Hold> holds_of(const Flier& f) const;
     [[nodiscard]] Flier* flier_at(std::int32_t state_index) const; ///< nothing for what does not fly or has landed
     [[nodiscard]] BodyState& state_of(std::int32_t index) const { return scratch.states[static_cast<std::size_t>(index)]; }
     [[nodiscard]] const StateConstants& constants_of(std::int32_t i) const
