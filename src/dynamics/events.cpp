@@ -77,13 +77,17 @@ void take_pending(std::vector<Event>& pending, std::vector<Event>& events)
 
 // --- callbacks -----------------------------------------------------------------------------------------------------------------------------
 
+std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, int shape)
+{
+    const auto slot = static_cast<std::size_t>(shape);
+    return slot < scene.callbacks.size() ? scene.callbacks[slot] : nullptr;
+}
+
 // The callbacks of a shape that still lives, held: the callback may replace or destroy them.
 std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, ShapeId id)
 {
     const int slot = static_cast<int>(id.slot) - 1;
-    if (!scene.state.shapes.is_live(slot, id.generation))
-        return nullptr;
-    return scene.shape_extras[static_cast<std::size_t>(slot)].callbacks;
+    return scene.state.shapes.is_live(slot, id.generation) ? callbacks_of(scene, slot) : nullptr;
 }
 
 template <class Event>
@@ -149,7 +153,7 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
     const SceneState& state = scene.state;
     const auto listens = [&](int shape)
     {
-        const auto& callbacks = scene.shape_extras[static_cast<std::size_t>(state.shapes[shape].owner)].callbacks;
+        const auto callbacks = callbacks_of(scene, state.shapes[shape].owner);
         return callbacks && callbacks->on_trigger_inside;
     };
     for (const std::int32_t index : state.trigger_contacts)

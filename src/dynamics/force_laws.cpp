@@ -66,7 +66,7 @@ void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOut
     if ((s.flags & body_flag::unsound) != 0)
         return;
     const int body = scratch.state_bodies[index];
-    const ForceLaw& law = ctx.scene.body_extras[static_cast<std::size_t>(body)].law;
+    const ForceLaw& law = ctx.scene.laws[static_cast<std::size_t>(body)];
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     const Load load = law.function(law.user, motion_at(ctx, sim, s, k, impacts_of(ctx, body, k, output)));
     StateConstants& c = scratch.constants[index];

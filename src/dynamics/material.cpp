@@ -16,7 +16,7 @@ struct Side
 
 std::uint64_t user_data_of(const SceneData& scene, int shape)
 {
-    return scene.shape_extras[static_cast<std::size_t>(scene.state.shapes[shape].owner)].user_data;
+    return scene.shape_user_data[static_cast<std::size_t>(scene.state.shapes[shape].owner)];
 }
 
 float mix(const SceneData& scene, MixedValue what, const Side& a, const Side& b)

@@ -415,6 +415,30 @@ std::vector<Leaf> make_leaves(const Geometry& geometry, VertexStore& store)
     return std::visit([&](const auto& shape) { return leaves_of(shape, store); }, geometry);
 }
 
+Geometry geometry_of(const LeafView& view)
+{
+    const Leaf& leaf = *view.leaf;
+    switch (leaf.type)
+    {
+    case LeafType::HalfSpace: return HalfSpace{leaf.p0, leaf.r0};
+    case LeafType::Circle: return Circle{leaf.p0, leaf.r0};
+    case LeafType::Polygon: return Polygon{{view.points, view.points + leaf.count}, leaf.r0};
+    case LeafType::Capsule: return Capsule{leaf.p0, leaf.p1, leaf.r0, leaf.r1};
+    case LeafType::Segment: return Segment{leaf.p0, leaf.p1, leaf.r0, leaf.sides};
+    case LeafType::Arc: return Arc{leaf.p0, leaf.arc_radius, leaf.start_angle, leaf.sweep, leaf.r0, leaf.sides};
+    }
+    return {};
+}
+
+Chain chain_of(std::span<const LeafView> pieces)
+{
+    const Leaf& first = *pieces.front().leaf;
+    Chain chain{.start = start_point(first), .closed = first.has_previous, .half_thickness = first.r0, .sides = first.sides};
+    for (const LeafView& piece : pieces)
+        chain.pieces.push_back({end_point(*piece.leaf), piece.leaf->sweep});
+    return chain;
+}
+
 } // namespace carom::internal
 
 namespace carom {

@@ -62,8 +62,8 @@ BodyId Scene::create_body(const BodyDef& def)
     grow(state.sims, index + 1);
     grow(state.colors, index + 1);
     state.sims[index] = make_sim(def);
-    grow(m_data->body_extras, index + 1);
-    m_data->body_extras[index] = {.user_data = def.user_data};
+    grow(m_data->body_user_data, index + 1);
+    m_data->body_user_data[index] = def.user_data;
     update_mass(state, slot);
     if (def.awake && def.enabled && def.type != BodyType::Static)
         enter_awake(*m_data, slot);
@@ -96,7 +96,11 @@ void Scene::set_force_law(BodyId id, const ForceLaw& law)
         !check.not_negative("ForceLaw::greatest_force", law.greatest_force) ||
         !check.not_negative("ForceLaw::greatest_torque", law.greatest_torque))
         return;
-    ForceLaw& slot = m_data->body_extras[static_cast<std::size_t>(slot_of(id))].law;
+    const auto index = static_cast<std::size_t>(slot_of(id));
+    if (law.function == nullptr && index >= m_data->laws.size())
+        return;
+    grow(m_data->laws, index + 1);
+    ForceLaw& slot = m_data->laws[index];
     m_data->law_count += static_cast<int>(law.function != nullptr) - static_cast<int>(slot.function != nullptr);
     slot = law.function != nullptr ? law : ForceLaw{};
 }
@@ -200,7 +204,7 @@ bool ConstBody::can_sleep() const
 std::uint64_t ConstBody::user_data() const
 {
     return record_of(m_data, m_id, "Body::user_data") != nullptr
-               ? m_data->body_extras[static_cast<std::size_t>(slot_of(m_id))].user_data
+               ? m_data->body_user_data[static_cast<std::size_t>(slot_of(m_id))]
                : 0;
 }
 
@@ -567,7 +571,7 @@ void Body::set_can_sleep(bool can_sleep)
 void Body::set_user_data(std::uint64_t user_data)
 {
     if (const Target t(m_data, m_id, "Body::set_user_data"); t)
-        m_data->body_extras[static_cast<std::size_t>(t.slot)].user_data = user_data;
+        m_data->body_user_data[static_cast<std::size_t>(t.slot)] = user_data;
 }
 
 } // namespace carom

@@ -315,8 +315,8 @@ JointId Scene::create_joint(const JointDef& def)
         return {};
     const int slot = state.joints.create(record);
     link_joint(state, slot);
-    grow(m_data->joint_extras, static_cast<std::size_t>(state.joints.capacity()));
-    m_data->joint_extras[static_cast<std::size_t>(slot)] = {user_data};
+    grow(m_data->joint_user_data, static_cast<std::size_t>(state.joints.capacity()));
+    m_data->joint_user_data[static_cast<std::size_t>(slot)] = user_data;
     state.graph_dirty = true;
     if (!record.collide_connected)
         drop_contacts_between(*m_data, record.body_a, record.body_b);
@@ -427,7 +427,7 @@ float ConstJoint::torque() const { return record_of(m_data, m_id, "Joint::torque
 std::uint64_t ConstJoint::user_data() const
 {
     return check_live(*m_data, "Joint::user_data", "joint", m_id)
-               ? m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data
+               ? m_data->joint_user_data[static_cast<std::size_t>(slot_of(m_id))]
                : 0;
 }
 
@@ -453,7 +453,7 @@ void Joint::set_def(const JointDef& def)
             const Vec2 gap = anchor_in_world(m_data->state, record.body_b, d.anchor_b) -
                              anchor_in_world(m_data->state, record.body_a, d.anchor_a);
             write(record, d, length(gap));
-            m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data = d.user_data;
+            m_data->joint_user_data[static_cast<std::size_t>(slot_of(m_id))] = d.user_data;
             m_data->state.graph_dirty = true;
             if (forbids_now)
                 drop_contacts_between(*m_data, record.body_a, record.body_b);
@@ -465,7 +465,7 @@ void Joint::set_def(const JointDef& def)
 void Joint::set_user_data(std::uint64_t user_data)
 {
     if (check_live(*m_data, "Joint::set_user_data", "joint", m_id))
-        m_data->joint_extras[static_cast<std::size_t>(slot_of(m_id))].user_data = user_data;
+        m_data->joint_user_data[static_cast<std::size_t>(slot_of(m_id))] = user_data;
 }
 
 } // namespace carom

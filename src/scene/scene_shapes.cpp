@@ -8,6 +8,9 @@
 #include "scene/access.h"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace carom {
 
@@ -134,6 +137,24 @@ void for_each_own_leaf(const SceneState& state, int shape, Visit&& visit)
     }
 }
 
+// As it was normalized.
+Geometry geometry_of(const SceneState& state, int shape)
+{
+    std::vector<LeafView> leaves;
+    for_each_own_leaf(state, shape, [&](int leaf) { leaves.push_back(leaf_view(state, leaf)); });
+    return state.shapes[shape].has_leaf ? internal::geometry_of(leaves.front()) : chain_of(leaves);
+}
+
+void keep_callbacks(SceneData& data, int shape, std::shared_ptr<const ShapeCallbacks> callbacks)
+{
+    const auto slot = static_cast<std::size_t>(shape);
+    if (callbacks == nullptr && slot >= data.callbacks.size())
+        return;
+    grow(data.callbacks, slot + 1);
+    data.callback_count += (callbacks ? 1 : 0) - (data.callbacks[slot] ? 1 : 0);
+    data.callbacks[slot] = std::move(callbacks);
+}
+
 } // namespace
 
 namespace internal {
@@ -205,9 +226,7 @@ void destroy_shape(SceneData& data, int shape)
 {
     remove_leaves(data, shape);
     unlink_shape(data, shape);
-    ShapeExtra& extra = data.shape_extras[static_cast<std::size_t>(shape)];
-    data.callback_count -= extra.callbacks ? 1 : 0;
-    extra = {};
+    keep_callbacks(data, shape, nullptr);
     data.state.shapes.destroy(shape);
 }
 
@@ -235,8 +254,8 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     (owner.last_shape == none ? owner.first_shape : state.shapes[owner.last_shape].next_shape) = slot;
     owner.last_shape = slot;
     add_leaves(*m_data, slot, normal);
-    grow(m_data->shape_extras, static_cast<std::size_t>(state.shapes.capacity()));
-    m_data->shape_extras[static_cast<std::size_t>(slot)] = {def.user_data, std::move(normal), nullptr};
+    grow(m_data->shape_user_data, static_cast<std::size_t>(state.shapes.capacity()));
+    m_data->shape_user_data[static_cast<std::size_t>(slot)] = def.user_data;
     include_mass(state, body_slot, slot);
     wake_body(*m_data, body_slot);
     return shape_id(state, slot);
@@ -256,11 +275,9 @@ void Scene::set_callbacks(ShapeId id, ShapeCallbacks callbacks)
 {
     if (!check_live(*m_data, "Scene::set_callbacks", "shape", id))
         return;
-    auto& slot = m_data->shape_extras[static_cast<std::size_t>(slot_of(id))].callbacks;
     const bool any = callbacks.on_contact_begin || callbacks.on_impact || callbacks.on_contact_end ||
                      callbacks.on_trigger_enter || callbacks.on_trigger_inside || callbacks.on_trigger_exit;
-    m_data->callback_count += static_cast<int>(any) - (slot ? 1 : 0);
-    slot = any ? std::make_shared<const ShapeCallbacks>(std::move(callbacks)) : nullptr;
+    keep_callbacks(*m_data, slot_of(id), any ? std::make_shared<const ShapeCallbacks>(std::move(callbacks)) : nullptr);
 }
 
 Shape Scene::shape(ShapeId id)
@@ -305,7 +322,7 @@ BodyId ConstShape::body() const
 Geometry ConstShape::geometry() const
 {
     return check_live(*m_data, "Shape::geometry", "shape", m_id)
-               ? m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].geometry
+               ? geometry_of(m_data->state, slot_of(m_id))
                : Geometry{};
 }
 
@@ -313,7 +330,7 @@ ShapeDef ConstShape::def() const
 {
     if (!check_live(*m_data, "Shape::def", "shape", m_id))
         return {};
-    return read_def(m_data->state, slot_of(m_id), m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data);
+    return read_def(m_data->state, slot_of(m_id), m_data->shape_user_data[static_cast<std::size_t>(slot_of(m_id))]);
 }
 
 bool ConstShape::is_trigger() const
@@ -324,7 +341,7 @@ bool ConstShape::is_trigger() const
 std::uint64_t ConstShape::user_data() const
 {
     return check_live(*m_data, "Shape::user_data", "shape", m_id)
-               ? m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data
+               ? m_data->shape_user_data[static_cast<std::size_t>(slot_of(m_id))]
                : 0;
 }
 
@@ -368,7 +385,7 @@ void Shape::set_def(const ShapeDef& def)
         return;
     SceneState& state = m_data->state;
     const int slot = slot_of(m_id);
-    if (!def.trigger && !check_mass(function, m_data->shape_extras[static_cast<std::size_t>(slot)].geometry, def.density))
+    if (!def.trigger && !check_mass(function, geometry_of(state, slot), def.density))
         return;
     const ShapeRecord old = state.shapes[slot];
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
@@ -393,7 +410,7 @@ void Shape::set_def(const ShapeDef& def)
                          mix_materials(*m_data, state.contacts[contact]);
                          leave_lane(state, contact);
                      });
-    m_data->shape_extras[static_cast<std::size_t>(slot)].user_data = def.user_data;
+    m_data->shape_user_data[static_cast<std::size_t>(slot)] = def.user_data;
     if (old.density != def.density || old.trigger != def.trigger)
         update_mass(state, old.body);
     wake_body(*m_data, old.body);
@@ -413,8 +430,6 @@ void Shape::set_geometry(const Geometry& geometry)
         return;
     remove_leaves(*m_data, slot);
     add_leaves(*m_data, slot, normal);
-    grow(m_data->shape_extras, static_cast<std::size_t>(m_data->state.shapes.capacity()));
-    m_data->shape_extras[static_cast<std::size_t>(slot)].geometry = std::move(normal);
     update_mass(m_data->state, body);
     wake_body(*m_data, body);
 }
@@ -422,7 +437,7 @@ void Shape::set_geometry(const Geometry& geometry)
 void Shape::set_user_data(std::uint64_t user_data)
 {
     if (check_live(*m_data, "Shape::set_user_data", "shape", m_id))
-        m_data->shape_extras[static_cast<std::size_t>(slot_of(m_id))].user_data = user_data;
+        m_data->shape_user_data[static_cast<std::size_t>(slot_of(m_id))] = user_data;
 }
 
 } // namespace carom

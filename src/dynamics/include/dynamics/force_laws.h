@@ -12,10 +12,10 @@ namespace carom::internal {
 /// Nothing for a body without one.
 [[nodiscard]] inline const ForceLaw* force_law_of(const StepContext& ctx, int body)
 {
-    if (ctx.scene.law_count == 0)
+    const auto slot = static_cast<std::size_t>(body);
+    if (ctx.scene.law_count == 0 || slot >= ctx.scene.laws.size())
         return nullptr;
-    const ForceLaw& law = ctx.scene.body_extras[static_cast<std::size_t>(body)].law;
-    return law.function != nullptr ? &law : nullptr;
+    return ctx.scene.laws[slot].function != nullptr ? &ctx.scene.laws[slot] : nullptr;
 }
 
 inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a bound beyond it says no more, and boxes stay finite

@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene: its state, what lives beside the state (user data, callbacks, geometry as given), the events of the last step, and
+// A scene: its state, what lives beside the state (user data, callbacks, force laws), the events of the last step, and
 // scratch memory that keeps its capacity from step to step.
 
 #include "carom/scene.h"
@@ -71,23 +71,6 @@ struct EventKey
     friend auto operator<=>(const EventKey&, const EventKey&) = default;
 };
 
-/// Beside the state, by slot: restored snapshots keep it.
-struct BodyExtra
-{
-    std::uint64_t user_data = 0;
-    ForceLaw law{};
-};
-struct ShapeExtra
-{
-    std::uint64_t user_data = 0;
-    Geometry geometry{};
-    std::shared_ptr<const ShapeCallbacks> callbacks{}; ///< few have any; one that runs may replace or destroy them
-};
-struct JointExtra
-{
-    std::uint64_t user_data = 0;
-};
-
 /// An impact that a body's force law is to be told in the next step.
 struct UntoldImpact
 {
@@ -100,9 +83,12 @@ struct SceneData
     SceneDef def{};
     Tolerances tolerances{};
     SceneState state{};
-    std::vector<BodyExtra> body_extras;
-    std::vector<ShapeExtra> shape_extras;
-    std::vector<JointExtra> joint_extras;
+    // Beside the state, by slot: restored snapshots keep it.
+    std::vector<std::uint64_t> body_user_data;
+    std::vector<std::uint64_t> shape_user_data;
+    std::vector<std::uint64_t> joint_user_data;
+    std::vector<ForceLaw> laws;                                   ///< of bodies, as far as any has had one
+    std::vector<std::shared_ptr<const ShapeCallbacks>> callbacks; ///< of shapes, likewise; one that runs may replace or destroy them
     Events events{};
     std::array<std::vector<EventKey>, 2> event_keys{}; ///< memory: of impacts, and of the others
     Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step

@@ -109,6 +109,11 @@ struct LeafView
 /// The leaves of a normalised geometry. Polygon vertices go to the store.
 [[nodiscard]] std::vector<Leaf> make_leaves(const Geometry& geometry, VertexStore& store);
 
+/// Back: the normalised geometry that the leaf was made from, where it was no chain.
+[[nodiscard]] Geometry geometry_of(const LeafView& leaf);
+/// The chain that has these pieces, at least one.
+[[nodiscard]] Chain chain_of(std::span<const LeafView> pieces);
+
 /// Removes repeated and collinear points and turns the outline counter-clockwise. Tolerance in m.
 [[nodiscard]] std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance);
 [[nodiscard]] bool is_convex(std::span<const Vec2> counter_clockwise);
