@@ -52,6 +52,12 @@ void QualityMeter::sample(Contestant& contestant)
     sample_bodies(contestant, states);
 }
 
+std::size_t QualityMeter::bytes() const
+{
+    return m_built.capacity() * sizeof(truth::Vec) +
+           (m_overlaps.capacity() + m_joints.capacity() + m_drifts.capacity() + m_speeds.capacity()) * sizeof(double);
+}
+
 void QualityMeter::sample_overlaps(Contestant& contestant, const std::vector<truth::State>& states)
 try
 {

@@ -39,6 +39,8 @@ public:
     void start(Contestant& contestant);
     void sample(Contestant& contestant);
     [[nodiscard]] Quality result() const;
+    /// What it holds itself.
+    [[nodiscard]] std::size_t bytes() const;
 
 private:
     void sample_overlaps(Contestant& contestant, const std::vector<truth::State>& states);

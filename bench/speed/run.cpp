@@ -65,14 +65,15 @@ std::string position(const Contender& contender, const carom::scenes::SceneEntry
     return std::string(entry.name) + ", " + contender.name + ": step " + std::to_string(step) + " of " + std::to_string(steps);
 }
 
-void weigh(Result& result, Contestant& contestant, int bodies_built, std::size_t bytes_built)
+/// Beside the engine's own bytes stand those of the meter.
+void weigh(Result& result, const Contestant& contestant, int bodies_built, std::size_t bytes_built, std::size_t bytes_of_meter)
 {
     result.peak_mb = static_cast<double>(peak_bytes()) / 1e6;
     // A scene that makes bodies on its way has no weight of its own at the start.
     if (result.bodies != bodies_built)
         return;
     result.bytes_per_body = static_cast<double>(bytes_built) / bodies_built;
-    const std::size_t bytes = contestant.bytes();
+    const std::size_t bytes = contestant.bytes() - bytes_of_meter;
     if (result.contacts > 0 && bytes >= bytes_built)
         result.bytes_per_contact = static_cast<double>(bytes - bytes_built) / result.contacts;
 }
@@ -142,7 +143,7 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
             meter->sample(*contestant);
     }
     Result result = describe(entry, contender, options, *contestant, watch);
-    weigh(result, *contestant, bodies_built, bytes_built);
+    weigh(result, *contestant, bodies_built, bytes_built, meter != nullptr ? meter->bytes() : 0);
     return result;
 }
 
