@@ -1,6 +1,7 @@
 // Stage 6, commit: the step's result goes back into the records, in the order of the units; deferred impulses, triggers; then bodies come to rest or
 // fall asleep (settle.cpp).
 
+#include "core/grow.h"
 #include "core/refuse.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
@@ -179,7 +180,7 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
         const SceneState& state = ctx.state;
         if (touch.contact == none)
         {
-            ctx.scene.events.ends.push_back({shape_id(state, touch.shape_a), shape_id(state, touch.shape_b),
+            append(ctx.scene.events.ends, {shape_id(state, touch.shape_a), shape_id(state, touch.shape_b),
                                              body_id(state, state.shapes[touch.shape_a].body),
                                              body_id(state, state.shapes[touch.shape_b].body), touch.time});
             continue;
@@ -211,12 +212,12 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
             if (known)
                 continue;
         }
-        ctx.scene.events.begins.push_back({shape_id(state, t.shape_a), shape_id(state, t.shape_b),
+        append(ctx.scene.events.begins, {shape_id(state, t.shape_a), shape_id(state, t.shape_b),
                                            body_id(state, state.shapes[t.shape_a].body),
                                            body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
     }
     for (const RawImpact& raw : output.impacts)
-        ctx.scene.events.impacts.push_back(impact_event(state, raw));
+        append(ctx.scene.events.impacts, impact_event(state, raw));
     for (const DeferredImpulse& d : output.deferred)
         apply_deferred(ctx, d);
     for (const std::int32_t shape : output.kicked_shapes)

@@ -122,7 +122,7 @@ void add_awake_contact(SceneState& state, int index)
     if (contact.awake_index != none || (contact.flags & contact_flag::trigger) != 0)
         return;
     contact.awake_index = static_cast<std::int32_t>(state.awake_contacts.size());
-    state.awake_contacts.push_back(index);
+    append(state.awake_contacts, index);
 }
 
 void remove_awake_contact(SceneState& state, int index)
@@ -268,7 +268,7 @@ void end_touch(SceneData& scene, int index, Events& events, float time)
     }
     else
     {
-        events.ends.push_back({a, b, body_a, body_b, time});
+        append(events.ends, {a, b, body_a, body_b, time});
     }
 }
 

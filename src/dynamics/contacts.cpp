@@ -1,6 +1,7 @@
 // Stage 3, contacts: manifolds of awake pairs, begins and ends. The first pass writes only to its own contact and may run on any thread; the
 // second goes through the results in order.
 
+#include "core/grow.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
@@ -151,7 +152,7 @@ void begin_touch(StepContext& ctx, int index)
     if (touches_elsewhere(state, index))
         return;
     const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
-    ctx.scene.events.begins.push_back({shape_id(state, contact.shape_a), shape_id(state, contact.shape_b),
+    append(ctx.scene.events.begins, {shape_id(state, contact.shape_a), shape_id(state, contact.shape_b),
                                        body_id(state, contact.body_a), body_id(state, contact.body_b), point,
                                        contact.manifold.normal, 0});
 }

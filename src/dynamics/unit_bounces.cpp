@@ -3,6 +3,7 @@
 
 #include "dynamics/unit_bounces.h"
 
+#include "core/grow.h"
 #include "core/nonzero.h"
 #include "core/prefetch.h"
 #include "dynamics/material.h"
@@ -214,7 +215,7 @@ private:
             account_for_bounce(row.points[i], e, kick.speed, raw.event);
         forget_pushes(before, row);
         fill_impact(row, raw.event, approach, e, kick.speed, k);
-        told.impacts.push_back(raw);
+        append(told.impacts, raw);
         ++told.bulk_impacts;
     }
 
@@ -323,8 +324,8 @@ private:
     {
         Contact& contact = m_ctx.state.contacts[row.contact];
         contact.flags |= contact_flag::touching | contact_flag::begun;
-        told.begins.push_back(
-            {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
+        append(told.begins,
+               {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
     }
 
     const StepContext& m_ctx;
