@@ -135,6 +135,13 @@ private:
         integrate_velocities(k);
         warm_start_all();
         predict_bends();
+        if (goes_by_parts())
+        {
+            solve_by_parts();
+            bounce(k);
+            finish_substep(k);
+            return;
+        }
         solve(true);
         if (m_watches_energy)
             note_pressed();
@@ -153,6 +160,38 @@ private:
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
         finish_substep(k);
+    }
+
+    // Nothing comes between solving and relaxing, and nothing but lanes is solved.
+    [[nodiscard]] bool goes_by_parts() const
+    {
+        return m_unit.parts > 0 && m_unit.core_count == 0 && m_joints.empty() && m_unit.wide_joint_count == 0 && m_rows.empty() &&
+               m_output.late_rows.empty() && !m_unit.traced && !has_fliers();
+    }
+
+    // Each part goes from solving through its new poses to relaxing at once, while its rows are in the cache. What crosses from part to part is solved before
+    // and relaxed after.
+    void solve_by_parts()
+    {
+        const auto solve_lanes = [&](int first, int last) { m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness); };
+        const auto relax_lanes = [&](int first, int last)
+        { m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first); };
+        const int first_kinematic = m_unit.first_state + 1 + m_unit.dynamic_count;
+        integrate_positions(first_kinematic, m_unit.first_state + m_unit.state_count);
+        m_bins.crossing(m_crew, solve_lanes);
+        m_bins.in_parts(m_crew,
+                        [&](int part)
+                        {
+                            const auto parts = std::span(m_scratch.parts)
+                                                   .subspan(static_cast<std::size_t>(m_unit.first_state) + 1,
+                                                            static_cast<std::size_t>(m_unit.dynamic_count));
+                            const auto states = std::ranges::equal_range(parts, static_cast<std::uint8_t>(part));
+                            const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
+                            m_bins.of_part(part, solve_lanes);
+                            integrate_positions(first, first + static_cast<int>(states.size()));
+                            m_bins.of_part(part, relax_lanes);
+                        });
+        m_bins.crossing(m_crew, relax_lanes);
     }
 
     void note_pressed()
@@ -390,17 +429,18 @@ private:
     // x += h v
     void integrate_positions()
     {
-        over_ranges(
-            [&](int first, int last)
-            {
-                while (first < last)
-                {
-                    first += m_kernels.move(m_view.states + first, m_view.constants + first, last - first, m_ctx.h);
-                    const int next = std::min(first + lane_count, last);
-                    for (; first < next; ++first)
-                        integrate_position(first);
-                }
-            });
+        over_ranges([this](int first, int last) { integrate_positions(first, last); });
+    }
+
+    void integrate_positions(int first, int last)
+    {
+        while (first < last)
+        {
+            first += m_kernels.move(m_view.states + first, m_view.constants + first, last - first, m_ctx.h);
+            const int next = std::min(first + lane_count, last);
+            for (; first < next; ++first)
+                integrate_position(first);
+        }
     }
 
     void integrate_position(int i)

@@ -21,11 +21,44 @@ public:
     template <class Pass>
     void by_color(Crew& crew, const Pass& pass)
     {
-        m_backwards = !m_backwards;
+        crossing(crew, pass);
+        in_parts(crew, [&](int part) { of_part(part, pass); });
+    }
+
+    /// Of what crosses from one part to another.
+    template <class Pass>
+    void crossing(Crew& crew, const Pass& pass) const
+    {
         for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; ++bin)
             share_bin(crew, bin, pass);
-        if (m_parts > 0)
-            crew.in_parts([&](int member, int members) { solve_parts(member, members, pass); });
+    }
+
+    /// Of one part.
+    template <class Pass>
+    void of_part(int part, const Pass& pass) const
+    {
+        for (int bin = part * m_bins; bin < (part + 1) * m_bins; ++bin)
+        {
+            if (start(bin) < start(bin + 1))
+                pass(start(bin), start(bin + 1));
+        }
+    }
+
+    /// Calls work(part) for all of them, side by side. To and fro: a walk begins with the parts that the last one has left in the cache.
+    template <class Work>
+    void in_parts(Crew& crew, const Work& work)
+    {
+        m_backwards = !m_backwards;
+        if (m_parts == 0)
+            return;
+        crew.in_parts(
+            [&](int member, int members)
+            {
+                const int first = Crew::bound(m_parts, member, members);
+                const int last = Crew::bound(m_parts, member + 1, members);
+                for (int i = first; i < last; ++i)
+                    work(m_backwards ? first + last - 1 - i : i);
+            });
     }
 
     /// Calls pass(first, last) for groups in any order, each by the member that solves it.
@@ -78,29 +111,6 @@ public:
 
 private:
     static constexpr int enough_groups = 12; // to share
-
-    // To and fro: a pass begins with the parts that the last one has left in the cache.
-    template <class Pass>
-    void solve_parts(int member, int members, const Pass& pass) const
-    {
-        const int first = Crew::bound(m_parts, member, members);
-        const int last = Crew::bound(m_parts, member + 1, members);
-        for (int i = first; i < last; ++i)
-        {
-            const int part = m_backwards ? first + last - 1 - i : i;
-            one_by_one(part * m_bins, (part + 1) * m_bins, pass);
-        }
-    }
-
-    template <class Pass>
-    void one_by_one(int first_bin, int last_bin, const Pass& pass) const
-    {
-        for (int bin = first_bin; bin < last_bin; ++bin)
-        {
-            if (start(bin) < start(bin + 1))
-                pass(start(bin), start(bin + 1));
-        }
-    }
 
     // All members take some of one bin's groups.
     template <class Pass>
