@@ -12,7 +12,7 @@
 
 namespace carom::internal {
 
-template <class T>
+template <class T, Growth growth = Growth::Quarter>
 class Pool
 {
     static_assert(std::is_trivially_copyable_v<T>, "simulation state is copied as memory");
@@ -24,8 +24,8 @@ public:
         if (m_free.empty())
         {
             slot = static_cast<int>(m_items.size());
-            append(m_items, value);
-            append(m_generations, 1);
+            append<growth>(m_items, value);
+            append<growth>(m_generations, 1);
         }
         else
         {

@@ -316,7 +316,7 @@ struct SceneState
     std::vector<Field> fields;            ///< likewise
     VertexStore vertices;
     Pool<JointRecord> joints;
-    Pool<Contact> contacts;
+    Pool<Contact, Growth::Half> contacts;
     std::vector<ContactImpulses> impulses;    ///< by contact slot
     std::vector<KeptManifold> kept_manifolds; ///< by contact slot
     std::vector<LaneMark> lane_marks;         ///< by contact slot
