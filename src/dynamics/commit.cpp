@@ -181,8 +181,8 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
         if (touch.contact == none)
         {
             append(ctx.scene.events.ends, {shape_id(state, touch.shape_a), shape_id(state, touch.shape_b),
-                                             body_id(state, state.shapes[touch.shape_a].body),
-                                             body_id(state, state.shapes[touch.shape_b].body), touch.time});
+                                           body_id(state, state.shapes[touch.shape_a].body),
+                                           body_id(state, state.shapes[touch.shape_b].body), touch.time});
             continue;
         }
         const Contact& contact = ctx.state.contacts[touch.contact];
@@ -212,9 +212,9 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
             if (known)
                 continue;
         }
-        append(ctx.scene.events.begins, {shape_id(state, t.shape_a), shape_id(state, t.shape_b),
-                                           body_id(state, state.shapes[t.shape_a].body),
-                                           body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
+        append(ctx.scene.events.begins,
+               {shape_id(state, t.shape_a), shape_id(state, t.shape_b), body_id(state, state.shapes[t.shape_a].body),
+                body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
     }
     for (const RawImpact& raw : output.impacts)
         append(ctx.scene.events.impacts, impact_event(state, raw));

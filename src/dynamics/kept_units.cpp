@@ -36,8 +36,8 @@ bool units_stay(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
     const KeptUnits& kept = scratch.kept_units;
-    return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() &&
-           kept.links_stay && (kept.joints_stay || kept.joints == scratch.joint_links);
+    return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() && kept.links_stay &&
+           (kept.joints_stay || kept.joints == scratch.joint_links);
 }
 
 void keep_units(StepContext& ctx)

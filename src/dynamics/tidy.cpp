@@ -179,9 +179,15 @@ private:
                   {
                       switch (task)
                       {
-                      case 0: move_items([&](int slot) -> Contact& { return m_state.contacts[slot]; }); break;
-                      case 1: move_items([&](int slot) -> KeptManifold& { return m_state.kept_manifolds[as_index(slot)]; }); break;
-                      default: move_items([&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); }); break;
+                      case 0:
+                          move_items([&](int slot) -> Contact& { return m_state.contacts[slot]; });
+                          break;
+                      case 1:
+                          move_items([&](int slot) -> KeptManifold& { return m_state.kept_manifolds[as_index(slot)]; });
+                          break;
+                      default:
+                          move_items([&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); });
+                          break;
                       }
                   });
         for_each_in_parts(m_tasks, slots.size(), contacts_per_task,

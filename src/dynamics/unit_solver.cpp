@@ -173,7 +173,8 @@ private:
     // and relaxed after.
     void solve_by_parts()
     {
-        const auto solve_lanes = [&](int first, int last) { m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness); };
+        const auto solve_lanes = [&](int first, int last)
+        { m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness); };
         const auto relax_lanes = [&](int first, int last)
         { m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first); };
         const int first_kinematic = m_unit.first_state + 1 + m_unit.dynamic_count;

@@ -1,11 +1,13 @@
-// Stage 4, units: first who is solved together (unit_graph.cpp), then all that each unit needs side by side (unit_layout.cpp). Where nothing has changed
-// since the last step, and nothing flies, everyone stays in place (kept_units.cpp), and so do rows (kept_rows.cpp) and hinges (WideKernels::follow_joints).
+// Stage 4, units: first what hangs on what (unit_links.cpp) and who is solved together (unit_graph.cpp), then all that each unit needs side by side
+// (unit_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (kept_units.cpp), and so do rows (kept_rows.cpp)
+// and hinges (WideKernels::follow_joints).
 
 #include "dynamics/kept_rows.h"
 #include "dynamics/kept_units.h"
 #include "dynamics/stages.h"
 #include "dynamics/unit_graph.h"
 #include "dynamics/unit_layout.h"
+#include "dynamics/unit_links.h"
 
 namespace carom::internal {
 
@@ -16,7 +18,7 @@ void build_units(StepContext& ctx)
         refill_units(ctx);
         return;
     }
-    gather_unit_graph(ctx);
+    gather_links(ctx);
     ctx.scratch.kept_units.hinges_stay = units_stay(ctx);
     if (ctx.scratch.kept_units.hinges_stay)
     {

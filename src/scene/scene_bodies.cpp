@@ -203,9 +203,8 @@ bool ConstBody::can_sleep() const
 }
 std::uint64_t ConstBody::user_data() const
 {
-    return record_of(m_data, m_id, "Body::user_data") != nullptr
-               ? m_data->body_user_data[static_cast<std::size_t>(slot_of(m_id))]
-               : 0;
+    return record_of(m_data, m_id, "Body::user_data") != nullptr ? m_data->body_user_data[static_cast<std::size_t>(slot_of(m_id))]
+                                                                 : 0;
 }
 
 Position ConstBody::world_point(Vec2 local) const { return transform(sim_of(m_data, m_id, "Body::world_point").pose(), local); }

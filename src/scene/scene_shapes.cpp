@@ -321,9 +321,7 @@ BodyId ConstShape::body() const
 
 Geometry ConstShape::geometry() const
 {
-    return check_live(*m_data, "Shape::geometry", "shape", m_id)
-               ? geometry_of(m_data->state, slot_of(m_id))
-               : Geometry{};
+    return check_live(*m_data, "Shape::geometry", "shape", m_id) ? geometry_of(m_data->state, slot_of(m_id)) : Geometry{};
 }
 
 ShapeDef ConstShape::def() const

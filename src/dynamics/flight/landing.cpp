@@ -158,7 +158,8 @@ void finish_flight(const FlightSpan& span, Flier& f)
     if (f.held_count == 0 && !f.rests)
         return;
     const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
-    const bool is_beyond_rows = f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || is_wedged(span.holds_of(f));
+    const bool is_beyond_rows =
+        f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || is_wedged(span.holds_of(f));
     if (is_beyond_rows || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
         release_holds(span, f, span.h);
     else

@@ -25,9 +25,9 @@ std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, unit); }
 
 std::span<const Hold> FlightSpan::holds_of(const Flier& f) const
 {
-    return f.held_count == 0 ? std::span<const Hold>()
-                             : std::span(output.hold_sets[static_cast<std::size_t>(f.hold_set)])
-                                   .first(static_cast<std::size_t>(f.held_count));
+    return f.held_count == 0
+               ? std::span<const Hold>()
+               : std::span(output.hold_sets[static_cast<std::size_t>(f.hold_set)]).first(static_cast<std::size_t>(f.held_count));
 }
 
 Flier* FlightSpan::flier_at(std::int32_t state_index) const

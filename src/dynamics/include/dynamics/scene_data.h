@@ -87,8 +87,9 @@ struct SceneData
     std::vector<std::uint64_t> body_user_data;
     std::vector<std::uint64_t> shape_user_data;
     std::vector<std::uint64_t> joint_user_data;
-    std::vector<ForceLaw> laws;                                   ///< of bodies, as far as any has had one
-    std::vector<std::shared_ptr<const ShapeCallbacks>> callbacks; ///< of shapes, likewise; one that runs may replace or destroy them
+    std::vector<ForceLaw> laws; ///< of bodies, as far as any has had one
+    std::vector<std::shared_ptr<const ShapeCallbacks>>
+        callbacks; ///< of shapes, likewise; one that runs may replace or destroy them
     Events events{};
     std::array<std::vector<EventKey>, 2> event_keys{}; ///< memory: of impacts, and of the others
     Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step

@@ -443,9 +443,9 @@ struct Scratch
     std::vector<std::int32_t> order;
     std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
     std::vector<ContactPlace> sorted_contacts;
-    std::vector<std::int32_t> moved_to; ///< by contact slot
+    std::vector<std::int32_t> moved_to;    ///< by contact slot
     std::vector<std::int32_t> move_cycles; ///< see tidy.cpp
-    HilbertOrder plane_order;           ///< of the awake bodies
+    HilbertOrder plane_order;              ///< of the awake bodies
 };
 
 /// Those of a unit, in flight or landed.

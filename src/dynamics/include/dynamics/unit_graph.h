@@ -10,10 +10,7 @@ namespace carom::internal {
 inline constexpr int precise_limit =
     16; ///< bodies, as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
 
-/// Fills Scratch::links and joint_links, and flight as far as it is known from single bodies and their contacts.
-void gather_unit_graph(StepContext& ctx);
-
-/// After gather_unit_graph: fills Scratch::units with how many states, links and joints each has, solved_links and solved_joints in their order, and who flies.
+/// After gather_links: fills Scratch::units with how many states, links and joints each has, solved_links and solved_joints in their order, and who flies.
 void build_unit_graph(StepContext& ctx);
 
 } // namespace carom::internal
