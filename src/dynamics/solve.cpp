@@ -1,6 +1,7 @@
 // Stage 5, solve: large units one after the other on all threads, small ones side by side, a batch of them to a task. A unit's rows are filled just
 // before it is solved (unit_solver.cpp) and committed right after.
 
+#include "core/grow.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/flight.h"
@@ -150,9 +151,8 @@ void form_batches(Scratch& scratch)
     }
     const auto wanted = static_cast<std::size_t>(groups);
     if (scratch.wide_rows.capacity() < wanted)
-        scratch.wide_rows.reserve(wanted + wanted / 8); // most of the memory of a contact
-    if (scratch.wide_rows.size() < wanted)
-        scratch.wide_rows.resize(wanted);
+        scratch.wide_rows.clear(); // all are filled in this step: there is nothing to copy
+    grow<Growth::Half>(scratch.wide_rows, wanted);
     scratch.struck.resize(scratch.wide_rows.size());
 }
 
