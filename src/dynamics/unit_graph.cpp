@@ -11,12 +11,10 @@
 #include "dynamics/force_laws.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_links.h"
-#include "dynamics/wide_prepare.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <utility>
 

@@ -173,13 +173,11 @@ private:
     // and relaxed after.
     void solve_by_parts()
     {
-        const auto solve_lanes = [&](int first, int last)
-        { m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness); };
-        const auto relax_lanes = [&](int first, int last)
-        { m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first); };
+        const auto solve = [this](int first, int last) { solve_lanes(first, last); };
+        const auto relax = [this](int first, int last) { relax_lanes(first, last); };
         const int first_kinematic = m_unit.first_state + 1 + m_unit.dynamic_count;
         integrate_positions(first_kinematic, m_unit.first_state + m_unit.state_count);
-        m_bins.crossing(m_crew, solve_lanes);
+        m_bins.crossing(m_crew, solve);
         m_bins.in_parts(m_crew,
                         [&](int part)
                         {
@@ -188,11 +186,19 @@ private:
                                                             static_cast<std::size_t>(m_unit.dynamic_count));
                             const auto states = std::ranges::equal_range(parts, static_cast<std::uint8_t>(part));
                             const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
-                            m_bins.of_part(part, solve_lanes);
+                            m_bins.of_part(part, solve);
                             integrate_positions(first, first + static_cast<int>(states.size()));
-                            m_bins.of_part(part, relax_lanes);
+                            m_bins.of_part(part, relax);
                         });
-        m_bins.crossing(m_crew, relax_lanes);
+        m_bins.crossing(m_crew, relax);
+    }
+
+    // Groups of one bin.
+    void solve_lanes(int first, int last) const { m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness); }
+
+    void relax_lanes(int first, int last) const
+    {
+        m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first);
     }
 
     void note_pressed()
@@ -376,15 +382,7 @@ private:
             const auto joint_pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
             m_joint_bins.by_color(m_crew, [&](int first, int last)
                                   { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
-            m_bins.by_color(m_crew,
-                            [&](int first, int last)
-                            {
-                                if (use_bias)
-                                    m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness);
-                                else
-                                    m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness,
-                                                    m_scratch.speeds.data(), m_struck + first);
-                            });
+            m_bins.by_color(m_crew, [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
             solve_rows(m_view, m_rows, use_bias);
             solve_rows(m_view, late_rows(), use_bias);
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
