@@ -8,7 +8,7 @@
 namespace speed {
 namespace {
 
-truth::Vec widen(carom::Vec2 v) { return {v.x, v.y}; }
+truth::Vec in_doubles(carom::Vec2 v) { return {v.x, v.y}; }
 
 /// FNV-1a over eight bytes at a time.
 class Hash
@@ -39,7 +39,7 @@ public:
         const Changes all = m_translator.look(m_script.scene);
         m_bytes_before = heap_bytes();
         const carom::SceneDef& def = m_script.scene.def();
-        m_world = engine.make_world({.gravity = widen(def.gravity),
+        m_world = engine.make_world({.gravity = in_doubles(def.gravity),
                                      .sleeping = def.sleeping,
                                      .continuous = def.continuous,
                                      .substeps = def.substeps,

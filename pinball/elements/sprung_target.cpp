@@ -8,7 +8,7 @@ namespace carom::pinball {
 namespace {
 
 // The box comes back against a felt pad.
-constexpr float stop_restitution = 0.1f;
+constexpr float target_stop_restitution = 0.1f;
 
 class SprungTargetDevice final : public Device
 {
@@ -30,7 +30,7 @@ public:
                                         .enable_limit = true,
                                         .lower_translation = 0,
                                         .upper_translation = def.max_travel,
-                                        .limit_restitution = stop_restitution});
+                                        .limit_restitution = target_stop_restitution});
         for (const TargetSpring& spring : def.springs)
             scene.create_joint(SpringDef{.body_b = state.body,
                                          .anchor_a = spring.anchor,

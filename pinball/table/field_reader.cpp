@@ -7,7 +7,6 @@
 namespace carom::pinball {
 namespace {
 
-constexpr double radians_per_degree = 3.14159265358979323846 / 180;
 constexpr std::size_t max_text_length = 200;
 constexpr std::size_t max_references = 256;
 constexpr std::size_t max_errors = 1'000; ///< a file made to be refused must not fill the memory

@@ -25,6 +25,8 @@ struct Range
     std::string_view unit{};
 };
 
+inline constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+
 namespace range {
 inline constexpr Range coordinate{-0.5, 3.5, "m"};
 inline constexpr Range thickness{0, 0.1, "m"}; ///< half thickness of walls

@@ -7,7 +7,6 @@
 namespace carom::pinball {
 namespace {
 
-constexpr double radians_per_degree = 3.14159265358979323846 / 180;
 constexpr std::size_t max_pieces = 1'000;
 
 double distance(Vec2 a, Vec2 b)

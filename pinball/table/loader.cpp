@@ -15,7 +15,7 @@
 namespace carom::pinball {
 namespace {
 
-constexpr std::size_t max_errors = 200;
+constexpr std::size_t max_errors_shown = 200;
 constexpr std::uintmax_t max_file_size = 4u << 20;
 
 void load_body(FieldReader& in, Table& table, LoadErrors& errors)
@@ -36,8 +36,8 @@ LoadResult finish(Table table, LoadErrors errors)
 {
     std::sort(errors.begin(), errors.end(), [](const LoadError& a, const LoadError& b)
               { return std::tie(a.line, a.column, a.path, a.sentence) < std::tie(b.line, b.column, b.path, b.sentence); });
-    if (errors.size() > max_errors)
-        errors.resize(max_errors);
+    if (errors.size() > max_errors_shown)
+        errors.resize(max_errors_shown);
     if (!errors.empty())
         return {.errors = std::move(errors)};
     return {.table = std::move(table)};

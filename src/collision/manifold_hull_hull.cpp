@@ -15,7 +15,7 @@ namespace carom::internal {
 
 namespace {
 
-struct Axis
+struct FaceAxis
 {
     int edge = 0;
     int support = 0; ///< the other hull's point that is lowest along the edge's normal
@@ -33,9 +33,9 @@ int lowest(const Hull& hull, Vec2 n)
     return lowest;
 }
 
-Axis best_axis(const Hull& reference, const Hull& other)
+FaceAxis best_axis(const Hull& reference, const Hull& other)
 {
-    Axis best;
+    FaceAxis best;
     for (int i = 0; i < reference.count(); ++i)
     {
         const int support = lowest(other, reference.normal(i));
@@ -192,7 +192,7 @@ float least_separation(const LocalManifold& m)
 
 // Does the lowest point of the other face the edge between its ends? Then nothing is nearer: no axis tells of more room than there is, and here all
 // of it is.
-bool faces_edge(const Hull& reference, const Hull& incident, const Axis& axis)
+bool faces_edge(const Hull& reference, const Hull& incident, const FaceAxis& axis)
 {
     const int next = reference.next(axis.edge);
     const Vec2 n = reference.normal(axis.edge);
@@ -206,14 +206,14 @@ bool faces_edge(const Hull& reference, const Hull& incident, const Axis& axis)
 // The general case; no chain neighbours.
 void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out)
 {
-    const Axis axis_a = best_axis(a, b);
-    const Axis axis_b = best_axis(b, a);
+    const FaceAxis axis_a = best_axis(a, b);
+    const FaceAxis axis_b = best_axis(b, a);
     const float edge_a = edge_length(a, axis_a.edge);
     const float edge_b = edge_length(b, axis_b.edge);
     const bool flipped = prefers_b(axis_a.separation, edge_a, axis_b.separation, edge_b);
     const Hull& reference = flipped ? b : a;
     const Hull& incident = flipped ? a : b;
-    const Axis axis = flipped ? axis_b : axis_a;
+    const FaceAxis axis = flipped ? axis_b : axis_a;
     if (axis.separation > margin)
     {
         const Vec2 n = reference.normal(axis.edge);

@@ -25,7 +25,7 @@ struct Corners
 
 bool is_outline(const Leaf& leaf) { return leaf.type == LeafType::Polygon ? leaf.count <= most_corners : leaf.r0 == leaf.r1; }
 
-struct Axis
+struct EdgeAxis
 {
     int edge = 0;
     float separation = -3e38f;
@@ -60,10 +60,10 @@ F4 greatest_of_all(F4 x)
 }
 
 // The edge beyond which the other's corners are farthest. Four edges side by side, corner by corner.
-Axis best_axis(const Hull& reference, const Corners& other, float radii)
+EdgeAxis best_axis(const Hull& reference, const Corners& other, float radii)
 {
     const int count = reference.count();
-    Axis best;
+    EdgeAxis best;
     for (int first = 0; first < count; first += 4)
     {
         F4 nx;
@@ -107,12 +107,12 @@ int most_opposed_edge(const Hull& v, Vec2 n)
     return edge;
 }
 
-struct ClipPoint
+struct OutlinePoint
 {
     Vec2 core;
     int id;
 
-    void put_between(const ClipPoint& a, const ClipPoint& b, float t) { core = a.core + t * (b.core - a.core); }
+    void put_between(const OutlinePoint& a, const OutlinePoint& b, float t) { core = a.core + t * (b.core - a.core); }
 };
 
 class OutlinePair
@@ -129,13 +129,13 @@ public:
     // False where hull against hull must decide.
     bool collide(float margin, LocalManifold& out)
     {
-        const Axis axis_a = best_axis(m_a, m_corners_b, m_radii);
+        const EdgeAxis axis_a = best_axis(m_a, m_corners_b, m_radii);
         if (axis_a.separation > margin)
             return are_apart(m_a.normal(axis_a.edge), axis_a.separation, out);
         m_corners_a.count = m_a.count();
         for (int i = 0; i < m_corners_a.count; ++i)
             m_corners_a.at[i] = m_pose.to_b(m_a.point(i));
-        const Axis axis_b = best_axis(m_b, m_corners_a, m_radii);
+        const EdgeAxis axis_b = best_axis(m_b, m_corners_a, m_radii);
         if (axis_b.separation > margin)
             return are_apart(-rotate(m_pose.rotation, m_b.normal(axis_b.edge)), axis_b.separation, out);
         for (int i = 0; i < m_corners_a.count; ++i)
@@ -174,7 +174,7 @@ private:
         float offset;
         int i0;
         int i1;
-        ClipPoint points[2];
+        OutlinePoint points[2];
         bool left; // anything
 
         Facing(const OutlinePair& pair, bool is_flipped, int of_edge)
@@ -212,7 +212,7 @@ private:
             return along >= dot(tangent, start) && along <= dot(tangent, end);
         }
 
-        void add(const ClipPoint& p, LocalManifold& out) const
+        void add(const OutlinePoint& p, LocalManifold& out) const
         {
             const float at = separation(p.core);
             const Vec2 on_other = p.core - incident.radius(0) * n;
@@ -236,7 +236,7 @@ private:
                            flipped,
                            incident.radius(0)};
             float left_out = 3e38f;
-            for (const ClipPoint& p : points)
+            for (const OutlinePoint& p : points)
             {
                 if (separation(p.core) <= margin)
                 {
@@ -264,7 +264,7 @@ private:
     }
 
     // Lengths matter between near equals alone.
-    [[nodiscard]] bool edge_is_of_b(const Axis& a, const Axis& b) const
+    [[nodiscard]] bool edge_is_of_b(const EdgeAxis& a, const EdgeAxis& b) const
     {
         const Vec2 da = edge_of(m_a, a.edge);
         const Vec2 db = edge_of(m_b, b.edge);
@@ -277,7 +277,7 @@ private:
 
     static Vec2 edge_of(const Hull& v, int edge) { return v.point(v.next(edge)) - v.point(edge); }
 
-    bool clip_to_edge(bool flipped, const Axis& axis, float margin, LocalManifold& out) const
+    bool clip_to_edge(bool flipped, const EdgeAxis& axis, float margin, LocalManifold& out) const
     {
         const bool apart = axis.separation + m_radii > 1e-6f;
         if (!apart && m_a.count() == 2 && m_b.count() == 2)

@@ -14,6 +14,7 @@
 #include "dynamics/raw_events.h"
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/unit_rows.h"
 #include "dynamics/wake.h"
 
@@ -24,8 +25,6 @@
 namespace carom::internal {
 
 namespace {
-
-constexpr std::size_t bodies_per_task = 512;
 
 Rotation renormalized(Rotation q)
 {

@@ -194,7 +194,7 @@ News update_contact(const StepContext& ctx, int index)
 
 namespace {
 
-constexpr std::size_t contacts_per_task = 512;
+constexpr std::size_t contacts_at_once = 512;
 
 // Since follow_rows has tried to do with less.
 bool is_looked_at(const Scratch& scratch, std::int32_t contact)
@@ -343,8 +343,8 @@ private:
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
     FollowedScene m_scene;
-    News m_news[contacts_per_task];
-    std::size_t m_others[contacts_per_task];
+    News m_news[contacts_at_once];
+    std::size_t m_others[contacts_at_once];
     std::size_t m_other_count = 0;
     Waiting m_waiting[3]; ///< without a point, with one, with two
     const WideKernels& m_kernels = wide_kernels();
@@ -363,7 +363,7 @@ void update_contacts(StepContext& ctx)
     SceneState& state = ctx.state;
     using Some = std::vector<ContactNews>;
     const std::span<Some> parts =
-        find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_per_task, ctx.scratch.news_of_task,
+        find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_at_once, ctx.scratch.news_of_task,
                       [&](std::size_t first, std::size_t last, Some& some) { ContactUpdate(ctx, first, last).run(some); });
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();

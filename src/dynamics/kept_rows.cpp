@@ -4,6 +4,7 @@
 
 #include "dynamics/kept_rows.h"
 
+#include "core/index.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
@@ -11,6 +12,7 @@
 #include "dynamics/kept_units.h"
 #include "dynamics/row_follower.h"
 #include "dynamics/scene_data.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/wide_prepare.h"
 
@@ -23,9 +25,6 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t units_per_task = 4;
-constexpr std::size_t contacts_per_task = 512;
-
-std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 bool are_in_place(const StepContext& ctx)
 {

@@ -1,6 +1,7 @@
 // What becomes of pairs whose boxes have come to overlap: those that may meet in this step get a contact, those that can't any more lose theirs, those
 // whose boxes have parted go.
 
+#include "core/index.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
@@ -156,8 +157,6 @@ public:
     }
 
 private:
-    static std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
     [[gnu::always_inline]] void prefetch_neighbours(const BoxPair& pair, std::uint8_t what) const
     {
         if (pair.contact != none)

@@ -5,9 +5,11 @@
 #include "dynamics/row_places.h"
 
 #include "core/grow.h"
+#include "core/index.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/scene_data.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/unit_layout.h"
 
 #include <algorithm>
@@ -19,11 +21,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t links_per_task = 1024;
 constexpr int links_to_a_part = 2048; // what rows keep of them stays in a cache
 constexpr std::uint8_t no_part = 255; // of what does not give way
-
-std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class RowPlaces
 {

@@ -6,6 +6,7 @@
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/wake.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t bodies_per_task = 512;
-constexpr std::size_t contacts_per_task = 2048;
 constexpr float creeping = 0.2f;                 // of the sleep speed
 constexpr float creep_time = 0.5f;               // s
 constexpr float time_to_sleep = 0.5f;            // s: long enough for a body at the top of its flight not to fall asleep

@@ -7,6 +7,7 @@
 #include "dynamics/force_laws.h"
 #include "dynamics/quarantine.h"
 #include "dynamics/stages.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/wide_kernels.h"
 
 #include <algorithm>
@@ -17,8 +18,6 @@
 namespace carom::internal {
 
 namespace {
-
-constexpr std::size_t bodies_per_task = 512;
 
 // The velocity that reaches the target at the end of the step, the shorter way round.
 void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)

@@ -3,9 +3,11 @@
 // in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
 #include "core/grow.h"
+#include "core/index.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/unit_graph.h"
 
 #include <algorithm>
@@ -20,8 +22,7 @@ namespace carom::internal {
 namespace {
 
 constexpr std::uint64_t steps_between = 32;
-constexpr std::size_t few_of = 8; // less than one of so many
-constexpr std::size_t contacts_per_task = 1024;
+constexpr std::size_t few_of = 8;     // less than one of so many
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
 void sort_bodies(SceneState& state)
@@ -52,8 +53,6 @@ void part_bodies(StepContext& ctx)
     for (std::size_t rank = 0; rank < keys.size(); ++rank)
         body_of(rank).plane_cell = cell_of(rank);
 }
-
-std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class ContactOrder
 {

@@ -9,6 +9,7 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_links.h"
 
@@ -26,9 +27,6 @@ constexpr float slice_turn = 0.02f;  // rad
 constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
 constexpr int hinge_slice_limit = 64; // between bodies that move by themselves: what they err by is their own energy
-constexpr std::size_t joints_per_task = 1024;
-constexpr std::size_t bodies_per_task = 1024;
-constexpr std::size_t items_per_task = 4096;
 constexpr std::size_t fliers_per_task = 256;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr float calm_swing = 0.1f;           // rad, in a step
@@ -76,7 +74,7 @@ public:
     {
         const TaskHooks& tasks = ctx.scene.def.tasks;
         const bool shared = tasks.worker_count > 1;
-        run_parts(tasks, links.size(), items_per_task,
+        run_parts(tasks, links.size(), links_per_task,
                   [&](std::size_t first, std::size_t last)
                   {
                       for (const AnyLink& l : std::span(links).subspan(first, last - first))
@@ -490,7 +488,7 @@ public:
     void find_units_of_links()
     {
         set_size(scratch.unit_of_link, scratch.links.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), items_per_task,
+        for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), links_per_task,
                           [&](std::size_t i) { scratch.unit_of_link[i] = unit_of_row(scratch.links[i]); });
     }
 

@@ -3,6 +3,7 @@
 
 #include "dynamics/unit_layout.h"
 
+#include "core/index.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/force_laws.h"
@@ -10,6 +11,7 @@
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
 #include "dynamics/row_places.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_graph.h"
@@ -24,10 +26,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int items_per_task = 512;
-constexpr std::size_t links_per_task = 2048;
-
-std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int32_t places_per_task = 512;
 
 class UnitLayout
 {
@@ -137,13 +136,13 @@ public:
     }
 
 private:
-    [[nodiscard]] static int tasks_for(std::int32_t items) { return (items + items_per_task - 1) / items_per_task; }
+    [[nodiscard]] static int tasks_for(std::int32_t items) { return (items + places_per_task - 1) / places_per_task; }
 
     // On all threads.
     template <class IsBound>
     void unbind_those(const IsBound& is_bound)
     {
-        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.states.size(), items_per_task,
+        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.states.size(), places_per_task,
                           [&](std::size_t s)
                           {
                               if (is_bound(s))
@@ -165,8 +164,8 @@ private:
     void for_items(int task, std::int32_t count, const First& first_of, const Visit& visit)
     {
         const std::vector<Unit>& units = m_scratch.units;
-        const std::int32_t begin = task * items_per_task;
-        const std::int32_t end = std::min(begin + items_per_task, count);
+        const std::int32_t begin = task * places_per_task;
+        const std::int32_t end = std::min(begin + places_per_task, count);
         auto unit =
             std::upper_bound(units.begin(), units.end(), begin, [&](std::int32_t i, const Unit& u) { return i < first_of(u); }) -
             1;

@@ -10,6 +10,7 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/joint_bodies.h"
 #include "dynamics/kept_units.h"
+#include "dynamics/task_sizes.h"
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
@@ -19,10 +20,6 @@
 namespace carom::internal {
 
 namespace {
-
-constexpr std::size_t contacts_per_task = 1024;
-constexpr std::size_t joints_per_task = 1024;
-constexpr std::size_t bodies_per_task = 1024;
 
 // The hinge's two points must be in one place; flight does not pull them together.
 bool is_closed(const StepContext& ctx, int index, int body)

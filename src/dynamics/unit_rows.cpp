@@ -1,5 +1,6 @@
 #include "dynamics/unit_rows.h"
 
+#include "core/index.h"
 #include "core/prefetch.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
@@ -15,8 +16,6 @@ namespace carom::internal {
 namespace {
 
 constexpr int enough_rows = 256; // to share
-
-std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Each of `count` places from the first on.
 template <class Visit>

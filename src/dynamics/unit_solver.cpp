@@ -490,9 +490,9 @@ private:
     // Says how many it found too deep.
     int guard_rows(float part)
     {
-        int deep = 0;
-        for_each_row([&](const ContactRow& row) { deep += row.core > 0 && row.count > 0 && guard_core(row, part) ? 1 : 0; });
-        return deep;
+        int too_deep = 0;
+        for_each_row([&](const ContactRow& row) { too_deep += row.core > 0 && row.count > 0 && guard_core(row, part) ? 1 : 0; });
+        return too_deep;
     }
 
     bool guard_core(const ContactRow& row, float part)

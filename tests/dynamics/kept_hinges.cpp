@@ -14,7 +14,7 @@ constexpr int columns = 24;
 constexpr int rows = 16;
 
 // A sheet of discs that do not touch. It hangs from a rail, a static body; hinges of its last column are driven, sprung or limited.
-void build(World& world)
+void build_hinged(World& world)
 {
     world.ground = add_static(world.scene, box(20, 0.1f, {0, 40}), {.filter = {2, 4}}).body;
     for (int i = 0; i < columns * rows; ++i)
@@ -46,10 +46,10 @@ void build(World& world)
     }
 }
 
-class Pair : public WorldPair
+class HingedPair : public WorldPair
 {
 public:
-    Pair() : WorldPair(false, build) {}
+    HingedPair() : WorldPair(false, build_hinged) {}
 
     // How many of the steps were taken with hinges in place.
     int run(int steps_taken, float dt = 1.0f / 60)
@@ -68,7 +68,7 @@ public:
 
 TEST(DynamicsKeptHinges, AreThoseFilledAnew)
 {
-    Pair pair;
+    HingedPair pair;
     EXPECT_GT(pair.run(100), 90) << "or nothing has been tested";
     EXPECT_GT(pair.run(20, 1.0f / 120), 15) << "shorter steps";
     EXPECT_GT(pair.run(20, 1.0f / 40), 15) << "longer ones";
@@ -123,7 +123,7 @@ TEST(DynamicsKeptHinges, SeeWhatHappensBetweenSteps)
     for (const Event& event : events)
     {
         SCOPED_TRACE(event.name);
-        Pair pair;
+        HingedPair pair;
         ASSERT_GT(pair.run(20), 15) << "or nothing is tested";
         pair.both(event.happens);
         pair.run(10);
@@ -136,7 +136,7 @@ TEST(DynamicsKeptHinges, SeeWhatHappensBetweenSteps)
 TEST(DynamicsKeptHinges, OfAnotherPastAreNotTaken)
 {
     World world(false);
-    build(world);
+    build_hinged(world);
     steps(world.scene, 30);
     const internal::SceneState first = world.scene.data().state;
     steps(world.scene, 10);

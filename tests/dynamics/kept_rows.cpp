@@ -11,7 +11,7 @@ using namespace carom::test;
 namespace {
 
 // Pyramids, and a wall of boxes and capsules between two posts with a disc on it; on a box and on a line.
-void build(World& world)
+void build_piles(World& world)
 {
     world.ground = add_static(world.scene, box(8, 0.5f, {-9, -0.5f}), {.friction = 0.6f}).body;
     world.scene.create_shape(world.ground, Segment{{-1, 0}, {30, 0}}, {.friction = 0.6f});
@@ -42,10 +42,10 @@ void build(World& world)
     add(20, 5.2, Circle{.radius = 0.3f});
 }
 
-class Pair : public WorldPair
+class PilePair : public WorldPair
 {
 public:
-    explicit Pair(bool sleeps) : WorldPair(sleeps, build) {}
+    explicit PilePair(bool sleeps) : WorldPair(sleeps, build_piles) {}
 };
 
 struct Event
@@ -58,7 +58,7 @@ struct Event
 
 TEST(DynamicsKeptRows, AreThoseFilledAnew)
 {
-    Pair pair(false);
+    PilePair pair(false);
     EXPECT_GT(pair.run(300), 150) << "or nothing has been tested";
     EXPECT_GT(pair.run(60, 1.0f / 120), 30) << "shorter steps";
     EXPECT_GT(pair.run(30, 1.0f / 25), 0) << "longer ones";
@@ -66,7 +66,7 @@ TEST(DynamicsKeptRows, AreThoseFilledAnew)
 
 TEST(DynamicsKeptRows, FallAsleepAsTheyAre)
 {
-    Pair pair(true);
+    PilePair pair(true);
     pair.run(900);
     EXPECT_EQ(pair.followed().scene.report().awake_bodies, 0);
     pair.both([](World& w) { w.scene.body(w.bodies[3]).apply_impulse({0, 300}); });
@@ -99,7 +99,7 @@ TEST(DynamicsKeptRows, SeeWhatHappensBetweenSteps)
     for (const Event& event : events)
     {
         SCOPED_TRACE(event.name);
-        Pair pair(false);
+        PilePair pair(false);
         pair.run(100);
         ASSERT_TRUE(pair.rows_stay()) << "or nothing is tested";
         pair.both(event.happens);
@@ -111,7 +111,7 @@ TEST(DynamicsKeptRows, SeeWhatHappensBetweenSteps)
 TEST(DynamicsKeptRows, OfAnotherPastAreNotTaken)
 {
     World world(false);
-    build(world);
+    build_piles(world);
     steps(world.scene, 120);
     const auto run_on = [&](int count)
     {

@@ -12,7 +12,7 @@ using namespace carom::internal;
 
 namespace {
 
-constexpr float h = 1.0f / 240;
+constexpr float sub_step = 1.0f / 240;
 
 struct Bodies
 {
@@ -25,7 +25,7 @@ struct Bodies
         {
             BodyState& s = states.emplace_back();
             s.velocity = random.vec(20);
-            s.angular_velocity = random.chance(0.2) ? 0 : random.rangef(-greatest_turn, greatest_turn) / h;
+            s.angular_velocity = random.chance(0.2) ? 0 : random.rangef(-greatest_turn, greatest_turn) / sub_step;
             s.flags =
                 body_flag::dynamic | (random.chance(0.2) ? body_flag::flier : 0) | (random.chance(0.3) ? body_flag::unbound : 0);
             s.delta_position = random.vec(0.1);
@@ -38,7 +38,7 @@ struct Bodies
 // As UnitSolver::integrate_position.
 void move_one_by_one(Bodies& bodies)
 {
-    const SolverView view{bodies.states.data(), bodies.constants.data(), h, 1 / h, 0};
+    const SolverView view{bodies.states.data(), bodies.constants.data(), sub_step, 1 / sub_step, 0};
     for (std::size_t i = 0; i < bodies.states.size(); ++i)
     {
         BodyState& s = bodies.states[i];
@@ -46,7 +46,7 @@ void move_one_by_one(Bodies& bodies)
             continue;
         s.delta_position += drift(view, static_cast<std::int32_t>(i));
         if (s.angular_velocity != 0)
-            s.delta_rotation = Rotation::from_angle(h * s.angular_velocity) * s.delta_rotation;
+            s.delta_rotation = Rotation::from_angle(sub_step * s.angular_velocity) * s.delta_rotation;
     }
 }
 
@@ -63,7 +63,7 @@ TEST(WideMoves, AreThoseOfEachBody)
             SCOPED_TRACE(kernels->name);
             Bodies bodies = before;
             const auto count = static_cast<std::int32_t>(bodies.states.size());
-            ASSERT_EQ(kernels->move(bodies.states.data(), bodies.constants.data(), count, h), count / 8 * 8);
+            ASSERT_EQ(kernels->move(bodies.states.data(), bodies.constants.data(), count, sub_step), count / 8 * 8);
             Bodies want = before;
             want.states.resize(static_cast<std::size_t>(count / 8 * 8));
             move_one_by_one(want);
@@ -82,13 +82,13 @@ TEST(WideMoves, StopBeforeWhatTurnsFast)
     Random random(32);
     Bodies bodies(random, 24, 0.2);
     bodies.states[13].flags = body_flag::dynamic;
-    bodies.states[13].angular_velocity = 0.3f / h;
+    bodies.states[13].angular_velocity = 0.3f / sub_step;
     for (const WideKernels* kernels : all_wide_kernels())
     {
         Bodies copy = bodies;
-        EXPECT_EQ(kernels->move(copy.states.data(), copy.constants.data(), 24, h), 8) << kernels->name;
+        EXPECT_EQ(kernels->move(copy.states.data(), copy.constants.data(), 24, sub_step), 8) << kernels->name;
         copy = bodies;
         copy.states[13].flags |= body_flag::flier;
-        EXPECT_EQ(kernels->move(copy.states.data(), copy.constants.data(), 24, h), 24) << "flight moves it itself";
+        EXPECT_EQ(kernels->move(copy.states.data(), copy.constants.data(), 24, sub_step), 24) << "flight moves it itself";
     }
 }

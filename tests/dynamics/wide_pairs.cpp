@@ -14,7 +14,7 @@ using namespace carom::internal;
 
 namespace {
 
-using Pair = std::pair<int, int>;
+using BoxNumbers = std::pair<int, int>;
 
 FloatBox box_at(Random& random, double world)
 {
@@ -28,7 +28,7 @@ struct Found
 {
     const BroadPhase& broad;
     int block;
-    std::vector<Pair> pairs;
+    std::vector<BoxNumbers> pairs;
 
     void note(std::int32_t other, std::uint64_t boxes)
     {
@@ -42,7 +42,7 @@ struct Found
     }
 };
 
-std::vector<Pair> find_all(const BroadPhase& broad, const WideKernels& kernels)
+std::vector<BoxNumbers> find_all(const BroadPhase& broad, const WideKernels& kernels)
 {
     Found found{broad, 0, {}};
     const OverlapSink sink{&found, [](const void* context, std::int32_t other, std::uint64_t boxes)
@@ -81,13 +81,13 @@ public:
         EXPECT_TRUE(m_broad.update_moving({}, m_items, now));
         for (int k = 0; k < m_broad.block_count(); ++k)
             m_broad.note_changes(k);
-        const std::vector<Pair> want = new_pairs(now);
+        const std::vector<BoxNumbers> want = new_pairs(now);
         const bool none_meet = std::ranges::all_of(m_filters, [](const FilterBits& f) { return !may_meet(f, f); });
         for (const WideKernels* kernels : all_wide_kernels())
         {
-            std::vector<Pair> found = find_all(m_broad, *kernels);
+            std::vector<BoxNumbers> found = find_all(m_broad, *kernels);
             EXPECT_TRUE(found.empty() || !none_meet) << kernels->name;
-            std::erase_if(found, [&](const Pair& p) { return !meet(p.first, p.second); });
+            std::erase_if(found, [&](const BoxNumbers& p) { return !meet(p.first, p.second); });
             EXPECT_EQ(found, want) << kernels->name;
         }
         for (const std::int32_t item : m_items)
@@ -112,9 +112,9 @@ private:
         return may_meet(m_filters[static_cast<std::size_t>(i)], m_filters[static_cast<std::size_t>(j)]);
     }
 
-    [[nodiscard]] std::vector<Pair> new_pairs(const std::vector<FloatBox>& now) const
+    [[nodiscard]] std::vector<BoxNumbers> new_pairs(const std::vector<FloatBox>& now) const
     {
-        std::vector<Pair> pairs;
+        std::vector<BoxNumbers> pairs;
         for (std::size_t i = 0; i < now.size(); ++i)
         {
             for (std::size_t j = i + 1; j < now.size(); ++j)
@@ -173,7 +173,7 @@ TEST(NewOverlaps, AreThoseOfBruteForceEachOnce)
             ASSERT_TRUE(broad.update_moving({}, items, boxes));
             for (int k = 0; k < broad.block_count(); ++k)
                 broad.note_changes(k);
-            std::vector<Pair> want;
+            std::vector<BoxNumbers> want;
             for (std::size_t i = 0; i < now.size(); ++i)
             {
                 for (std::size_t j = i + 1; j < now.size(); ++j)

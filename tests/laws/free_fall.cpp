@@ -167,7 +167,7 @@ void expect_kept(float friction, float h, double spin_tolerance)
     }
     const auto sums = [&]
     {
-        struct Sums
+        struct Moments
         {
             double px = 0, py = 0, l = 0;
         } s;

@@ -7,7 +7,7 @@ using namespace carom::test;
 
 namespace {
 
-constexpr double g = 9.81;
+constexpr double gravity = 9.81;
 
 // A slope that falls towards +x by alpha, its surface through the origin; `lift` is along its normal.
 struct Slope
@@ -48,7 +48,7 @@ TEST(LawRolling, ADiscAcceleratesByTwoThirds)
                 const Thing disc = slope.put(Circle{.radius = 0.25f}, 0.25, alpha, {.friction = 0.8f});
                 steps(slope.scene, static_cast<int>(1 / h + 0.5f), h);
                 const double v = slope.along(disc.body);
-                EXPECT_NEAR(v, 2.0 / 3 * g * std::sin(alpha), 0.01 * v);
+                EXPECT_NEAR(v, 2.0 / 3 * gravity * std::sin(alpha), 0.01 * v);
                 EXPECT_NEAR(slope.scene.body(disc.body).angular_velocity(), -v / 0.25, 0.01 * v / 0.25) << "no slip";
             }
 }
@@ -60,7 +60,7 @@ TEST(LawRolling, ABallOfSphereInertiaAcceleratesByFiveSevenths)
     const Thing ball = slope.put(Circle{.radius = 0.25f}, 0.25, alpha, {.friction = 0.8f});
     slope.scene.body(ball.body).set_mass({.mass = 2, .inertia = 0.4f * 2 * 0.25f * 0.25f});
     steps(slope.scene, 60);
-    EXPECT_NEAR(slope.along(ball.body), 5.0 / 7 * g * std::sin(alpha), 0.02);
+    EXPECT_NEAR(slope.along(ball.body), 5.0 / 7 * gravity * std::sin(alpha), 0.02);
 }
 
 TEST(LawSliding, ABoxAcceleratesByGravityLessFriction)
@@ -71,7 +71,7 @@ TEST(LawSliding, ABoxAcceleratesByGravityLessFriction)
         Slope slope(alpha, {.friction = static_cast<float>(mu)}, false);
         const Thing body = slope.put(box(0.5f, 0.25f), 0.25, alpha, {.friction = static_cast<float>(mu)});
         steps(slope.scene, 60);
-        const double want = g * (std::sin(alpha) - mu * std::cos(alpha));
+        const double want = gravity * (std::sin(alpha) - mu * std::cos(alpha));
         EXPECT_NEAR(slope.along(body.body), want, 0.01 * want) << mu;
         EXPECT_NEAR(slope.scene.body(body.body).angular_velocity(), 0, 0.02);
     }
@@ -82,7 +82,7 @@ TEST(LawSliding, AFrictionlessDiscDoesNotTurn)
     Slope slope(0.5, {.friction = 0}, false);
     const Thing disc = slope.put(Circle{}, 0.5, 0.5, {.friction = 0});
     steps(slope.scene, 60);
-    EXPECT_NEAR(slope.along(disc.body), g * std::sin(0.5), 0.02);
+    EXPECT_NEAR(slope.along(disc.body), gravity * std::sin(0.5), 0.02);
     EXPECT_NEAR(slope.scene.body(disc.body).angular_velocity(), 0, 1e-5);
 }
 
@@ -92,7 +92,7 @@ TEST(LawSliding, SlidingTurnsIntoRollingAtTwoThirdsOfTheSpeed)
     add_static(scene, HalfSpace{}, {.friction = 0.3f});
     const Thing disc = add_dynamic(scene, {0, 0.25}, Circle{.radius = 0.25f}, {.friction = 0.3f}, {6, 0});
     steps(scene, 30);
-    EXPECT_NEAR(scene.body(disc.body).velocity().x, 6 - 0.3 * g * 0.5, 0.05) << "still sliding";
+    EXPECT_NEAR(scene.body(disc.body).velocity().x, 6 - 0.3 * gravity * 0.5, 0.05) << "still sliding";
     steps(scene, 150);
     EXPECT_NEAR(scene.body(disc.body).velocity().x, 4, 0.02);
     EXPECT_NEAR(scene.body(disc.body).angular_velocity(), -16, 0.1);
@@ -108,7 +108,7 @@ TEST(LawFriction, ABoxHoldsBelowTheThresholdAndSlidesAbove)
         const Thing body = slope.put(box(0.5f, 0.25f), 0.25, alpha, {.friction = static_cast<float>(mu)});
         steps(slope.scene, 300);
         const double moved = static_cast<double>(dot(slope.scene.body(body.body).position() - Position{}, slope.down));
-        const double free = 0.5 * g * (std::sin(alpha) - mu * std::cos(alpha)) * 25;
+        const double free = 0.5 * gravity * (std::sin(alpha) - mu * std::cos(alpha)) * 25;
         if (ratio < 1)
             EXPECT_NEAR(moved, 0, 0.01) << ratio;
         else
@@ -122,7 +122,7 @@ TEST(LawFriction, MixingIsTheGeometricMeanByDefault)
     Slope slope(alpha, {.friction = 0.1f}, false);
     const Thing body = slope.put(box(0.5f, 0.25f), 0.25, alpha, {.friction = 0.4f});
     steps(slope.scene, 60);
-    EXPECT_NEAR(slope.along(body.body), g * (std::sin(alpha) - 0.2 * std::cos(alpha)), 0.04);
+    EXPECT_NEAR(slope.along(body.body), gravity * (std::sin(alpha) - 0.2 * std::cos(alpha)), 0.04);
 }
 
 TEST(LawFriction, RollingResistanceSlowsARollingBall)
@@ -137,7 +137,7 @@ TEST(LawFriction, RollingResistanceSlowsARollingBall)
     scene.ignore_pair(disc.body, free.body);
     steps(scene, 60);
     EXPECT_NEAR(scene.body(free.body).velocity().x, -5, 1e-3);
-    EXPECT_NEAR(scene.body(disc.body).velocity().x, 5 - 0.05 * g / 1.5, 0.03);
+    EXPECT_NEAR(scene.body(disc.body).velocity().x, 5 - 0.05 * gravity / 1.5, 0.03);
     steps(scene, 60 * 20);
     EXPECT_NEAR(scene.body(disc.body).velocity().x, 0, 1e-3) << "it comes to rest and does not turn back";
 }
@@ -151,7 +151,7 @@ TEST(LawFriction, AConveyorCarriesABoxAtItsSpeed)
         add_static(scene, box(50, 0.5f, {0, -0.5f}), {.surface_speed = 2});
         const Thing body = add_dynamic(scene, {0, 0.25}, geometry);
         steps(scene, 20);
-        EXPECT_NEAR(scene.body(body.body).velocity().x, -0.6 * g / 3, 0.15) << "friction pulls it along";
+        EXPECT_NEAR(scene.body(body.body).velocity().x, -0.6 * gravity / 3, 0.15) << "friction pulls it along";
         steps(scene, 120);
         EXPECT_NEAR(scene.body(body.body).velocity().x, -2, 0.01);
     }

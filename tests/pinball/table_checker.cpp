@@ -40,7 +40,7 @@ struct BrokenTable
     friend void PrintTo(const BrokenTable& table, std::ostream* out) { *out << table.name; }
 };
 
-Table load(const std::filesystem::path& file)
+Table load_file(const std::filesystem::path& file)
 {
     const LoadResult result = load_table_file(file);
     for (const LoadError& error : result.errors)
@@ -91,7 +91,7 @@ class TableChecker : public testing::TestWithParam<BrokenTable>
 
 TEST_P(TableChecker, FindsExactlyWhatIsBroken)
 {
-    const Table table = load(broken_tables / (GetParam().name + ".table.json"));
+    const Table table = load_file(broken_tables / (GetParam().name + ".table.json"));
     ASSERT_FALSE(table.elements.empty());
     EXPECT_EQ(findings_of(table), GetParam().expected);
 }
@@ -130,7 +130,7 @@ TEST(TableChecker, ShippedTablesPass)
 template <typename Kind, typename Change>
 std::vector<Expected> momentum_with(const std::string& id, const Change& change)
 {
-    Table table = load(std::filesystem::path(CAROM_TABLES_DIR) / "momentum.table.json");
+    Table table = load_file(std::filesystem::path(CAROM_TABLES_DIR) / "momentum.table.json");
     const Index element = table.find(id);
     if (element == none)
         return {};

@@ -39,7 +39,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-Table load(std::string_view text)
+Table load_text(std::string_view text)
 {
     const LoadResult result = load_table(text);
     for (const LoadError& error : result.errors)
@@ -120,18 +120,21 @@ TEST(TableLoader, ReadsMomentum)
 
 TEST(TableLoader, DegreesBecomeRadians)
 {
-    const Table table = load(table_with(flipper));
+    const Table table = load_text(table_with(flipper));
     const Flipper& read = std::get<Flipper>(table.elements[1].part);
     EXPECT_FLOAT_EQ(read.rest, -30 * pi / 180);
     EXPECT_FLOAT_EQ(read.up, 20 * pi / 180);
     EXPECT_FLOAT_EQ(table.physics.slope, 6.5f * pi / 180);
 }
 
-TEST(TableLoader, CommentsAreAllowed) { EXPECT_EQ(load("// a table\n/* of\nours */" + table_with(post)).elements[1].line, 10); }
+TEST(TableLoader, CommentsAreAllowed)
+{
+    EXPECT_EQ(load_text("// a table\n/* of\nours */" + table_with(post)).elements[1].line, 10);
+}
 
 TEST(TableLoader, ElementsKnowTheirLine)
 {
-    const Table table = load(table_with(std::string(post) + ",\n\n" + std::string(drop)));
+    const Table table = load_text(table_with(std::string(post) + ",\n\n" + std::string(drop)));
     EXPECT_EQ(table.elements[0].line, 7);
     EXPECT_EQ(table.elements[1].line, 8);
     EXPECT_EQ(table.elements[2].line, 10);
@@ -142,7 +145,7 @@ TEST(TableLoader, SolidsRunCounterClockwise)
     for (const char* path : {R"(["M", 0.1, 0.1], ["L", 0.2, 0.1], ["A", 0.1, 0.1, 0.1, 0, 90], ["Z"])",
                              R"(["M", 0.1, 0.1], ["L", 0.1, 0.2], ["A", 0.1, 0.1, 0.1, 90, 0], ["Z"])"})
     {
-        const Table table = load(table_with(solid(path)));
+        const Table table = load_text(table_with(solid(path)));
         const Chain& chain = std::get<Solid>(table.elements[1].part).path;
         EXPECT_TRUE(chain.closed);
         EXPECT_NEAR(signed_area(chain), 3.14159265 * 0.01 / 4, 1e-8) << path;
@@ -154,7 +157,8 @@ TEST(TableLoader, SlingshotsRunCounterClockwiseAndKeepTheirKickingEdge)
 {
     for (const char* corners : {"[[0.1, 0.3], [0.12, 0.4], [0.05, 0.35]]", "[[0.12, 0.4], [0.1, 0.3], [0.05, 0.35]]"})
     {
-        const Table table = load(table_with(replaced(std::string(sling), "[[0.1, 0.3], [0.12, 0.4], [0.05, 0.35]]", corners)));
+        const Table table =
+            load_text(table_with(replaced(std::string(sling), "[[0.1, 0.3], [0.12, 0.4], [0.05, 0.35]]", corners)));
         const Slingshot& read = std::get<Slingshot>(table.elements[1].part);
         EXPECT_GT(cross(read.corners[1] - read.corners[0], read.corners[2] - read.corners[0]), 0);
         EXPECT_EQ(read.corners[2], (Vec2{0.05f, 0.35f}));
@@ -163,7 +167,7 @@ TEST(TableLoader, SlingshotsRunCounterClockwiseAndKeepTheirKickingEdge)
 
 TEST(TableLoader, ArcsWithinATenthOfAMillimetreSnapToTheirPath)
 {
-    const Table table = load(table_with(wall(R"(["M", 0.10009, 0.1], ["A", 0.2, 0.1, 0.1, 180, 0])")));
+    const Table table = load_text(table_with(wall(R"(["M", 0.10009, 0.1], ["A", 0.2, 0.1, 0.1, 180, 0])")));
     const Chain& chain = std::get<Wall>(table.elements[1].part).path;
     EXPECT_EQ(chain.start, (Vec2{0.10009f, 0.1f}));
     EXPECT_NEAR(chain.pieces[0].end.x, 0.3f, 1e-6);
@@ -172,13 +176,13 @@ TEST(TableLoader, ArcsWithinATenthOfAMillimetreSnapToTheirPath)
 
 TEST(TableLoader, DirectionsHaveLengthOne)
 {
-    EXPECT_EQ(std::get<SprungTarget>(load(table_with(bash)).elements[1].part).axis, (Vec2{0, 1}));
+    EXPECT_EQ(std::get<SprungTarget>(load_text(table_with(bash)).elements[1].part).axis, (Vec2{0, 1}));
 }
 
 TEST(TableLoader, FalloffBecomesACurve)
 {
     const std::string text = replaced(table_with(""), R"("restitution": 0.8)", R"("restitution": 0.8, "falloff_per_mps": 0.2)");
-    const RestitutionCurve curve = load(text).materials[0].curve;
+    const RestitutionCurve curve = load_text(text).materials[0].curve;
     ASSERT_GT(curve.count, 2u);
     for (std::uint32_t i = 0; i < curve.count; ++i)
         EXPECT_FLOAT_EQ(curve.points[i].restitution, 0.8f / (1 + 0.2f * curve.points[i].speed));
@@ -187,14 +191,14 @@ TEST(TableLoader, FalloffBecomesACurve)
 TEST(TableLoader, MaterialsMayGiveACurve)
 {
     const std::string text = replaced(table_with(""), R"("restitution": 0.8)", R"("curve": [[0, 0.9], [2, 0.5]])");
-    const Material material = load(text).materials[0];
+    const Material material = load_text(text).materials[0];
     EXPECT_EQ(material.curve.count, 2u);
     EXPECT_FLOAT_EQ(material.restitution, 0.9f);
 }
 
 TEST(TableLoader, ColorsAreRead)
 {
-    const Table table = load(table_with(replaced(std::string(post), "0.004", R"(0.004, "color": "#ffd40a")")));
+    const Table table = load_text(table_with(replaced(std::string(post), "0.004", R"(0.004, "color": "#ffd40a")")));
     EXPECT_EQ(table.elements[1].color, (Color{255, 212, 10}));
 }
 
