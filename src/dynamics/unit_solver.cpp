@@ -165,7 +165,7 @@ private:
     // Nothing comes between solving and relaxing, and nothing but lanes is solved.
     [[nodiscard]] bool goes_by_parts() const
     {
-        return m_unit.parts > 0 && m_unit.core_count == 0 && m_joints.empty() && m_unit.wide_joint_count == 0 && m_rows.empty() &&
+        return m_unit.parts > 0 && m_joints.empty() && m_unit.wide_joint_count == 0 && m_rows.empty() &&
                m_output.late_rows.empty() && !m_unit.traced && !has_fliers();
     }
 
@@ -188,6 +188,7 @@ private:
                             const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
                             m_bins.of_part(part, solve);
                             integrate_positions(first, first + static_cast<int>(states.size()));
+                            m_bins.of_part(part, [this](int begin, int end) { guard_wide_cores(begin, end); });
                             m_bins.of_part(part, relax);
                         });
         m_bins.crossing(m_crew, relax);
@@ -459,8 +460,17 @@ private:
         float part = 1;
         for (int pass = 0; pass < guard_passes && guard_rows(part) > 1; ++pass)
             part = 0.5f;
-        for (int i = m_unit.first_core; i < m_unit.first_core + m_unit.core_count; ++i)
-            guard_wide_core(m_scratch.cores[static_cast<std::size_t>(i)]);
+        guard_wide_cores(0, m_unit.wide_count);
+    }
+
+    // Of groups first to last.
+    void guard_wide_cores(int first, int last) const
+    {
+        const auto cores = std::span(m_scratch.cores)
+                               .subspan(static_cast<std::size_t>(m_unit.first_core), static_cast<std::size_t>(m_unit.core_count));
+        auto core = std::ranges::lower_bound(cores, first * lane_count, {}, &WideCore::lane);
+        for (; core != cores.end() && core->lane < last * lane_count; ++core)
+            guard_wide_core(*core);
     }
 
     void guard_wide_core(const WideCore& core) const
