@@ -1,5 +1,6 @@
 // Force laws: when they are called, that their loads act as forces do, and that nothing is passed through for their sake.
 
+#include "support/slow_build.h"
 #include "support/test_scene.h"
 
 #include <limits>
@@ -286,7 +287,7 @@ TEST(ForceLaw, ResultsDoNotDependOnTheThreads)
                                            Circle{.radius = 0.1f}, {.restitution = 0.7f});
             scene.set_force_law(ball.body, {.function = Swing::law, .user = &swings[i], .greatest_force = 3});
         }
-        steps(scene, 60);
+        steps(scene, slow_build ? 15 : 60);
         return scene.state_hash();
     };
     const std::uint64_t alone = run({});
