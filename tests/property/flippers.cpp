@@ -29,8 +29,6 @@ constexpr Filter bat_filter{.category = 2, .mask = 4};
 constexpr Filter wall_filter{.category = 1, .mask = 4};
 constexpr Filter ball_filter{.category = 4};
 
-float f(double x) { return static_cast<float>(x); }
-
 ShapeDef with(ShapeDef material, Filter filter)
 {
     material.filter = filter;

@@ -9,8 +9,6 @@ namespace carom::shots {
 
 namespace {
 
-float f(double x) { return static_cast<float>(x); }
-
 enum class Link
 {
     Hinge,

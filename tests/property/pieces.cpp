@@ -6,8 +6,6 @@ namespace carom::shots {
 
 namespace {
 
-float f(double x) { return static_cast<float>(x); }
-
 Piece make_box(double half_width, double half_height, double radius)
 {
     const Geometry geometry = box(f(half_width), f(half_height), {}, 0, f(radius));

@@ -7,8 +7,6 @@ namespace carom::shots {
 
 namespace {
 
-float f(double x) { return static_cast<float>(x); }
-
 double depth_in_polygon(const std::vector<Point>& corners, Point p)
 {
     double least = std::numeric_limits<double>::infinity();

@@ -18,6 +18,9 @@
 
 namespace carom::shots {
 
+/// A random number, as shapes and materials take it.
+[[nodiscard]] inline float f(double x) { return static_cast<float>(x); }
+
 using test::Random;
 
 /// What went wrong first.
