@@ -16,7 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Build = std::function<void(Scene&)>;
 
-constexpr float step_length = 1.0f / 60;
 constexpr int pile_bodies = 5000;
 constexpr int drum_bodies = 2000;
 constexpr float drum_radius = 14;
@@ -61,7 +60,7 @@ struct Side
     void step()
     {
         const auto begin = Clock::now();
-        scene.step(step_length);
+        scene.step(dt);
         ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     }
 };

@@ -8,8 +8,6 @@
 namespace speed {
 namespace {
 
-truth::Vec in_doubles(carom::Vec2 v) { return {v.x, v.y}; }
-
 /// FNV-1a over eight bytes at a time.
 class Hash
 {
@@ -39,7 +37,7 @@ public:
         const Changes all = m_translator.look(m_script.scene);
         m_bytes_before = heap_bytes();
         const carom::SceneDef& def = m_script.scene.def();
-        m_world = engine.make_world({.gravity = in_doubles(def.gravity),
+        m_world = engine.make_world({.gravity = widen(def.gravity),
                                      .sleeping = def.sleeping,
                                      .continuous = def.continuous,
                                      .substeps = def.substeps,

@@ -7,6 +7,7 @@
 
 namespace speed {
 
+inline constexpr float dt = 1.0f / 60; ///< s, of a step
 inline constexpr int pile_rows = 20;
 inline constexpr float pile_pitch = 0.51f; ///< of bodies of half a metre
 

@@ -8,9 +8,6 @@ namespace {
 using truth::Missing;
 using truth::Vec;
 
-Vec widen(carom::Vec2 v) { return {v.x, v.y}; }
-Vec widen(carom::Position p) { return {p.x, p.y}; }
-
 truth::Motion motion(carom::BodyType type)
 {
     switch (type)

@@ -12,6 +12,9 @@
 
 namespace speed {
 
+[[nodiscard]] inline truth::Vec widen(carom::Vec2 v) { return {v.x, v.y}; }
+[[nodiscard]] inline truth::Vec widen(carom::Position p) { return {p.x, p.y}; }
+
 /// A body and its shapes, ready to be made.
 struct BodyPlan
 {

@@ -18,7 +18,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr float dt = 1.0f / 60;
 constexpr float bar_length = 4;
 constexpr int columns_per_bar = 25;
 constexpr int settling_steps = 90;

@@ -4,6 +4,7 @@
 #include "dynamics/unit_solver.h"
 
 #include "core/float4.h"
+#include "core/index.h"
 #include "core/trigonometry.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/contact_solver.h"
@@ -177,13 +178,11 @@ private:
         const auto relax = [this](int first, int last) { relax_lanes(first, last); };
         const int first_kinematic = m_unit.first_state + 1 + m_unit.dynamic_count;
         integrate_positions(first_kinematic, m_unit.first_state + m_unit.state_count);
+        const auto parts = std::span(m_scratch.parts).subspan(as_index(m_unit.first_state + 1), as_index(m_unit.dynamic_count));
         m_bins.crossing(m_crew, solve);
         m_bins.in_parts(m_crew,
                         [&](int part)
                         {
-                            const auto parts = std::span(m_scratch.parts)
-                                                   .subspan(static_cast<std::size_t>(m_unit.first_state) + 1,
-                                                            static_cast<std::size_t>(m_unit.dynamic_count));
                             const auto states = std::ranges::equal_range(parts, static_cast<std::uint8_t>(part));
                             const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
                             m_bins.of_part(part, solve);
@@ -466,8 +465,7 @@ private:
     // Of groups first to last.
     void guard_wide_cores(int first, int last) const
     {
-        const auto cores = std::span(m_scratch.cores)
-                               .subspan(static_cast<std::size_t>(m_unit.first_core), static_cast<std::size_t>(m_unit.core_count));
+        const auto cores = std::span(m_scratch.cores).subspan(as_index(m_unit.first_core), as_index(m_unit.core_count));
         auto core = std::ranges::lower_bound(cores, first * lane_count, {}, &WideCore::lane);
         for (; core != cores.end() && core->lane < last * lane_count; ++core)
             guard_wide_core(*core);

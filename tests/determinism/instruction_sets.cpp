@@ -4,10 +4,10 @@
 #include "dynamics/wide_kernels.h"
 #include "scenes/scenes.h"
 #include "support/slow_build.h"
+#include "support/threads.h"
 
 #include <gtest/gtest.h>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace carom;
@@ -16,26 +16,12 @@ namespace {
 
 constexpr int steps = test::slow_build ? 3 : 60;
 
-void run_on_threads(void* user, int count, void (*task)(void*, int), void* context)
-{
-    const int workers = *static_cast<int*>(user);
-    std::vector<std::thread> threads;
-    for (int w = 0; w < workers; ++w)
-        threads.emplace_back(
-            [=]
-            {
-                for (int i = w; i < count; i += workers)
-                    task(context, i);
-            });
-    for (std::thread& t : threads)
-        t.join();
-}
-
 std::uint64_t hash_after(const scenes::SceneEntry& entry, int workers)
 {
     SceneDef def;
+    test::Threads threads(workers);
     if (workers > 1)
-        def.tasks = {.worker_count = workers, .run = run_on_threads, .user = &workers};
+        def.tasks = threads.hooks();
     scenes::BuiltScene built = entry.create(def);
     for (int i = 0; i < steps; ++i)
         built.step(entry.h);

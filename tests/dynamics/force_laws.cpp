@@ -2,9 +2,9 @@
 
 #include "support/slow_build.h"
 #include "support/test_scene.h"
+#include "support/threads.h"
 
 #include <limits>
-#include <thread>
 #include <vector>
 
 using namespace carom;
@@ -247,21 +247,6 @@ TEST(ForceLaw, NoPushLeadsThroughAWall)
     }
 }
 
-// Each on a thread of its own choosing.
-void run_on_threads(void*, int count, void (*task)(void*, int), void* context)
-{
-    std::vector<std::thread> threads;
-    for (int first = 0; first < 3; ++first)
-        threads.emplace_back(
-            [=]
-            {
-                for (int i = first; i < count; i += 3)
-                    task(context, i);
-            });
-    for (std::thread& thread : threads)
-        thread.join();
-}
-
 TEST(ForceLaw, ResultsDoNotDependOnTheThreads)
 {
     struct Swing
@@ -291,7 +276,8 @@ TEST(ForceLaw, ResultsDoNotDependOnTheThreads)
         return scene.state_hash();
     };
     const std::uint64_t alone = run({});
-    EXPECT_EQ(run({.worker_count = 3, .run = run_on_threads}), alone);
+    Threads three(3);
+    EXPECT_EQ(run(three.hooks()), alone);
 }
 
 } // namespace

@@ -1,10 +1,9 @@
 // Units so large that they are cut into parts of the plane, see dynamics/unit_bins.h.
 
 #include "support/test_scene.h"
+#include "support/threads.h"
 
 #include <algorithm>
-#include <thread>
-#include <vector>
 
 using namespace carom;
 using namespace carom::test;
@@ -14,15 +13,6 @@ namespace {
 constexpr int columns = 300;
 constexpr int rows = 8; // of balls 0.2 m wide
 constexpr float radius = 0.1f;
-
-void on_threads(void*, int count, void (*task)(void*, int), void* context)
-{
-    std::vector<std::thread> threads;
-    for (int i = 0; i < count; ++i)
-        threads.emplace_back([=] { task(context, i); });
-    for (std::thread& thread : threads)
-        thread.join();
-}
 
 // Balls a hexagon's distance apart, the lowest of them set far too deep into a floor.
 Scene sunk_balls(const TaskHooks& tasks)
@@ -56,7 +46,8 @@ float deepest(const Scene& scene)
 TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutToHalfOfItsRadiusAtOnce)
 {
     Scene scene = sunk_balls({});
-    Scene on_three = sunk_balls({.worker_count = 3, .run = on_threads});
+    Threads three(3);
+    Scene on_three = sunk_balls(three.hooks());
     for (int i = 0; i < 40; ++i)
     {
         scene.step(1.0f / 60);
