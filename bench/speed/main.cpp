@@ -264,6 +264,9 @@ void add_options(CLI::App& app, Options& o)
         ->capture_default_str();
     app.add_option("--steps", o.run.steps, "steps, the first one included (default: the scene's own number)")
         ->check(CLI::Range(2, 1000000));
+    app.add_option("--finer", o.run.finer, "part each step into so many: what the scene comes to when steps are short")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
     app.add_flag("--json", o.json, "print a list of {scene, engine, isa, threads, ..., quality} instead of tables");
     app.add_option("--csv", o.csv, "also write the results into this file");
     app.add_flag("--verify", o.verify, "no times: whole runs with 1, 2, 3 and 8 threads must give the same bits");

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <stdexcept>
 
 namespace speed {
 namespace {
@@ -19,7 +20,19 @@ double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOC
 
 int step_count(const carom::scenes::SceneEntry& entry, const RunOptions& options)
 {
-    return options.steps > 0 ? options.steps : entry.frames;
+    return (options.steps > 0 ? options.steps : entry.frames) * options.finer;
+}
+
+float step_length(const carom::scenes::SceneEntry& entry, const RunOptions& options)
+{
+    return entry.h / static_cast<float>(options.finer);
+}
+
+void check_schedule(const carom::scenes::SceneEntry& entry, const RunOptions& options)
+{
+    if (options.finer > 1 && entry.create({}).before_step)
+        throw std::invalid_argument("finer steps of " + std::string(entry.name) +
+                                    ": its schedule goes by steps, so that finer ones would be another scene");
 }
 
 /// Steps a contestant and adds up what that takes.
@@ -134,7 +147,7 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
     const std::size_t bytes_built = contestant->bytes();
     if (meter != nullptr)
         meter->start(*contestant);
-    Stopwatch watch(*contestant, entry.h);
+    Stopwatch watch(*contestant, step_length(entry, options));
     for (int step = 0; step < steps; ++step)
     {
         options.progress(position(contender, entry, step, steps));
@@ -151,6 +164,7 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
 
 Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
 {
+    check_schedule(entry, options);
     QualityMeter meter(entry.stands);
     Result best = run_once(entry, contender, options, maker_of(entry), options.disturbed == 0 ? &meter : nullptr);
     for (int i = 1; i < options.repeat; ++i)
@@ -172,17 +186,19 @@ Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, c
 
 std::vector<std::uint64_t> hashes(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
 {
+    check_schedule(entry, options);
     TaskPool pool(options.threads);
     carom::SceneDef def;
     def.tasks = pool.hooks();
     const std::unique_ptr<Contestant> contestant = contender.enter(maker_of(entry), def);
     const int steps = step_count(entry, options);
+    const float h = step_length(entry, options);
     std::vector<std::uint64_t> list;
     for (int step = 0; step < steps; ++step)
     {
         options.progress(position(contender, entry, step, steps) + ", " + std::to_string(options.threads) + " threads");
-        contestant->prepare(entry.h);
-        contestant->step(entry.h);
+        contestant->prepare(h);
+        contestant->step(h);
         if ((step + 1) % hash_interval == 0 || step + 1 == steps)
             list.push_back(contestant->hash());
     }

@@ -182,6 +182,20 @@ TEST(Run, RepeatsAndThreadsEndInTheSameState)
     EXPECT_NE(one.hash, run(*entry, carom, {.steps = 41}).hash);
 }
 
+// As much of the scene's time has gone by: were the steps as long as before, four times as many pieces would lie together.
+TEST(Run, FinerStepsAreShorterAndMore)
+{
+    const SceneEntry* tumbler = carom::scenes::find_scene("tumbler");
+    const SceneEntry* scheduled = carom::scenes::find_scene("junkyard");
+    ASSERT_TRUE(tumbler != nullptr && scheduled != nullptr);
+    const Contender carom = contenders().front();
+    const double near = run(*tumbler, carom, {.steps = 60}).quality.near_pairs;
+    const Result finer = run(*tumbler, carom, {.steps = 60, .finer = 4});
+    EXPECT_EQ(finer.steps, 240);
+    EXPECT_NEAR(finer.quality.near_pairs, near, 0.2 * near);
+    EXPECT_THROW(static_cast<void>(run(*scheduled, carom, {.steps = 10, .finer = 2})), std::invalid_argument);
+}
+
 TEST(Memory, TheHeapGrowsByWhatIsAllocated)
 {
     const std::size_t before = heap_bytes();
