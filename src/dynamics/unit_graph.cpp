@@ -64,24 +64,26 @@ public:
 
     void link_units()
     {
+        const bool shared = ctx.scene.def.tasks.worker_count > 1;
+        const auto guess = [&](std::int32_t a, std::int32_t b) { scratch.sets.guess(a, b); };
+        const auto link = [&](std::int32_t a, std::int32_t b) { scratch.sets.link(a, b, shared); };
         scratch.sets.reset(state.awake_bodies.size());
-        link_all(scratch.links);
-        link_all(scratch.joint_links);
+        for_both_ends(scratch.links, guess);
+        for_both_ends(scratch.joint_links, guess);
+        scratch.sets.flatten();
+        for_both_ends(scratch.links, link);
+        for_both_ends(scratch.joint_links, link);
     }
 
-    template <class AnyLink>
-    void link_all(const std::vector<AnyLink>& links)
+    // Of all links, on all threads. What is not dynamic has no place: it is negative.
+    template <class AnyLink, class Visit>
+    void for_both_ends(const std::vector<AnyLink>& links, const Visit& visit) const
     {
-        const TaskHooks& tasks = ctx.scene.def.tasks;
-        const bool shared = tasks.worker_count > 1;
-        run_parts(tasks, links.size(), links_per_task,
+        run_parts(ctx.scene.def.tasks, links.size(), links_per_task,
                   [&](std::size_t first, std::size_t last)
                   {
                       for (const AnyLink& l : std::span(links).subspan(first, last - first))
-                      {
-                          if (l.a >= 0 && l.b >= 0)
-                              scratch.sets.link(l.a, l.b, shared);
-                      }
+                          visit(l.a, l.b);
                   });
     }
 

@@ -3,6 +3,7 @@
 #include "core/union_find.h"
 #include "support/test_scene.h"
 
+#include <atomic>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -54,6 +55,21 @@ std::vector<std::int32_t> roots(UnionFind& sets)
     return all;
 }
 
+template <class Visit>
+void on_four_threads(const Links& links, const Visit& visit)
+{
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < 4; ++t)
+        threads.emplace_back(
+            [&, t]
+            {
+                for (std::size_t i = t; i < links.size(); i += 4)
+                    visit(links[i].first, links[i].second);
+            });
+    for (std::thread& thread : threads)
+        thread.join();
+}
+
 } // namespace
 
 TEST(CoreUnionFind, RootsAreTheLeastOfTheirSets)
@@ -82,16 +98,36 @@ TEST(CoreUnionFind, ThreadsSideBySideFindTheSameRoots)
     {
         UnionFind sets;
         sets.reset(size);
-        std::vector<std::thread> threads;
-        for (std::size_t t = 0; t < 4; ++t)
-            threads.emplace_back(
-                [&, t]
-                {
-                    for (std::size_t i = t; i < links.size(); i += 4)
-                        sets.link(links[i].first, links[i].second, true);
-                });
-        for (std::thread& thread : threads)
-            thread.join();
+        on_four_threads(links, [&](std::int32_t a, std::int32_t b) { sets.link(a, b, true); });
         EXPECT_EQ(roots(sets), spread(links));
     }
+}
+
+TEST(CoreUnionFind, GuessesLeaveLessToLinkAndChangeNoRoot)
+{
+    const Links links = random_links(11, 1500);
+    for (int run = 0; run < 20; ++run)
+    {
+        UnionFind sets;
+        sets.reset(size);
+        on_four_threads(links, [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); });
+        sets.flatten();
+        std::atomic<int> joined = 0;
+        on_four_threads(links, [&](std::int32_t a, std::int32_t b) { joined += sets.link(a, b, true) ? 1 : 0; });
+        EXPECT_EQ(roots(sets), spread(links));
+        EXPECT_LT(joined, 700);
+    }
+}
+
+TEST(CoreUnionFind, WhoIsLinkedToNobodyStaysAlone)
+{
+    UnionFind sets;
+    sets.reset(3);
+    sets.guess(1, -1);
+    sets.guess(-3, 2);
+    sets.flatten();
+    EXPECT_FALSE(sets.link(1, -1, false));
+    EXPECT_FALSE(sets.link(-3, 2, false));
+    for (std::int32_t i = 0; i < 3; ++i)
+        EXPECT_EQ(sets.root(i), i);
 }

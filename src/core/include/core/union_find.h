@@ -16,15 +16,34 @@ public:
     /// Each by itself.
     void reset(std::size_t size)
     {
-        m_parents.resize(size);
-        for (std::size_t i = 0; i < size; ++i)
+        m_parents.resize(size + 1); // the last is nobody's
+        for (std::size_t i = 0; i <= size; ++i)
             m_parents[i] = static_cast<std::int32_t>(i);
     }
 
-    /// False where they hung together already. `shared`: other threads link as well.
+    /// Before anything is linked: the later one hangs under the other, whatever it hung under until now. So most links are known by a store each, and
+    /// where neighbours have near numbers few sets are left to be linked. Negative: nobody. Threads may do so side by side.
+    void guess(std::int32_t a, std::int32_t b)
+    {
+        const std::int32_t under = std::min(a, b);
+        const auto nobody = static_cast<std::int32_t>(m_parents.size()) - 1;
+        parent(under >= 0 ? std::max(a, b) : nobody)
+            .store(under, std::memory_order_relaxed); // no branch: it would be guessed wrong
+    }
+
+    /// After guessing: everyone hangs right under a root.
+    void flatten()
+    {
+        for (std::size_t i = 0; i + 1 < m_parents.size(); ++i)
+            m_parents[i] = m_parents[static_cast<std::size_t>(m_parents[i])]; // which comes before it, and is done
+    }
+
+    /// False where they hung together already. Negative, of one: nobody. `shared`: other threads link as well.
     bool link(std::int32_t a, std::int32_t b, bool shared)
     {
-        return above(a) != above(b) && join(a, b, shared); // most hang together already
+        a = a >= 0 ? a : b;
+        b = b >= 0 ? b : a;
+        return above(above(a)) != above(above(b)) && join(a, b, shared); // most hang together already
     }
 
     [[nodiscard]] std::int32_t root(std::int32_t i)
