@@ -141,7 +141,8 @@ void keep_rows(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     KeptUnits& kept = scratch.kept_units;
-    const auto may_stay = [&](const Link& l) { return !l.solved || (l.plain && leans_on_statics(ctx.state, l)); };
+    const auto may_stay = [&](const Link& l)
+    { return !l.has(link_flag::solved) || (l.has(link_flag::plain) && leans_on_statics(ctx.state, l)); };
     kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.units.empty() &&
                       std::ranges::all_of(scratch.links, may_stay);
     if (!kept.rows_apart)

@@ -113,7 +113,7 @@ private:
                                  for (std::size_t i = first; i < std::min(last, links().size()); ++i)
                                  {
                                      Link& l = links()[i];
-                                     if (l.color == none || l.color == color_limit)
+                                     if (l.color() == none || l.color() == color_limit)
                                          some.uncolored.push_back(static_cast<std::int32_t>(i));
                                      else
                                          count(l, some);
@@ -130,8 +130,8 @@ private:
                 Link& l = links()[as_index(i)];
                 Contact& contact = m_state.contacts[l.contact];
                 take_color(m_state, contact);
-                l.color = static_cast<std::int16_t>(contact.color);
-                if (l.color == color_limit)
+                l.about = about_link(l.about & link_flag::all, l.points(), contact.color);
+                if (contact.color == color_limit)
                     m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
                 count(l, some);
             }
@@ -140,17 +140,19 @@ private:
 
     void count(Link& l, SomePlaces& some) const
     {
-        l.in_lane = m_is_wide && l.color != color_limit && l.plain && (m_is_uniform || give_evenly(m_ctx, l));
-        l.bin = bin_of(l);
-        ++some.place_for(l);
-        some.colors |= l.color != color_limit ? std::uint64_t{1} << l.color : 0;
+        const int color = l.color();
+        const bool in_lane =
+            m_is_wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
+        l.about = static_cast<std::uint16_t>(in_lane ? l.about | link_flag::in_lane : l.about & ~link_flag::in_lane);
+        l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
+        ++(in_lane ? some.lanes : some.rows)[l.bin];
+        some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
     }
 
-    // Lanes by part, color and number of points; rows by color.
-    [[nodiscard]] std::int16_t bin_of(const Link& l) const
+    // Of a lane, by part, color and number of points.
+    [[nodiscard]] int bin_of(const Link& l) const
     {
-        return l.in_lane ? static_cast<std::int16_t>(part_of(l) * bins_to_a_part + 2 * l.color + (l.points == 2 ? 0 : 1))
-                         : l.color;
+        return part_of(l) * bins_to_a_part + 2 * l.color() + (l.points() == 2 ? 0 : 1);
     }
 
     // --- places -----------------------------------------------------------------------------------------------------------------------
@@ -208,9 +210,9 @@ private:
         {
             const Link& l = links()[i];
             const std::int32_t at = some.place_for(l)++;
-            (l.in_lane ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
+            (l.has(link_flag::in_lane) ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
                 m_unit.first_link + static_cast<std::int32_t>(i);
-            if (l.in_lane && l.round && l.points == 1)
+            if (l.has(link_flag::in_lane) && l.has(link_flag::round) && l.points() == 1)
                 add_core(l, at, some);
         }
         for (std::int32_t part = 0; part <= m_unit.parts; ++part)
@@ -237,7 +239,7 @@ private:
         std::ranges::sort(m_scratch.cores.begin() + m_unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
         for (auto row = m_unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
         {
-            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].bears)
+            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].has(link_flag::bears))
                 m_scratch.impact_rows.push_back(row);
         }
     }

@@ -122,7 +122,7 @@ private:
 
     void place(const Link& l)
     {
-        if (l.color != m_last.color || l.points != m_last.points)
+        if (l.color() != m_last.color() || l.points() != m_last.points())
             ++m_color;
         m_last = l;
         place(l.contact);

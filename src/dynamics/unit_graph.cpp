@@ -129,11 +129,11 @@ public:
             return;
         for (const Link& l : scratch.links)
         {
-            if (!l.solved)
+            if (!l.has(link_flag::solved))
                 continue;
             UnitTally& t = tally(unit_of_link(l));
             ++t.contacts;
-            t.bearing += l.bears ? 1 : 0;
+            t.bearing += l.has(link_flag::bears) ? 1 : 0;
         }
     }
 
@@ -480,7 +480,7 @@ public:
     }
 
     // Bodies in flight meet things at their own time; a row would stop them early.
-    [[nodiscard]] bool gets_row(const Link& l) const { return l.solved && !in_flight(l.a) && !in_flight(l.b); }
+    [[nodiscard]] bool gets_row(const Link& l) const { return l.has(link_flag::solved) && !in_flight(l.a) && !in_flight(l.b); }
     [[nodiscard]] bool in_flight(std::int32_t place) const
     {
         return place >= 0 && scratch.flight[static_cast<std::size_t>(place)] != earthbound;
@@ -551,7 +551,7 @@ private:
     {
         if (gets_row(l))
             return unit_of_link(l);
-        if (l.solved)
+        if (l.has(link_flag::solved))
             leave_row(state, l.contact);
         return none;
     }

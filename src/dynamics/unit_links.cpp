@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <atomic>
 #include <span>
+#include <utility>
 
 namespace carom::internal {
 
@@ -31,11 +32,101 @@ bool is_closed(const StepContext& ctx, int index, int body)
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
 }
 
+// A task's walk over its contacts. Copies, not references: to a compiler every store might change where vectors are.
+class ContactWalk
+{
+public:
+    // Links of the last step, where they count, are compared with these, and give their place to them.
+    ContactWalk(const StepContext& ctx, std::span<Link> links, std::size_t to_compare)
+        : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.places.data()),
+          m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.is_loaded.data()),
+          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_first(links.data()), m_next(links.data()),
+          m_old_end(links.data() + to_compare), m_stay(to_compare > 0)
+    {}
+
+    void prefetch(std::int32_t index) const { internal::prefetch(m_contacts[index]); }
+
+    // Links it where it takes part in the step. Whom it loads does not fly.
+    void visit(std::int32_t index)
+    {
+        Contact& contact = m_contacts[index];
+        m_lane_marks[index] = LaneMark::None;
+        contact.wide = none;
+        const bool touching = (contact.flags & contact_flag::touching) != 0;
+        const bool solved = is_solved(contact);
+        if (!solved)
+            leave_row(m_ctx.state, index);
+        if (!touching && !solved)
+            return;
+        const std::int32_t a = m_places[contact.body_a];
+        const std::int32_t b = m_places[contact.body_b];
+        if (a < 0 && b < 0)
+        {
+            leave_color(m_ctx.state, contact);
+            return;
+        }
+        const bool loaded = solved && is_loaded(m_ctx, contact, least_separation(contact.manifold));
+        note_load(a, loaded);
+        note_load(b, loaded);
+        link(index, a, b, about(contact, solved));
+        m_touching += touching ? 1 : 0;
+    }
+
+    void tell(SomeLinks& some) const
+    {
+        some.touching = m_touching;
+        some.stay = m_stay && m_next == m_old_end;
+        some.links.resize(static_cast<std::size_t>(m_next - m_first));
+    }
+
+private:
+    [[nodiscard]] static std::uint16_t about(const Contact& contact, bool solved)
+    {
+        const bool plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
+        const std::uint32_t flags = contact.flags & (link_flag::touching | link_flag::round | link_flag::bears);
+        return about_link(flags | (solved ? link_flag::solved : 0) | (plain ? link_flag::plain : 0), contact.manifold.count,
+                          contact.color);
+    }
+
+    // Filled where it stands: a copy would wait for its bytes. Who bears a load matters to rows and heaps only.
+    void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t about)
+    {
+        Link& l = *m_next;
+        if (m_stay)
+            m_stay = m_next < m_old_end && l.contact == contact && l.a == a && l.b == b &&
+                     ((l.about ^ about) & ~link_flag::bears) == 0;
+        l.contact = contact;
+        l.a = a;
+        l.b = b;
+        l.about = about;
+        l.bin = 0;
+        ++m_next;
+    }
+
+    // Others may do so as well. The last mark is nobody's: a branch here would be guessed wrong.
+    void note_load(std::int32_t place, bool loaded) const
+    {
+        const std::int32_t marked = loaded && place >= 0 ? place : m_nobody;
+        std::atomic_ref(m_is_loaded[marked]).store(1, std::memory_order_relaxed);
+    }
+
+    const StepContext& m_ctx;
+    Contact* m_contacts;
+    const std::int32_t* m_places;
+    LaneMark* m_lane_marks;
+    std::uint8_t* m_is_loaded;
+    std::int32_t m_nobody;
+    Link* m_first;
+    Link* m_next;
+    const Link* m_old_end;
+    bool m_stay;
+    int m_touching = 0;
+};
+
 // Who bears a load matters to rows and heaps only.
 bool is_same(const Link& a, const Link& b)
 {
-    return a.contact == b.contact && a.a == b.a && a.b == b.b && a.touching == b.touching && a.solved == b.solved &&
-           a.plain == b.plain && a.round == b.round && a.points == b.points && a.color == b.color;
+    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.about ^ b.about) & ~link_flag::bears) == 0;
 }
 
 class LinkGathering
@@ -47,6 +138,7 @@ public:
     {
         scratch.flight.assign(state.awake_bodies.size(), earthbound);
         scratch.grounded.assign(state.awake_bodies.size(), earthbound);
+        scratch.is_loaded.assign(state.awake_bodies.size() + 1, 0);
         scratch.has_uneven = scratch.has_kinematic = scratch.has_hung = false;
         forget_places();
         for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
@@ -61,8 +153,8 @@ public:
                           });
     }
 
-    // The one walk over all contacts, on all threads; what follows goes over the links. A body that a contact loads does not fly. Links of the last step
-    // are compared with these, and give their place to them.
+    // The one walk over all contacts, on all threads; what follows goes over the links. Links of the last step are compared with these, and give their place
+    // to them.
     void gather_contacts()
     {
         const TaskHooks& tasks = ctx.scene.def.tasks;
@@ -89,11 +181,14 @@ public:
         }
     }
 
+    // A body that a contact loads does not fly.
     void list_fliers()
     {
         scratch.flying.clear();
         for (std::size_t i = 0; i < scratch.flight.size(); ++i)
         {
+            if (scratch.is_loaded[i] != 0)
+                scratch.grounded[i] = std::exchange(scratch.flight[i], earthbound);
             if (scratch.flight[i] != earthbound)
                 scratch.flying.push_back(static_cast<std::int32_t>(i));
         }
@@ -207,62 +302,19 @@ private:
         return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
     }
 
-    // Writes to its own contacts, and grounds bodies, which others may do as well.
     void gather_some(std::size_t first, std::size_t last, bool compare, SomeLinks& some) const
     {
-        some.touching = 0;
         const std::size_t before = some.links.size();
         set_size(some.links, std::max(before, last - first));
-        Link* next = some.links.data();
-        const Link* const end_before = next + (compare ? before : 0);
-        bool stay = compare;
+        ContactWalk walk(ctx, some.links, compare ? before : 0);
+        const std::int32_t* const indices = state.awake_contacts.data();
         for (std::size_t i = first; i < last; ++i)
         {
-            const std::int32_t index = state.awake_contacts[i];
             if (i + turns_ahead < last)
-                prefetch(state.contacts[state.awake_contacts[i + turns_ahead]]);
-            leave_lane(state, index);
-            Contact& contact = state.contacts[index];
-            contact.wide = none;
-            const bool touching = (contact.flags & contact_flag::touching) != 0;
-            const bool solved = is_solved(contact);
-            if (!solved)
-                leave_row(state, index);
-            if (!touching && !solved)
-                continue;
-            const std::int32_t a = place_of(scratch, contact.body_a);
-            const std::int32_t b = place_of(scratch, contact.body_b);
-            if (a < 0 && b < 0)
-            {
-                leave_color(state, contact);
-                continue;
-            }
-            const bool plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
-            const bool round = (contact.flags & contact_flag::round) != 0;
-            const auto points = static_cast<std::int16_t>(contact.manifold.count);
-            const auto color = static_cast<std::int16_t>(contact.color);
-            Link& l = *next++; // filled where it stands: a copy would wait for its bytes
-            if (stay)
-                stay = &l < end_before && is_same(l, {index, a, b, touching, solved, false, plain, round, false, points, color});
-            l.contact = index;
-            l.a = a;
-            l.b = b;
-            l.touching = touching;
-            some.touching += touching ? 1 : 0;
-            l.solved = solved;
-            l.bears = (contact.flags & contact_flag::loaded) != 0;
-            if (solved && is_loaded(ctx, contact, least_separation(contact.manifold)))
-            {
-                ground(a);
-                ground(b);
-            }
-            l.plain = plain;
-            l.round = round;
-            l.points = points;
-            l.color = color;
+                walk.prefetch(indices[i + turns_ahead]);
+            walk.visit(indices[i]);
         }
-        some.stay = stay && next == end_before;
-        some.links.resize(static_cast<std::size_t>(next - some.links.data()));
+        walk.tell(some);
     }
 
     void gather_joint(int index, std::vector<JointLink>& links) const
@@ -291,19 +343,6 @@ private:
     {
         return place >= 0 && (scratch.flight[static_cast<std::size_t>(place)] != earthbound ||
                               scratch.grounded[static_cast<std::size_t>(place)] != earthbound);
-    }
-
-    // Whoever comes first writes what the others would.
-    void ground(std::int32_t place) const
-    {
-        if (place < 0)
-            return;
-        const std::atomic_ref flight(scratch.flight[static_cast<std::size_t>(place)]);
-        const std::int32_t kind = flight.load(std::memory_order_relaxed);
-        if (kind == earthbound)
-            return;
-        std::atomic_ref(scratch.grounded[static_cast<std::size_t>(place)]).store(kind, std::memory_order_relaxed);
-        flight.store(earthbound, std::memory_order_relaxed);
     }
 
     StepContext& ctx;

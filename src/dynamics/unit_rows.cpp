@@ -61,7 +61,7 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
         row.a.v[i] = l.a;
         row.b.v[i] = l.b;
         row.contact.v[i] = l.contact;
-        row.count = l.points; // the same in all lanes
+        row.count = l.points(); // the same in all lanes
         Contact& contact = ctx.state.contacts[l.contact];
         contact.wide = (unit.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;

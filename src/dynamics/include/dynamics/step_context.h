@@ -96,24 +96,39 @@ struct PairFate
     std::uint8_t what;
 };
 
-/// Contact of a dynamic body, or of two, that takes part in a step.
+/// Of a link; the first three as in contact_flag.
+namespace link_flag {
+inline constexpr std::uint32_t touching = contact_flag::touching; ///< else it may touch within the step
+inline constexpr std::uint32_t round = contact_flag::round;
+inline constexpr std::uint32_t bears = contact_flag::loaded; ///< bore a load in the last step
+inline constexpr std::uint32_t solved = 1;                   ///< gets a row, unless a body flies
+inline constexpr std::uint32_t plain = 4;                    ///< neither rolling resistance nor surface speed
+inline constexpr std::uint32_t in_lane = 8;
+inline constexpr std::uint32_t all = 63;
+} // namespace link_flag
+
+/// Contact of a dynamic body, or of two, that takes part in a step. Four to a cache line.
 struct Link
 {
     std::int32_t contact = none;
     std::int32_t a = none; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
     std::int32_t b = none;
-    bool touching = false; ///< else it may touch within the step
-    bool solved = false;   ///< gets a row, unless a body flies
-    bool bears = false;    ///< bore a load in the last step
-    bool plain = false;    ///< neither rolling resistance nor surface speed
-    bool round = false;    ///< a circle takes part
-    bool in_lane = false;
     // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
-    std::int16_t points = 0;
-    std::int16_t color = none; ///< that it has from the last step, then of its row
-    std::int16_t bin = 0;      ///< where lanes are given out, by color, points and place; of rows the color
+    std::uint16_t about = 0; ///< see about_link
+    std::uint16_t bin = 0;   ///< where lanes are given out, by color, points and place; of rows the color
+
+    [[nodiscard]] bool has(std::uint32_t flag) const { return (about & flag) != 0; }
+    [[nodiscard]] int points() const { return about >> 6 & 3; }
+    [[nodiscard]] int color() const { return (about >> 8) - 1; } ///< that it has from the last step, then of its row
 };
-static_assert(sizeof(Link) == 24);
+static_assert(sizeof(Link) == 16);
+
+/// Flags, the number of points and the color in one number.
+[[nodiscard]] inline std::uint16_t about_link(std::uint32_t flags, int points, int color)
+{
+    return static_cast<std::uint16_t>(flags | static_cast<std::uint32_t>(points) << 6 |
+                                      static_cast<std::uint32_t>(color + 1) << 8);
+}
 
 /// A ball in a wide row against what does not give way.
 struct WideCore
@@ -134,7 +149,7 @@ struct SomePlaces
     std::vector<std::int32_t> uncolored; ///< of the unit's links
     std::vector<WideCore> cores;
 
-    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.in_lane ? lanes[l.bin] : rows[l.bin]; }
+    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.has(link_flag::in_lane) ? lanes[l.bin] : rows[l.bin]; }
 };
 
 /// What a task has found.
@@ -379,6 +394,7 @@ struct Scratch
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
+    std::vector<std::uint8_t> is_loaded;     ///< by a contact, by place in awake_bodies; the last is nobody's
     bool has_kinematic = false;              ///< a kinematic body is awake
     bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
