@@ -38,6 +38,7 @@ public:
         m_is_wide = is_wide(m_unit);
         m_is_uniform = m_is_wide && is_uniform(m_ctx, m_unit);
         find_parts();
+        name_copies();
         const std::span<SomePlaces> tasks = count_links();
         color_new_rows(tasks);
         give_out_places(tasks);
@@ -88,6 +89,24 @@ private:
         return a == b || b == no_part ? a : a == no_part ? b : m_unit.parts;
     }
 
+    // --- states -----------------------------------------------------------------------------------------------------------------------
+
+    // Of kinematic bodies each unit has its own.
+    void name_copies()
+    {
+        for (std::int32_t s = m_unit.first_state + 1 + m_unit.dynamic_count; s < m_unit.first_state + m_unit.state_count; ++s)
+        {
+            const int body = m_scratch.state_bodies[as_index(s)];
+            m_scratch.state_of[as_index(m_state.bodies[body].awake_index)] = s;
+        }
+    }
+
+    // Of a place as in Link.
+    [[nodiscard]] std::int32_t state_at(std::int32_t place) const
+    {
+        return place == none ? m_unit.first_state : m_scratch.state_of[as_index(place >= 0 ? place : -2 - place)];
+    }
+
     // --- colours and counts -----------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] std::span<Link> links() const
@@ -101,6 +120,7 @@ private:
         return m_unit.parts > 0 ? links_per_task : std::max<std::size_t>(links().size(), 1);
     }
 
+    // They name states from here on.
     [[nodiscard]] std::span<SomePlaces> count_links()
     {
         return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), links_of_task(),
@@ -113,6 +133,8 @@ private:
                                  for (std::size_t i = first; i < std::min(last, links().size()); ++i)
                                  {
                                      Link& l = links()[i];
+                                     l.a = state_at(l.a);
+                                     l.b = state_at(l.b);
                                      if (l.color() == none || l.color() == color_limit)
                                          some.uncolored.push_back(static_cast<std::int32_t>(i));
                                      else

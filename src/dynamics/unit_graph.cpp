@@ -490,8 +490,25 @@ public:
     void find_units_of_links()
     {
         set_size(scratch.unit_of_link, scratch.links.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.links.size(), links_per_task,
-                          [&](std::size_t i) { scratch.unit_of_link[i] = unit_of_row(scratch.links[i]); });
+        using Some = std::vector<KinematicMeeting>;
+        const std::span<Some> parts =
+            find_in_parts(ctx.scene.def.tasks, scratch.links.size(), links_per_task, scratch.meetings_with_kinematic_of_task,
+                          [&](std::size_t first, std::size_t last, Some& meetings)
+                          {
+                              meetings.clear();
+                              for (std::size_t i = first; i < last; ++i)
+                              {
+                                  const Link& l = scratch.links[i];
+                                  const std::int32_t unit = scratch.unit_of_link[i] = unit_of_row(l);
+                                  const std::int32_t kinematic = std::min(l.a, l.b); // if either is
+                                  if (kinematic < none && unit != none)
+                                      meetings.push_back({unit, -2 - kinematic});
+                              }
+                          });
+        scratch.meetings_with_kinematic.clear();
+        for (const Some& some : parts)
+            scratch.meetings_with_kinematic.insert(scratch.meetings_with_kinematic.end(), some.begin(), some.end());
+        std::ranges::stable_sort(scratch.meetings_with_kinematic, {}, &KinematicMeeting::unit);
     }
 
     void sort_links()

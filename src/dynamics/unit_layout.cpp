@@ -236,38 +236,13 @@ private:
     }
 
     // Kinematic bodies are copied into every unit they meet: their path is a function of time alone, and units then share nothing that is
-    // written. A flier may land on one. Links name states from here on.
+    // written. A flier may land on one. Links of joints name states from here on.
     void copy_kinematic_bodies(const Unit& unit)
     {
-        const std::span<Link> links = links_of(unit);
-        const auto of_what_rests_or_gives = [&](std::int32_t place)
-        {
-            return place >= 0 ? m_scratch.state_of[as_index(place)] : place == none ? unit.first_state : place;
-        };
-        using Some = std::vector<std::int32_t>;
-        const std::span<Some> parts =
-            find_in_parts(m_ctx.scene.def.tasks, links.size(), links_per_task, m_scratch.kinematic_links_of_task,
-                          [&](std::size_t first, std::size_t last, Some& kinematic)
-                          {
-                              kinematic.clear();
-                              for (std::size_t i = first; i < last; ++i)
-                              {
-                                  Link& l = links[i];
-                                  l.a = of_what_rests_or_gives(l.a);
-                                  l.b = of_what_rests_or_gives(l.b);
-                                  if (l.a < 0 || l.b < 0)
-                                      kinematic.push_back(static_cast<std::int32_t>(i));
-                              }
-                          });
-        for (const Some& kinematic : parts)
-        { // one after the other: they may get a state here
-            for (const std::int32_t i : kinematic)
-            {
-                Link& l = links[as_index(i)];
-                l.a = l.a < 0 ? state_at(unit, l.a) : l.a;
-                l.b = l.b < 0 ? state_at(unit, l.b) : l.b;
-            }
-        }
+        const auto index = static_cast<std::int32_t>(&unit - m_scratch.units.data());
+        for (const KinematicMeeting& m :
+             std::ranges::equal_range(m_scratch.meetings_with_kinematic, index, {}, &KinematicMeeting::unit))
+            static_cast<void>(state_for(unit, m_state.awake_bodies[as_index(m.place)]));
         for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
         {
             JointLink& j = m_scratch.solved_joints[as_index(i)];
@@ -290,11 +265,6 @@ private:
             if (m_state.bodies[other].type == BodyType::Kinematic)
                 static_cast<void>(state_for(unit, other));
         }
-    }
-
-    [[nodiscard]] std::span<Link> links_of(const Unit& unit)
-    {
-        return std::span(m_scratch.solved_links).subspan(as_index(unit.first_link), as_index(unit.link_count));
     }
 
     [[nodiscard]] std::int32_t state_at(const Unit& unit, std::int32_t place)

@@ -235,6 +235,13 @@ struct KeptUnits
     int touching = 0;                   ///< of the report
 };
 
+/// A unit has a link with a kinematic body.
+struct KinematicMeeting
+{
+    std::int32_t unit;
+    std::int32_t place; ///< of the body, in awake_bodies
+};
+
 /// A joint and the states of its bodies.
 struct JointPlace
 {
@@ -446,9 +453,10 @@ struct Scratch
     std::vector<PathPiece> paths; ///< of all units, by body
     std::vector<Crossing> crossings;
     std::vector<SomePlaces> places_of_task;
-    std::vector<std::vector<std::int32_t>> kinematic_links_of_task; ///< of a unit's links, those with a kinematic body
-    std::vector<std::uint64_t> joint_colors;                        ///< by state: a bit for each that its hinges in lanes have
-    std::vector<std::uint8_t> parts;                                ///< of the states of units that have some
+    std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
+    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit
+    std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
+    std::vector<std::uint8_t> parts;                       ///< of the states of units that have some
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
