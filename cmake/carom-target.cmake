@@ -47,6 +47,11 @@ function(carom_kernels folder)
     endif()
 endfunction()
 
+# carom_command_line(<file>...): what reads a program's command line runs once; optimizing CLI11 takes half of compiling it.
+function(carom_command_line)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O0 SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # carom_glob(<variable> <pattern>...): the files of these patterns, relative to the current folder, found anew at each build.
 function(carom_glob variable)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS LIST_DIRECTORIES false RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" ${ARGN})

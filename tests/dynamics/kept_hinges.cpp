@@ -10,20 +10,20 @@ using namespace carom::test;
 
 namespace {
 
-constexpr int columns = 24;
-constexpr int rows = 16;
+constexpr int sheet_columns = 24;
+constexpr int sheet_rows = 16;
 
 // A sheet of discs that do not touch. It hangs from a rail, a static body; hinges of its last column are driven, sprung or limited.
 void build_hinged(World& world)
 {
     world.ground = add_static(world.scene, box(20, 0.1f, {0, 40}), {.filter = {2, 4}}).body;
-    for (int i = 0; i < columns * rows; ++i)
+    for (int i = 0; i < sheet_columns * sheet_rows; ++i)
     {
-        const Position at{static_cast<double>(i % columns), 30.0 - i / columns};
+        const Position at{static_cast<double>(i % sheet_columns), 30.0 - i / sheet_columns};
         world.bodies.push_back(add_dynamic(world.scene, at, Circle{.radius = 0.2f}, {.filter = {2, 4}}).body);
         const auto hinge = [&](BodyId a, Position anchor)
         {
-            const bool last = i % columns + 1 == columns;
+            const bool last = i % sheet_columns + 1 == sheet_columns;
             world.scene.create_joint(RevoluteDef{.body_a = a,
                                                  .body_b = world.bodies.back(),
                                                  .anchor_a = anchor - world.scene.body(a).position(),
@@ -37,10 +37,10 @@ void build_hinged(World& world)
                                                  .spring_hertz = last && i % 3 == 2 ? 2.0f : 0.0f,
                                                  .spring_damping_ratio = 0.3f});
         };
-        if (i % columns > 0)
+        if (i % sheet_columns > 0)
             hinge(world.bodies[static_cast<std::size_t>(i - 1)], {at.x - 0.5, at.y});
-        if (i >= columns)
-            hinge(world.bodies[static_cast<std::size_t>(i - columns)], {at.x, at.y + 0.5});
+        if (i >= sheet_columns)
+            hinge(world.bodies[static_cast<std::size_t>(i - sheet_columns)], {at.x, at.y + 0.5});
         else
             hinge(world.ground, {at.x, at.y + 0.5});
     }
@@ -94,8 +94,8 @@ TEST(DynamicsKeptHinges, SeeWhatHappensBetweenSteps)
         {"teleport", [&](World& w) { body(w, 120).teleport(body(w, 120).position() + Vec2{0.1f, 0}, 0.3f); }},
         {"anchor", [&](World& w) { change(w, 60, [](RevoluteDef& d) { d.anchor_a.x += 0.05f; }); }},
         {"motor", [&](World& w) { change(w, 61, [](RevoluteDef& d) { d.enable_motor = true, d.max_motor_torque = 2; }); }},
-        {"no motor", [&](World& w) { change(w, columns - 2, [](RevoluteDef& d) { d.enable_motor = false; }); }},
-        {"motor speed", [&](World& w) { change(w, 2 * columns - 1, [](RevoluteDef& d) { d.motor_speed = 3; }); }},
+        {"no motor", [&](World& w) { change(w, sheet_columns - 2, [](RevoluteDef& d) { d.enable_motor = false; }); }},
+        {"motor speed", [&](World& w) { change(w, 2 * sheet_columns - 1, [](RevoluteDef& d) { d.motor_speed = 3; }); }},
         {"restitution", [&](World& w) { change(w, 60, [](RevoluteDef& d) { d.limit_restitution = 0.5f; }); }},
         {"mass", [&](World& w) { body(w, 200).set_mass({.mass = 3, .inertia = 0.2f}); }},
         {"center", [&](World& w) { body(w, 200).set_mass({.mass = 3, .center = {0.05f, 0}, .inertia = 0.2f}); }},

@@ -45,13 +45,13 @@ std::vector<BodyId> add_sheet(Scene& scene, double x, int columns, int rows)
     return bodies;
 }
 
-struct World
+struct PilesAndSheet
 {
     Scene scene{sleepless()};
     std::vector<BodyId> bodies{};
 
     // What flies high above keeps all units from staying in place.
-    explicit World(bool with_flier)
+    explicit PilesAndSheet(bool with_flier)
     {
         add_static(scene, box(60, 0.5f, {0, -0.5f}));
         for (const double x : {-40.0, -10.0})
@@ -70,15 +70,15 @@ struct World
 
 TEST(DynamicsKeptUnits, AreThoseBuiltAnew)
 {
-    World kept(false);
-    World anew(true);
+    PilesAndSheet kept(false);
+    PilesAndSheet anew(true);
     for (int i = 0; i < steps_taken; ++i)
     {
         if (i == 60)
-            for (World* world : {&kept, &anew}) // something changes on the way
+            for (PilesAndSheet* world : {&kept, &anew}) // something changes on the way
                 world->scene.body(world->bodies[30]).apply_impulse({40, 0});
         if (i == 90)
-            for (World* world : {&kept, &anew})
+            for (PilesAndSheet* world : {&kept, &anew})
                 world->scene.destroy(world->bodies[100]);
         kept.scene.step(1.0f / 60);
         anew.scene.step(1.0f / 60);

@@ -10,8 +10,8 @@ using namespace carom::test;
 
 namespace {
 
-constexpr int columns = 300;
-constexpr int rows = 8; // of balls 0.2 m wide
+constexpr int balls_across = 300;
+constexpr int balls_high = 8; // of balls 0.2 m wide
 constexpr float radius = 0.1f;
 
 // Balls a hexagon's distance apart, the lowest of them set far too deep into a floor.
@@ -21,10 +21,10 @@ Scene sunk_balls(const TaskHooks& tasks)
     def.tasks = tasks;
     Scene scene(def);
     add_static(scene, HalfSpace{}, {.friction = 0.6f});
-    for (int i = 0; i < columns * rows; ++i)
+    for (int i = 0; i < balls_across * balls_high; ++i)
     {
-        const int row = i / columns;
-        add_dynamic(scene, {0.2 * (i % columns) + 0.1 * (row % 2), 0.01 + 0.17 * row}, Circle{.radius = radius},
+        const int row = i / balls_across;
+        add_dynamic(scene, {0.2 * (i % balls_across) + 0.1 * (row % 2), 0.01 + 0.17 * row}, Circle{.radius = radius},
                     {.friction = 0.6f});
     }
     return scene;

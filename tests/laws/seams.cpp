@@ -104,15 +104,15 @@ TEST(LawSeams, InsideAStadiumWithoutGravity)
 TEST(LawSeams, InsideAFullCircle)
 {
     for (const float h : {1.0f / 60, 1.0f / 1000})
-        for (const bool gravity : {false, true})
+        for (const bool falls : {false, true})
         {
-            SCOPED_TRACE("h " + std::to_string(h) + " gravity " + std::to_string(gravity));
-            SceneDef def = with_gravity(gravity);
+            SCOPED_TRACE("h " + std::to_string(h) + " gravity " + std::to_string(falls));
+            SceneDef def = with_gravity(falls);
             def.sleeping = false;
             Scene scene(def);
             add_static(scene, Arc{.radius = 1, .start_angle = -half_pi, .sweep = 2 * pi},
                        {.friction = 0.6f, .restitution = 0.5f});
-            const float v = gravity ? 9.0f : 3.0f; // enough to pass the top
+            const float v = falls ? 9.0f : 3.0f; // enough to pass the top
             const BodyId ball =
                 add_dynamic(scene, {0, -1 + static_cast<double>(r)}, Circle{.radius = r}, {.restitution = 0.5f}, {v, 0}, -v / r)
                     .body;
@@ -125,7 +125,7 @@ TEST(LawSeams, InsideAFullCircle)
                 impacts += static_cast<int>(scene.impacts().size());
             }
             EXPECT_EQ(impacts, 0);
-            if (!gravity)
+            if (!falls)
             {
                 EXPECT_LT(std::fabs(before - energy(scene, ball)) / moving, 1e-5 * 2.7) << "2.7 times around";
             }
@@ -152,13 +152,13 @@ TEST(LawSeams, OverAParkWithGravity)
 TEST(LawSeams, OverStraightSeamsWithAndWithoutGravity)
 {
     for (const float h : {1.0f / 60, 1.0f / 1000})
-        for (const bool gravity : {false, true})
+        for (const bool falls : {false, true})
         {
-            SCOPED_TRACE("h " + std::to_string(h) + " gravity " + std::to_string(gravity));
+            SCOPED_TRACE("h " + std::to_string(h) + " gravity " + std::to_string(falls));
             Chain chain{.start = {-5, 0}};
             for (int i = -4; i <= 5; ++i)
                 chain.pieces.push_back({.end = {static_cast<float>(i), 0}});
-            const Ride straight = ride(chain, {-4.5, static_cast<double>(r)}, {4, 0}, -40, with_gravity(gravity), h, 2.2, 0.6f);
+            const Ride straight = ride(chain, {-4.5, static_cast<double>(r)}, {4, 0}, -40, with_gravity(falls), h, 2.2, 0.6f);
             expect_clean(straight, 8);
             EXPECT_NEAR(straight.off, static_cast<double>(r), 2e-3);
         }

@@ -9,8 +9,6 @@ namespace carom::shots {
 
 namespace {
 
-double d(float x) { return static_cast<double>(x); }
-
 void at_plate(Trial& trial, const Piece& piece, double widest)
 {
     Random& random = trial.random;

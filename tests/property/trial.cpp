@@ -7,8 +7,6 @@ namespace carom::shots {
 
 namespace {
 
-double d(float f) { return static_cast<double>(f); }
-
 bool finite(const ConstBody& body)
 {
     const Pose p = body.pose();

@@ -20,6 +20,8 @@ namespace carom::shots {
 
 /// A random number, as shapes and materials take it.
 [[nodiscard]] inline float f(double x) { return static_cast<float>(x); }
+/// And back.
+[[nodiscard]] inline double d(float x) { return static_cast<double>(x); }
 
 using test::Random;
 
