@@ -1,5 +1,6 @@
 #include "dynamics/body_path.h"
 
+#include "core/grow.h"
 #include "core/trigonometry.h"
 #include "dynamics/scene_data.h"
 #include "geometry/bounds.h"
@@ -17,7 +18,7 @@ void gather_paths(StepContext& ctx)
     for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
     {
         const std::vector<PathPiece>& pieces = ctx.scratch.outputs[u].path;
-        paths.insert(paths.end(), pieces.begin(), pieces.end());
+        append_all(paths, pieces);
     }
     for (std::size_t i = 0; i < paths.size(); ++i)
         paths[i].order = static_cast<std::int32_t>(i);

@@ -368,7 +368,7 @@ void update_contacts(StepContext& ctx)
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
     for (const Some& some : parts)
-        news.insert(news.end(), some.begin(), some.end());
+        append_all(news, some);
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)

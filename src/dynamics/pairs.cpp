@@ -95,7 +95,7 @@ void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, 
                                                      look(first, last, pairs);
                                                  });
     for (const Pairs& some : parts)
-        ctx.scratch.new_pairs.insert(ctx.scratch.new_pairs.end(), some.begin(), some.end());
+        append_all(ctx.scratch.new_pairs, some);
 }
 
 void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)

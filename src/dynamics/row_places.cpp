@@ -257,7 +257,7 @@ private:
     void gather(std::span<SomePlaces> tasks)
     {
         for (const SomePlaces& some : tasks)
-            m_scratch.cores.insert(m_scratch.cores.end(), some.cores.begin(), some.cores.end());
+            append_all(m_scratch.cores, some.cores);
         std::ranges::sort(m_scratch.cores.begin() + m_unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
         for (auto row = m_unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
         {

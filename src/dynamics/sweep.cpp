@@ -1,5 +1,6 @@
 // Stage 1, sweep: paths and boxes. Reads velocities and forces, writes fat boxes of the moving layer.
 
+#include "core/grow.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
@@ -248,9 +249,9 @@ bool sweep_all(StepContext& ctx)
     scratch.unsound.clear();
     for (const MovedBoxes& some : parts)
     {
-        all.items.insert(all.items.end(), some.items.begin(), some.items.end());
-        all.boxes.insert(all.boxes.end(), some.boxes.begin(), some.boxes.end());
-        scratch.unsound.insert(scratch.unsound.end(), some.unsound.begin(), some.unsound.end());
+        append_all(all.items, some.items);
+        append_all(all.boxes, some.boxes);
+        append_all(scratch.unsound, some.unsound);
     }
     for (const std::int32_t body : scratch.unsound)
         quarantine(ctx, body, 0);

@@ -84,9 +84,9 @@ private:
 
     void take(Told& told)
     {
-        m_output.impacts.insert(m_output.impacts.end(), told.impacts.begin(), told.impacts.end());
-        m_output.begins.insert(m_output.begins.end(), told.begins.begin(), told.begins.end());
-        m_output.kicked_shapes.insert(m_output.kicked_shapes.end(), told.kicked_shapes.begin(), told.kicked_shapes.end());
+        append_all(m_output.impacts, told.impacts);
+        append_all(m_output.begins, told.begins);
+        append_all(m_output.kicked_shapes, told.kicked_shapes);
         m_output.bulk_impacts += std::exchange(told.bulk_impacts, 0);
         told.impacts.clear();
         told.begins.clear();

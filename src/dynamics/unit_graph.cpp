@@ -374,8 +374,8 @@ public:
         shapes.clear();
         for (const SomeReaches& some : parts)
         {
-            scratch.reaches.insert(scratch.reaches.end(), some.reaches.begin(), some.reaches.end());
-            shapes.insert(shapes.end(), some.shapes.begin(), some.shapes.end());
+            append_all(scratch.reaches, some.reaches);
+            append_all(shapes, some.shapes);
         }
         if (!shapes.empty())
             state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
@@ -507,7 +507,7 @@ public:
                           });
         scratch.meetings_with_kinematic.clear();
         for (const Some& some : parts)
-            scratch.meetings_with_kinematic.insert(scratch.meetings_with_kinematic.end(), some.begin(), some.end());
+            append_all(scratch.meetings_with_kinematic, some);
         std::ranges::stable_sort(scratch.meetings_with_kinematic, {}, &KinematicMeeting::unit);
     }
 

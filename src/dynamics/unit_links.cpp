@@ -224,7 +224,7 @@ public:
         }
         scratch.joint_links.clear();
         for (const Some& some : parts)
-            scratch.joint_links.insert(scratch.joint_links.end(), some.begin(), some.end());
+            append_all(scratch.joint_links, some);
     }
 
 private:

@@ -68,7 +68,7 @@ FramePath solved_path(const FlightSpan& span, std::int32_t state, double time)
 
 void trace(const FlightSpan& span, std::int32_t state, double time)
 {
-    if (!is_recorded(span, state))
+    if (!span.state.broad_phase.has_triggers() || !is_recorded(span, state))
         return;
     const int body = span.scratch.state_bodies[static_cast<std::size_t>(state)];
     const FramePath path =

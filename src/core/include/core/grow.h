@@ -4,6 +4,7 @@
 // tenth and a sixth; on the way an item is copied four times, or twice, not once.
 
 #include <cstddef>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -47,6 +48,14 @@ void append(std::vector<T>& items, std::type_identity_t<T> item)
 {
     make_room<growth>(items, items.size() + 1);
     items.push_back(item);
+}
+
+/// None of them may be one of `items`.
+template <Growth growth = Growth::Quarter, class T>
+void append_all(std::vector<T>& items, std::span<const std::type_identity_t<T>> more)
+{
+    make_room<growth>(items, items.size() + more.size());
+    items.insert(items.end(), more.begin(), more.end());
 }
 
 } // namespace carom::internal
