@@ -62,12 +62,13 @@ void move_center(SceneState& state, int body, Vec2 local_center)
 
 void update_inverse_mass(SceneState& state, int body)
 {
-    const BodyRecord& record = state.bodies[body];
+    BodyRecord& record = state.bodies[body];
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     const bool dynamic = record.type == BodyType::Dynamic;
     const float inverse = dynamic && sim.mass > 0 ? 1 / sim.mass : 0;
     const Vec2 inverse_mass = {record.locks.linear_x ? 0 : inverse, record.locks.linear_y ? 0 : inverse};
     const float inverse_inertia = dynamic && sim.inertia > 0 && !record.locks.angular ? 1 / sim.inertia : 0;
+    record.gives_way = inverse_mass != Vec2{} || inverse_inertia != 0;
     if (sim.inverse_mass == inverse_mass && sim.inverse_inertia == inverse_inertia)
         return;
     sim.inverse_mass = inverse_mass;

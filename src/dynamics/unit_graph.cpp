@@ -461,17 +461,15 @@ public:
         scratch.unit_of.assign(n, none);
         for (std::size_t i = 0; i < n; ++i)
         {
-            if (scratch.has_kinematic && state.bodies[state.awake_bodies[i]].type != BodyType::Dynamic)
-                continue;
             const auto before = static_cast<std::size_t>(scratch.sets.before(i));
-            if (before == i)
+            if (before != i)
+            {
+                scratch.unit_of[i] = scratch.unit_of[before];
+            }
+            else if (!scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic)
             {
                 scratch.unit_of[i] = static_cast<std::int32_t>(scratch.tallies.size());
                 scratch.tallies.emplace_back().first = static_cast<std::int32_t>(i);
-            }
-            else
-            {
-                scratch.unit_of[i] = scratch.unit_of[before];
             }
         }
         for_each_run(

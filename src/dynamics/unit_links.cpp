@@ -352,14 +352,12 @@ private:
 
 } // namespace
 
-std::int32_t flight_of(const SceneState& state, int body)
+std::int32_t flight_about_hinge(const SceneState& state, int body)
 {
     const BodyRecord& record = state.bodies[body];
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     const int edge = record.first_joint;
-    if (edge == none)
-        return sim.inverse_mass != Vec2{} || sim.inverse_inertia != 0 ? none : earthbound;
-    if (record.joint_count > 1)
+    if (record.joint_count != 1)
         return earthbound;
     const JointRecord& joint = state.joints[edge >> 1];
     const int other = joint.body_a == body ? joint.body_b : joint.body_a;

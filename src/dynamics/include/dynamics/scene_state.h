@@ -30,6 +30,7 @@ struct BodyRecord
     bool can_sleep = true;
     bool mass_overridden = false;
     std::uint8_t plane_cell = 0;     ///< sixteenth of the awake bodies, as tidy() last parted them by where they are
+    bool gives_way = false;          ///< dynamic, and not locked in every way
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
@@ -38,6 +39,7 @@ struct BodyRecord
     std::int32_t joint_count = 0;
     std::int32_t first_contact = none; ///< edge: contact * 2 + side
 };
+static_assert(sizeof(BodyRecord) == 36);
 
 /// The first half is what neighbours read: a cache line.
 struct alignas(64) BodySim
