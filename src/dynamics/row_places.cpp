@@ -165,9 +165,9 @@ private:
         const int color = l.color();
         const bool in_lane =
             m_is_wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
-        l.about = static_cast<std::uint16_t>(in_lane ? l.about | link_flag::in_lane : l.about & ~link_flag::in_lane);
+        l.about = static_cast<std::uint16_t>(l.about | (in_lane ? link_flag::in_lane : 0));
         l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
-        ++(in_lane ? some.lanes : some.rows)[l.bin];
+        ++some.place_for(l);
         some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
     }
 

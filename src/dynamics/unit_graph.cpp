@@ -500,13 +500,14 @@ public:
                                   const std::int32_t unit = scratch.unit_of_link[i] = unit_of_row(l);
                                   const std::int32_t kinematic = std::min(l.a, l.b); // if either is
                                   if (kinematic < none && unit != none)
-                                      meetings.push_back({unit, -2 - kinematic});
+                                      meetings.push_back({unit, static_cast<std::int32_t>(i), -2 - kinematic});
                               }
                           });
         scratch.meetings_with_kinematic.clear();
         for (const Some& some : parts)
             append_all(scratch.meetings_with_kinematic, some);
-        std::ranges::stable_sort(scratch.meetings_with_kinematic, {}, &KinematicMeeting::unit);
+        std::ranges::sort(scratch.meetings_with_kinematic, {},
+                          [](const KinematicMeeting& m) { return std::pair(m.unit, m.link); });
     }
 
     void sort_links()

@@ -32,6 +32,12 @@ bool is_closed(const StepContext& ctx, int index, int body)
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
 }
 
+// Who bears a load matters to rows and heaps only.
+bool is_same(const Link& a, const Link& b)
+{
+    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.about ^ b.about) & ~link_flag::bears) == 0;
+}
+
 // A task's walk over its contacts. Copies, not references: to a compiler every store might change where vectors are.
 class ContactWalk
 {
@@ -40,7 +46,7 @@ public:
     ContactWalk(const StepContext& ctx, std::span<Link> links, std::size_t to_compare)
         : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.places.data()),
           m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.is_loaded.data()),
-          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_first(links.data()), m_next(links.data()),
+          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(links.data()),
           m_old_end(links.data() + to_compare), m_stay(to_compare > 0)
     {}
 
@@ -76,7 +82,7 @@ public:
     {
         some.touching = m_touching;
         some.stay = m_stay && m_next == m_old_end;
-        some.links.resize(static_cast<std::size_t>(m_next - m_first));
+        some.links.resize(static_cast<std::size_t>(m_next - some.links.data()));
     }
 
 private:
@@ -88,13 +94,12 @@ private:
                           contact.color);
     }
 
-    // Filled where it stands: a copy would wait for its bytes. Who bears a load matters to rows and heaps only.
+    // Filled where it stands: a copy would wait for its bytes.
     void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t about)
     {
         Link& l = *m_next;
         if (m_stay)
-            m_stay = m_next < m_old_end && l.contact == contact && l.a == a && l.b == b &&
-                     ((l.about ^ about) & ~link_flag::bears) == 0;
+            m_stay = m_next < m_old_end && is_same(l, {contact, a, b, about});
         l.contact = contact;
         l.a = a;
         l.b = b;
@@ -116,18 +121,11 @@ private:
     LaneMark* m_lane_marks;
     std::uint8_t* m_is_loaded;
     std::int32_t m_nobody;
-    Link* m_first;
     Link* m_next;
     const Link* m_old_end;
     bool m_stay;
     int m_touching = 0;
 };
-
-// Who bears a load matters to rows and heaps only.
-bool is_same(const Link& a, const Link& b)
-{
-    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.about ^ b.about) & ~link_flag::bears) == 0;
-}
 
 class LinkGathering
 {

@@ -30,7 +30,7 @@ struct BodyRecord
     bool can_sleep = true;
     bool mass_overridden = false;
     std::uint8_t plane_cell = 0;     ///< sixteenth of the awake bodies, as tidy() last parted them by where they are
-    bool gives_way = false;          ///< dynamic, and not locked in every way
+    bool gives_way = false;          ///< dynamic, with an inverse mass or inertia that is not 0
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;

@@ -239,6 +239,7 @@ struct KeptUnits
 struct KinematicMeeting
 {
     std::int32_t unit;
+    std::int32_t link;
     std::int32_t place; ///< of the body, in awake_bodies
 };
 
@@ -454,7 +455,7 @@ struct Scratch
     std::vector<Crossing> crossings;
     std::vector<SomePlaces> places_of_task;
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
-    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit
+    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit, then by link
     std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
     std::vector<std::uint8_t> parts;                       ///< of the states of units that have some
     std::vector<JointPlace> joint_places;
