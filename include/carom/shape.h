@@ -135,7 +135,8 @@ struct Kick
 {
     float speed = 0;     ///< added to the separating speed, m/s; 0: no kick
     float threshold = 0; ///< approach speed above which it fires, m/s
-    float cooldown = 0;  ///< s during which it does not fire again
+    float cooldown = 0;  ///< s during which it does not fire again, with any piece of a chain
+    friend constexpr bool operator==(const Kick&, const Kick&) = default;
 };
 
 /// A force field: acts on dynamic bodies while they are inside a trigger shape.

@@ -8,11 +8,15 @@ namespace carom::internal {
 
 namespace {
 
-bool in_sweep(const Leaf& arc, Vec2 from_center) { return dot(from_center, arc.p1) >= length(from_center) * arc.cos_half_sweep; }
-
-bool faces(const Leaf& arc, bool inside)
+bool in_sweep(const LeafView& arc, Vec2 from_center)
 {
-    return arc.sides == Sides::Both || arc.sides == ((inside == (arc.sweep > 0)) ? Sides::Left : Sides::Right);
+    return dot(from_center, arc.leaf->p1) >= length(from_center) * arc.span->cos_half_sweep;
+}
+
+bool faces(const LeafView& arc, bool inside)
+{
+    const Sides sides = arc.leaf->sides;
+    return sides == Sides::Both || sides == ((inside == (arc.span->sweep > 0)) ? Sides::Left : Sides::Right);
 }
 
 struct Corner
@@ -40,14 +44,15 @@ Vec2 hollow_normal(const Leaf& arc, const Hull& hull, Corner (&corners)[2])
 }
 
 // Corners inside the circle of the arc, by how near they are to it.
-void collide_hollow_side(const Leaf& arc, const Hull& hull, float margin, LocalManifold& out)
+void collide_hollow_side(const LeafView& v, const Hull& hull, float margin, LocalManifold& out)
 {
+    const Leaf& arc = *v.leaf;
     Corner corners[2];
     for (int i = 0; i < hull.count(); ++i)
     {
         const Vec2 r = hull.point(i) - arc.p0;
         const float separation = arc.arc_radius - arc.r0 - hull.radius(i) - length(r);
-        if (!in_sweep(arc, r) || separation > margin)
+        if (!in_sweep(v, r) || separation > margin)
             continue;
         if (separation < corners[0].separation)
         {
@@ -98,22 +103,22 @@ void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& 
     const Leaf& arc = *a.leaf;
     const HullSeen hull(b, pose);
     const bool inside = length(hull.center() - arc.p0) < arc.arc_radius;
-    if (!faces(arc, inside))
+    if (!faces(a, inside))
         return;
     if (inside)
     {
-        collide_hollow_side(arc, hull, margin, out);
+        collide_hollow_side(a, hull, margin, out);
     }
     else
     {
         collide_round(b, pose, {arc.p0, arc.arc_radius + arc.r0, 0x100}, margin, out);
-        if (out.count > 0 && !in_sweep(arc, out.points[0].on_a - arc.p0))
+        if (out.count > 0 && !in_sweep(a, out.points[0].on_a - arc.p0))
             out.count = 0;
     }
     if (out.count == 0 && !arc.has_previous)
-        collide_round(b, pose, {arc.arc_start, arc.r0, 0x101}, margin, out);
+        collide_round(b, pose, {a.span->start, arc.r0, 0x101}, margin, out);
     if (out.count == 0 && !arc.has_next)
-        collide_round(b, pose, {arc.arc_end, arc.r0, 0x102}, margin, out);
+        collide_round(b, pose, {a.span->end, arc.r0, 0x102}, margin, out);
 }
 
 } // namespace carom::internal

@@ -110,8 +110,8 @@ public:
         bound_motion(sight, t, r, v);
         if (!surface)
         {
-            sight.distance = std::max(plain_distance(*m_leaf.leaf, in_leaf.x, in_leaf.y) - m_probe.radius,
-                                      way_to_where_it_answers(*m_leaf.leaf, in_leaf.x, in_leaf.y));
+            sight.distance = std::max(plain_distance(m_leaf, in_leaf.x, in_leaf.y) - m_probe.radius,
+                                      way_to_where_it_answers(m_leaf, in_leaf.x, in_leaf.y));
             return sight;
         }
         sight.faces = true;
@@ -169,14 +169,14 @@ private:
         // The same point seen from both sides.
         Leaf both = leaf;
         both.sides = Sides::Both;
-        const std::optional<Surface<double>> seen = surface_at<double>(LeafView{&both}, px, py);
+        const std::optional<Surface<double>> seen = surface_at<double>(LeafView{.leaf = &both, .span = m_leaf.span}, px, py);
         if (!seen || seen->distance > m_probe.band)
             return plain;
         // Out through a corner that both pieces close in on: behind either, and beyond the ends of both.
         const auto thickness = static_cast<double>(leaf.r0);
         const auto from_behind = [&](double curvature)
         { return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, curvature, 0}; };
-        if (seen->feature == 1 && !plain && !start_may_answer(leaf, start_tangent(leaf)))
+        if (seen->feature == 1 && !plain && !start_may_answer(leaf, start_tangent(m_leaf)))
             return from_behind(0);
         if (seen->feature != 0)
             return plain;
@@ -268,11 +268,12 @@ private:
 
     // Beyond its ends a piece of a chain leaves everything to its neighbours, but for the corner that it shares with the one before. How far away
     // a point is at least that it answers for; 0 is a safe answer.
-    static double way_to_where_it_answers(const Leaf& leaf, double px, double py)
+    static double way_to_where_it_answers(const LeafView& view, double px, double py)
     {
+        const Leaf& leaf = *view.leaf;
         if (leaf.type != LeafType::Segment)
             return 0;
-        const Vec2 tangent = start_tangent(leaf);
+        const Vec2 tangent = start_tangent(view);
         const double x = px - static_cast<double>(leaf.p0.x);
         const double y = py - static_cast<double>(leaf.p0.y);
         const double along = static_cast<double>(tangent.x) * x + static_cast<double>(tangent.y) * y;
@@ -286,11 +287,12 @@ private:
     }
 
     // To a segment's or arc's line, whichever side answers.
-    static double plain_distance(const Leaf& leaf, double px, double py)
+    static double plain_distance(const LeafView& view, double px, double py)
     {
+        const Leaf& leaf = *view.leaf;
         const auto to_point = [&](Vec2 v)
         { return size({px - static_cast<double>(v.x), py - static_cast<double>(v.y)}) - static_cast<double>(leaf.r0); };
-        const double ends = std::min(to_point(start_point(leaf)), to_point(end_point(leaf)));
+        const double ends = std::min(to_point(start_point(view)), to_point(end_point(view)));
         if (leaf.type == LeafType::Segment)
         {
             const Vector e = {static_cast<double>(leaf.p1.x) - static_cast<double>(leaf.p0.x),
@@ -303,7 +305,7 @@ private:
         const Vector d = {px - static_cast<double>(leaf.p0.x), py - static_cast<double>(leaf.p0.y)};
         const double l = size(d);
         const bool ahead = d.x * static_cast<double>(leaf.p1.x) + d.y * static_cast<double>(leaf.p1.y) >=
-                           l * static_cast<double>(leaf.cos_half_sweep);
+                           l * static_cast<double>(view.span->cos_half_sweep);
         return ahead ? std::fabs(l - static_cast<double>(leaf.arc_radius)) - static_cast<double>(leaf.r0) : ends;
     }
 

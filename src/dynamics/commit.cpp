@@ -220,7 +220,10 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
     for (const DeferredImpulse& d : output.deferred)
         apply_deferred(ctx, d);
     for (const std::int32_t shape : output.kicked_shapes)
-        ctx.state.shapes[shape].kick_ready = ctx.state.time + static_cast<double>(ctx.state.shapes[shape].kick.cooldown);
+    {
+        RareTraits& traits = ctx.state.rare_traits[ctx.state.shapes[shape].rare_traits];
+        traits.kick_ready = ctx.state.time + static_cast<double>(traits.kick.cooldown);
+    }
     for (const RecordedPose& p : output.poses)
         ctx.report.substep_poses.push_back({body_id(state, p.body), p.time, p.pose});
     ctx.report.flight_impacts += output.flight_impacts;

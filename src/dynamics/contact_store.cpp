@@ -197,7 +197,7 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
         contact.flags |= contact_flag::round;
     if (is_plain(a->leaf) && is_plain(b->leaf))
         contact.flags |= contact_flag::plain;
-    if (a->one_way != Vec2{} || b->one_way != Vec2{})
+    if (rare_traits_of(state, *a).one_way != Vec2{} || rare_traits_of(state, *b).one_way != Vec2{})
         contact.flags |= contact_flag::one_way;
     contact.pair = pair;
     note_sleeper(state, contact);

@@ -26,9 +26,9 @@ void apply_fields(StepContext& ctx)
         const Contact& contact = state.contacts[index];
         const ShapeRecord& trigger = state.shapes[contact.shape_a];
         const BodyRecord& visitor = state.bodies[contact.body_b];
-        if (trigger.has_field && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic &&
+        if (trigger.rare_traits != none && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic &&
             visitor.awake_index != none)
-            act(field_of(state, trigger), ctx.dt, state.sims[static_cast<std::size_t>(contact.body_b)]);
+            act(rare_traits_of(state, trigger).field, ctx.dt, state.sims[static_cast<std::size_t>(contact.body_b)]);
     }
 }
 

@@ -38,9 +38,9 @@ float mix(const SceneData& scene, MixedValue what, const Side& a, const Side& b)
 
 float restitution_at(const SceneState& state, const ShapeRecord& shape, float speed)
 {
-    if (!shape.has_curve)
+    const RestitutionCurve& curve = rare_traits_of(state, shape).restitution_curve;
+    if (curve.count == 0)
         return shape.restitution;
-    const RestitutionCurve& curve = state.curves[static_cast<std::size_t>(shape.owner)];
     const std::uint32_t n = curve.count;
     const auto& p = curve.points;
     if (speed <= p[0].speed)
@@ -56,16 +56,17 @@ float restitution_at(const SceneState& state, const ShapeRecord& shape, float sp
     return p[n - 1].restitution;
 }
 
-bool fires(const SceneState& state, const ShapeRecord& shape, float speed)
+bool fires(const SceneState& state, const RareTraits& shape, float speed)
 {
     return shape.kick.speed > 0 && speed > shape.kick.threshold && state.time >= shape.kick_ready;
 }
 
 bool stops_short(const SceneState& state, const ShapeRecord& shape, Vec2 outward)
 {
-    if (shape.one_way == Vec2{})
+    const Vec2 one_way = rare_traits_of(state, shape).one_way;
+    if (one_way == Vec2{})
         return false;
-    const Vec2 direction = rotate(state.sims[static_cast<std::size_t>(shape.body)].rotation, shape.one_way);
+    const Vec2 direction = rotate(state.sims[static_cast<std::size_t>(shape.body)].rotation, one_way);
     return dot(outward, direction) <= 0;
 }
 
@@ -92,8 +93,8 @@ float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float 
 KickResult kick_speed(const SceneData& scene, int shape_a, int shape_b, float speed)
 {
     const SceneState& state = scene.state;
-    const ShapeRecord& a = state.shapes[shape_a];
-    const ShapeRecord& b = state.shapes[shape_b];
+    const RareTraits& a = rare_traits_of(state, state.shapes[shape_a]);
+    const RareTraits& b = rare_traits_of(state, state.shapes[shape_b]);
     KickResult result{0, fires(state, a, speed), fires(state, b, speed)};
     result.speed = (result.a_fired ? a.kick.speed : 0) + (result.b_fired ? b.kick.speed : 0);
     return result;

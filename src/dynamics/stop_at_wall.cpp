@@ -56,7 +56,7 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
     const auto visit = [&](int other)
     {
         const ShapeRecord& wall = state.shapes[other];
-        if (state.bodies[wall.body].type != BodyType::Static || wall.trigger || wall.one_way != Vec2{} ||
+        if (state.bodies[wall.body].type != BodyType::Static || wall.trigger || rare_traits_of(state, wall).one_way != Vec2{} ||
             !may_collide(state, shape, other))
             return true;
         const Pose pose = state.sims[static_cast<std::size_t>(wall.body)].pose();

@@ -160,7 +160,7 @@ private:
     {
         const Leaf leaf_a = free_standing(m_contact.shape_a);
         const Leaf leaf_b = free_standing(m_contact.shape_b);
-        const std::optional<Touch> touch = first_touch(view(leaf_a, m_state.vertices), a, view(leaf_b, m_state.vertices), b,
+        const std::optional<Touch> touch = first_touch(view(leaf_a, m_state.leaf_store), a, view(leaf_b, m_state.leaf_store), b,
                                                        length, 1e-6 * static_cast<double>(m_ctx.scene.def.length_scale));
         return touch ? std::optional(touch->time) : std::nullopt;
     }

@@ -45,16 +45,17 @@ void add_polygon(Extremes& e, const LeafView& v, Rotation q)
 }
 
 // The four compass points of the circle that lie on the arc, and its ends.
-void add_arc(Extremes& e, const Leaf& leaf, Rotation q)
+void add_arc(Extremes& e, const LeafView& v, Rotation q)
 {
+    const Leaf& leaf = *v.leaf;
     const Vec2 c = rotate(q, leaf.p0);
     const Vec2 mid = rotate(q, leaf.p1);
-    e.add(rotate(q, leaf.arc_start), leaf.r0);
-    e.add(rotate(q, leaf.arc_end), leaf.r0);
+    e.add(rotate(q, v.span->start), leaf.r0);
+    e.add(rotate(q, v.span->end), leaf.r0);
     const Vec2 compass[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (Vec2 d : compass)
     {
-        if (dot(d, mid) >= leaf.cos_half_sweep)
+        if (dot(d, mid) >= v.span->cos_half_sweep)
             e.add(c + leaf.arc_radius * d, leaf.r0);
     }
 }
@@ -75,7 +76,7 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
     case LeafType::Segment:
         e.add(rotate_both(q, F4{leaf.p0.x, leaf.p0.y, leaf.p1.x, leaf.p1.y}), F4{leaf.r0, leaf.r0, leaf.r1, leaf.r1});
         break;
-    case LeafType::Arc: add_arc(e, leaf, q); break;
+    case LeafType::Arc: add_arc(e, v, q); break;
     }
     return e.at(pose.position);
 }

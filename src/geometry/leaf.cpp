@@ -4,47 +4,102 @@
 #include "core/refuse.h"
 #include "core/trigonometry.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace carom::internal {
 
-int VertexStore::allocate(int count)
+namespace {
+
+std::size_t hash_of(std::span<const Vec2> vertices)
 {
-    for (std::size_t i = 0; i < m_holes.size(); ++i)
+    std::uint64_t hash = 0;
+    for (const Vec2 v : vertices)
+        hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(hash >> 56);
+}
+
+// So that what is read back is what was given: -0 is not 0.
+bool is_same(const Vec2* points, std::span<const Vec2> vertices)
+{
+    return std::memcmp(points, vertices.data(), vertices.size_bytes()) == 0;
+}
+
+} // namespace
+
+int LeafStore::allocate(int count)
+{
+    const auto length = static_cast<std::size_t>(count);
+    if (length < m_holes.size() && !m_holes[length].empty())
     {
-        if (m_holes[i].count == count)
-        {
-            const int first = m_holes[i].first;
-            m_holes.erase(m_holes.begin() + static_cast<std::ptrdiff_t>(i));
-            return first;
-        }
+        const int first = m_holes[length].back();
+        m_holes[length].pop_back();
+        return first;
     }
-    const int first = static_cast<int>(m_points.size());
-    grow(m_points, m_points.size() + static_cast<std::size_t>(count));
-    grow(m_normals, m_points.size());
-    return first;
+    const std::size_t first = m_points.size();
+    grow(m_points, first + length);
+    grow(m_normals, first + length);
+    grow(m_users, first / 3 + 1);
+    return static_cast<int>(first);
 }
 
-void VertexStore::release(int first, int count) { m_holes.push_back({first, count}); }
-
-Vec2 start_tangent(const Leaf& leaf)
+int LeafStore::add_outline(std::span<const Vec2> vertices)
 {
-    if (leaf.type == LeafType::Segment)
-        return normalize(leaf.p1 - leaf.p0);
-    const Vec2 radial = (1 / leaf.arc_radius) * (leaf.arc_start - leaf.p0);
-    return leaf.sweep > 0 ? perp(radial) : -perp(radial);
+    const int count = static_cast<int>(vertices.size());
+    Outline& recent = m_recent[hash_of(vertices) % recent_count];
+    if (recent.count == count && is_same(points(recent.first), vertices))
+    {
+        ++users(recent.first);
+        return recent.first;
+    }
+    recent = {allocate(count), count};
+    users(recent.first) = 1;
+    Vec2* points = m_points.data() + recent.first;
+    Vec2* normals = m_normals.data() + recent.first;
+    std::copy(vertices.begin(), vertices.end(), points);
+    for (int i = 0; i < count; ++i)
+        normals[i] = -perp(normalize(points[(i + 1) % count] - points[i]));
+    return recent.first;
 }
 
-Vec2 end_tangent(const Leaf& leaf)
+int LeafStore::add_span(const ArcSpan& span) { return m_spans.create(span); }
+
+void LeafStore::release(const Leaf& leaf)
 {
-    if (leaf.type == LeafType::Segment)
-        return normalize(leaf.p1 - leaf.p0);
-    const Vec2 radial = (1 / leaf.arc_radius) * (leaf.arc_end - leaf.p0);
-    return leaf.sweep > 0 ? perp(radial) : -perp(radial);
+    if (leaf.type == LeafType::Arc)
+        m_spans.destroy(leaf.first);
+    if (leaf.type != LeafType::Polygon || --users(leaf.first) > 0)
+        return;
+    const std::span vertices(points(leaf.first), static_cast<std::size_t>(leaf.count));
+    Outline& recent = m_recent[hash_of(vertices) % recent_count];
+    if (recent.count > 0 && recent.first == leaf.first)
+        recent = {};
+    grow(m_holes, vertices.size() + 1);
+    m_holes[vertices.size()].push_back(leaf.first);
 }
 
-Vec2 start_point(const Leaf& leaf) { return leaf.type == LeafType::Segment ? leaf.p0 : leaf.arc_start; }
-Vec2 end_point(const Leaf& leaf) { return leaf.type == LeafType::Segment ? leaf.p1 : leaf.arc_end; }
+namespace {
+
+Vec2 tangent_of_arc(const LeafView& v, Vec2 point)
+{
+    const Vec2 radial = (1 / v.leaf->arc_radius) * (point - v.leaf->p0);
+    return v.span->sweep > 0 ? perp(radial) : -perp(radial);
+}
+
+Vec2 tangent_of_segment(const Leaf& leaf) { return normalize(leaf.p1 - leaf.p0); }
+
+} // namespace
+
+Vec2 start_tangent(const LeafView& v)
+{
+    return v.span == nullptr ? tangent_of_segment(*v.leaf) : tangent_of_arc(v, v.span->start);
+}
+Vec2 end_tangent(const LeafView& v) { return v.span == nullptr ? tangent_of_segment(*v.leaf) : tangent_of_arc(v, v.span->end); }
+
+Vec2 start_point(const LeafView& v) { return v.span == nullptr ? v.leaf->p0 : v.span->start; }
+Vec2 end_point(const LeafView& v) { return v.span == nullptr ? v.leaf->p1 : v.span->end; }
 
 // ---------------------------------------------------------------------------------------------------------------------------------
 // Outlines
@@ -293,7 +348,19 @@ Leaf make_segment(Vec2 a, Vec2 b, float half_thickness, Sides sides)
     return leaf;
 }
 
-Leaf make_arc(const Arc& arc)
+struct ArcEnds
+{
+    Vec2 start;
+    Vec2 end;
+};
+
+ArcEnds ends_of(const Arc& arc)
+{
+    const auto at = [&](double angle) { return arc.center + arc.radius * direction(angle); };
+    return {at(arc.start_angle), at(static_cast<double>(arc.start_angle) + static_cast<double>(arc.sweep))};
+}
+
+Leaf make_arc(const Arc& arc, const ArcEnds& ends, LeafStore& store)
 {
     Leaf leaf;
     leaf.type = LeafType::Arc;
@@ -301,18 +368,15 @@ Leaf make_arc(const Arc& arc)
     leaf.p0 = arc.center;
     leaf.r0 = arc.half_thickness;
     leaf.arc_radius = arc.radius;
-    leaf.start_angle = arc.start_angle;
-    leaf.sweep = arc.sweep;
     const double half = 0.5 * static_cast<double>(arc.sweep);
     leaf.p1 = direction(static_cast<double>(arc.start_angle) + half);
-    leaf.cos_half_sweep = std::fabs(arc.sweep) >= 2 * pi ? -2.0f : static_cast<float>(sin_cos(half).cos);
-    leaf.arc_start = arc.center + arc.radius * direction(arc.start_angle);
-    leaf.arc_end = arc.center + arc.radius * direction(static_cast<double>(arc.start_angle) + static_cast<double>(arc.sweep));
+    const float cos_half_sweep = std::fabs(arc.sweep) >= 2 * pi ? -2.0f : static_cast<float>(sin_cos(half).cos);
+    leaf.first = store.add_span({arc.start_angle, arc.sweep, cos_half_sweep, ends.start, ends.end});
     return leaf;
 }
 
 // Center = middle of the chord, offset along its left by the distance chord/2 / tan(sweep/2).
-Leaf make_chain_arc(Vec2 from, Vec2 to, float sweep, float half_thickness, Sides sides)
+Leaf make_chain_arc(Vec2 from, Vec2 to, float sweep, float half_thickness, Sides sides, LeafStore& store)
 {
     const SinCos half = sin_cos(0.5 * static_cast<double>(sweep));
     const double cx = static_cast<double>(to.x) - from.x;
@@ -327,13 +391,10 @@ Leaf make_chain_arc(Vec2 from, Vec2 to, float sweep, float half_thickness, Sides
                   .sweep = sweep,
                   .half_thickness = half_thickness,
                   .sides = sides};
-    Leaf leaf = make_arc(arc);
-    leaf.arc_start = from;
-    leaf.arc_end = to;
-    return leaf;
+    return make_arc(arc, {from, to}, store);
 }
 
-std::vector<Leaf> leaves_of(const Circle& c, VertexStore&)
+std::vector<Leaf> leaves_of(const Circle& c, LeafStore&)
 {
     Leaf leaf;
     leaf.type = LeafType::Circle;
@@ -342,23 +403,17 @@ std::vector<Leaf> leaves_of(const Circle& c, VertexStore&)
     return {leaf};
 }
 
-std::vector<Leaf> leaves_of(const Polygon& p, VertexStore& store)
+std::vector<Leaf> leaves_of(const Polygon& p, LeafStore& store)
 {
     Leaf leaf;
     leaf.type = LeafType::Polygon;
     leaf.r0 = leaf.r1 = p.radius;
     leaf.count = static_cast<std::int32_t>(p.vertices.size());
-    leaf.first = store.allocate(leaf.count);
-    Vec2* points = store.points(leaf.first);
-    Vec2* normals = store.normals(leaf.first);
-    for (int i = 0; i < leaf.count; ++i)
-        points[i] = p.vertices[static_cast<std::size_t>(i)];
-    for (int i = 0; i < leaf.count; ++i)
-        normals[i] = -perp(normalize(points[(i + 1) % leaf.count] - points[i]));
+    leaf.first = store.add_outline(p.vertices);
     return {leaf};
 }
 
-std::vector<Leaf> leaves_of(const Capsule& c, VertexStore&)
+std::vector<Leaf> leaves_of(const Capsule& c, LeafStore&)
 {
     Leaf leaf;
     leaf.type = LeafType::Capsule;
@@ -369,10 +424,10 @@ std::vector<Leaf> leaves_of(const Capsule& c, VertexStore&)
     return {leaf};
 }
 
-std::vector<Leaf> leaves_of(const Segment& s, VertexStore&) { return {make_segment(s.a, s.b, s.half_thickness, s.sides)}; }
-std::vector<Leaf> leaves_of(const Arc& a, VertexStore&) { return {make_arc(a)}; }
+std::vector<Leaf> leaves_of(const Segment& s, LeafStore&) { return {make_segment(s.a, s.b, s.half_thickness, s.sides)}; }
+std::vector<Leaf> leaves_of(const Arc& a, LeafStore& store) { return {make_arc(a, ends_of(a), store)}; }
 
-std::vector<Leaf> leaves_of(const HalfSpace& h, VertexStore&)
+std::vector<Leaf> leaves_of(const HalfSpace& h, LeafStore&)
 {
     Leaf leaf;
     leaf.type = LeafType::HalfSpace;
@@ -381,14 +436,14 @@ std::vector<Leaf> leaves_of(const HalfSpace& h, VertexStore&)
     return {leaf};
 }
 
-std::vector<Leaf> leaves_of(const Chain& c, VertexStore&)
+std::vector<Leaf> leaves_of(const Chain& c, LeafStore& store)
 {
     std::vector<Leaf> leaves;
     Vec2 from = c.start;
     for (const ChainPiece& piece : c.pieces)
     {
         leaves.push_back(piece.sweep == 0 ? make_segment(from, piece.end, c.half_thickness, c.sides)
-                                          : make_chain_arc(from, piece.end, piece.sweep, c.half_thickness, c.sides));
+                                          : make_chain_arc(from, piece.end, piece.sweep, c.half_thickness, c.sides, store));
         from = piece.end;
     }
     const std::size_t n = leaves.size();
@@ -397,12 +452,12 @@ std::vector<Leaf> leaves_of(const Chain& c, VertexStore&)
         if (i > 0 || c.closed)
         {
             leaves[i].has_previous = true;
-            leaves[i].previous_tangent = end_tangent(leaves[(i + n - 1) % n]);
+            leaves[i].previous_tangent = end_tangent(view(leaves[(i + n - 1) % n], store));
         }
         if (i + 1 < n || c.closed)
         {
             leaves[i].has_next = true;
-            leaves[i].next_tangent = start_tangent(leaves[(i + 1) % n]);
+            leaves[i].next_tangent = start_tangent(view(leaves[(i + 1) % n], store));
         }
     }
     return leaves;
@@ -410,22 +465,22 @@ std::vector<Leaf> leaves_of(const Chain& c, VertexStore&)
 
 } // namespace
 
-std::vector<Leaf> make_leaves(const Geometry& geometry, VertexStore& store)
+std::vector<Leaf> make_leaves(const Geometry& geometry, LeafStore& store)
 {
     return std::visit([&](const auto& shape) { return leaves_of(shape, store); }, geometry);
 }
 
-Geometry geometry_of(const LeafView& view)
+Geometry geometry_of(const LeafView& v)
 {
-    const Leaf& leaf = *view.leaf;
+    const Leaf& leaf = *v.leaf;
     switch (leaf.type)
     {
     case LeafType::HalfSpace: return HalfSpace{leaf.p0, leaf.r0};
     case LeafType::Circle: return Circle{leaf.p0, leaf.r0};
-    case LeafType::Polygon: return Polygon{{view.points, view.points + leaf.count}, leaf.r0};
+    case LeafType::Polygon: return Polygon{{v.points, v.points + leaf.count}, leaf.r0};
     case LeafType::Capsule: return Capsule{leaf.p0, leaf.p1, leaf.r0, leaf.r1};
     case LeafType::Segment: return Segment{leaf.p0, leaf.p1, leaf.r0, leaf.sides};
-    case LeafType::Arc: return Arc{leaf.p0, leaf.arc_radius, leaf.start_angle, leaf.sweep, leaf.r0, leaf.sides};
+    case LeafType::Arc: return Arc{leaf.p0, leaf.arc_radius, v.span->start_angle, v.span->sweep, leaf.r0, leaf.sides};
     }
     return {};
 }
@@ -433,9 +488,10 @@ Geometry geometry_of(const LeafView& view)
 Chain chain_of(std::span<const LeafView> pieces)
 {
     const Leaf& first = *pieces.front().leaf;
-    Chain chain{.start = start_point(first), .closed = first.has_previous, .half_thickness = first.r0, .sides = first.sides};
+    Chain chain{
+        .start = start_point(pieces.front()), .closed = first.has_previous, .half_thickness = first.r0, .sides = first.sides};
     for (const LeafView& piece : pieces)
-        chain.pieces.push_back({end_point(*piece.leaf), piece.leaf->sweep});
+        chain.pieces.push_back({end_point(piece), piece.span == nullptr ? 0 : piece.span->sweep});
     return chain;
 }
 

@@ -100,7 +100,7 @@ bool check_mass(const char* function, const Geometry& geometry, float density)
     if (massless || density == 0)
         return true;
     const Checker check{function};
-    VertexStore store;
+    LeafStore store;
     const Leaf leaf = make_leaves(geometry, store).front();
     const LeafMass mass = leaf_mass(view(leaf, store), density);
     return check_amount(check, "the shape's mass", mass.mass) &&

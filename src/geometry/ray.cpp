@@ -94,16 +94,17 @@ void offer_line(Nearest& nearest, const Ray& ray, const Leaf& leaf)
         offer_edge(nearest, ray, leaf.p0 - leaf.r0 * n, leaf.p1 - leaf.r0 * n, -n);
 }
 
-void offer_arc(Nearest& nearest, const Ray& ray, const Leaf& leaf)
+void offer_arc(Nearest& nearest, const Ray& ray, const LeafView& v)
 {
+    const Leaf& leaf = *v.leaf;
     const auto on_arc = [&](Vec2 p)
     {
         const Vec2 r = p - leaf.p0;
-        return dot(r, leaf.p1) >= length(r) * leaf.cos_half_sweep;
+        return dot(r, leaf.p1) >= length(r) * v.span->cos_half_sweep;
     };
     const Roots outer = meet_circle(ray, leaf.p0, static_cast<double>(leaf.arc_radius) + leaf.r0);
     const Roots inner = meet_circle(ray, leaf.p0, static_cast<double>(leaf.arc_radius) - leaf.r0);
-    const Sides outside = leaf.sweep > 0 ? Sides::Right : Sides::Left;
+    const Sides outside = v.span->sweep > 0 ? Sides::Right : Sides::Left;
     if (outer.real && leaf.sides != (outside == Sides::Right ? Sides::Left : Sides::Right) && on_arc(ray.at(outer.first)))
         nearest.offer(outer.first, normalize(ray.at(outer.first) - leaf.p0));
     if (inner.real && leaf.sides != outside && on_arc(ray.at(inner.second)))
@@ -137,11 +138,11 @@ void offer_leaf(Nearest& nearest, const Ray& ray, const LeafView& v)
     }
     case LeafType::Segment:
     case LeafType::Arc:
-        leaf.type == LeafType::Segment ? offer_line(nearest, ray, leaf) : offer_arc(nearest, ray, leaf);
+        leaf.type == LeafType::Segment ? offer_line(nearest, ray, leaf) : offer_arc(nearest, ray, v);
         if (leaf.r0 > 0 && leaf.sides == Sides::Both)
         {
-            offer_circle(nearest, ray, start_point(leaf), leaf.r0);
-            offer_circle(nearest, ray, end_point(leaf), leaf.r0);
+            offer_circle(nearest, ray, start_point(v), leaf.r0);
+            offer_circle(nearest, ray, end_point(v), leaf.r0);
         }
         break;
     }

@@ -158,7 +158,7 @@ private:
                 m_draw.line(role, p0, transform(pose, leaf.p1));
             break;
         case LeafType::Arc:
-            m_draw.arc(role, p0, leaf.arc_radius, leaf.start_angle + pose.rotation.angle(), leaf.sweep, leaf.r0);
+            m_draw.arc(role, p0, leaf.arc_radius, v.span->start_angle + pose.rotation.angle(), v.span->sweep, leaf.r0);
             break;
         }
     }

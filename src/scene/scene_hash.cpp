@@ -60,19 +60,19 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
 
 void add_material(Hasher& h, const SceneState& state, const ShapeRecord& s)
 {
-    const RestitutionCurve curve = curve_of(state, s);
-    const Field field = field_of(state, s);
+    const RareTraits& rare = rare_traits_of(state, s);
+    const Field& field = rare.field;
     h.add(static_cast<int>(s.trigger) | (static_cast<int>(s.yields_material) << 1));
-    for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, s.kick.speed,
-                              s.kick.threshold, s.kick.cooldown, field.drag})
+    for (const float value : {s.density, s.friction, s.restitution, s.rolling_resistance, s.surface_speed, rare.kick.speed,
+                              rare.kick.threshold, rare.kick.cooldown, field.drag})
         h.add(value);
-    for (std::uint32_t i = 0; i < curve.count; ++i)
+    for (std::uint32_t i = 0; i < rare.restitution_curve.count; ++i)
     {
-        h.add(curve.points[i].speed);
-        h.add(curve.points[i].restitution);
+        h.add(rare.restitution_curve.points[i].speed);
+        h.add(rare.restitution_curve.points[i].restitution);
     }
-    h.add(s.kick_ready);
-    add(h, s.one_way);
+    h.add(rare.kick_ready);
+    add(h, rare.one_way);
     add(h, field.force);
     add(h, field.acceleration);
     h.add(static_cast<int>(field.only_if_moving_along));
@@ -87,7 +87,8 @@ void add_leaf(Hasher& h, const LeafView& v)
     h.add(static_cast<int>(leaf.type) | (static_cast<int>(leaf.sides) << 8));
     add(h, leaf.p0);
     add(h, leaf.p1);
-    for (const float value : {leaf.r0, leaf.r1, leaf.arc_radius, leaf.start_angle, leaf.sweep})
+    const ArcSpan span = v.span == nullptr ? ArcSpan{} : *v.span;
+    for (const float value : {leaf.r0, leaf.r1, leaf.arc_radius, span.start_angle, span.sweep})
         h.add(value);
     for (int i = 0; leaf.type == LeafType::Polygon && i < leaf.count; ++i)
         add(h, v.points[i]);
@@ -101,7 +102,7 @@ void add_shape(Hasher& h, const SceneState& state, int shape)
     add_material(h, state, s);
     if (!s.has_leaf)
         return;
-    add_leaf(h, view(s.leaf, state.vertices));
+    add_leaf(h, view(s.leaf, state.leaf_store));
     if (state.broad_phase.has(shape))
         add(h, state.broad_phase.box(shape));
 }

@@ -228,7 +228,7 @@ std::vector<ShapeId> Scene::overlap_shape(const Geometry& geometry, const Pose& 
         !check.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") ||
         !normalize_geometry(function, normal))
         return {};
-    VertexStore store;
+    LeafStore store;
     std::vector<ShapeId> ids;
     for (const Leaf& leaf : make_leaves(normal, store))
     {

@@ -78,46 +78,51 @@ void write_def(ShapeRecord& record, const ShapeDef& def)
     record.density = def.density;
     record.friction = def.friction;
     record.restitution = def.restitution;
-    record.has_curve = def.restitution_curve.count > 0;
     record.rolling_resistance = def.rolling_resistance;
     record.surface_speed = def.surface_speed;
-    record.one_way = normalize(def.one_way);
-    record.kick = def.kick;
     record.filter = def.filter;
-    record.has_field = is_field(def.field);
 }
 
-// What few shapes have stands beside their records.
-void keep_extras(SceneState& state, int shape, const ShapeDef& def)
+bool has_rare_traits(const ShapeDef& def)
 {
-    const auto slot = static_cast<std::size_t>(shape);
-    if (def.restitution_curve.count > 0)
+    return def.restitution_curve.count > 0 || is_field(def.field) || def.one_way != Vec2{} || def.kick != Kick{};
+}
+
+// Of a public shape. When its kick may fire again stays as it was.
+void write_rare_traits(SceneState& state, std::int32_t& place, const ShapeDef& def)
+{
+    if (!has_rare_traits(def))
     {
-        grow(state.curves, slot + 1);
-        state.curves[slot] = def.restitution_curve;
+        if (place != none)
+            state.rare_traits.destroy(place);
+        place = none;
+        return;
     }
-    if (is_field(def.field))
-    {
-        grow(state.fields, slot + 1);
-        state.fields[slot] = def.field;
-    }
+    if (place == none)
+        place = state.rare_traits.create({});
+    RareTraits& traits = state.rare_traits[place];
+    traits.restitution_curve = def.restitution_curve;
+    traits.field = def.field;
+    traits.one_way = normalize(def.one_way);
+    traits.kick = def.kick;
 }
 
 ShapeDef read_def(const SceneState& state, int shape, std::uint64_t user_data)
 {
     const ShapeRecord& record = state.shapes[shape];
+    const RareTraits& rare = rare_traits_of(state, record);
     return {.density = record.density,
             .friction = record.friction,
             .restitution = record.restitution,
-            .restitution_curve = curve_of(state, record),
+            .restitution_curve = rare.restitution_curve,
             .rolling_resistance = record.rolling_resistance,
             .surface_speed = record.surface_speed,
-            .one_way = record.one_way,
-            .kick = record.kick,
+            .one_way = rare.one_way,
+            .kick = rare.kick,
             .yields_material = record.yields_material,
             .filter = record.filter,
             .trigger = record.trigger,
-            .field = field_of(state, record),
+            .field = rare.field,
             .user_data = user_data};
 }
 
@@ -162,7 +167,7 @@ namespace internal {
 void add_leaves(SceneData& data, int shape, const Geometry& geometry)
 {
     SceneState& state = data.state;
-    const std::vector<Leaf> leaves = make_leaves(geometry, state.vertices);
+    const std::vector<Leaf> leaves = make_leaves(geometry, state.leaf_store);
     const bool enabled = state.bodies[state.shapes[shape].body].enabled;
     if (!std::holds_alternative<Chain>(geometry))
     {
@@ -197,8 +202,7 @@ void remove_leaves(SceneData& data, int shape)
                       {
                           destroy_contacts_of_shape(data, leaf);
                           state.broad_phase.remove(leaf);
-                          if (state.shapes[leaf].leaf.type == LeafType::Polygon)
-                              state.vertices.release(state.shapes[leaf].leaf.first, state.shapes[leaf].leaf.count);
+                          state.leaf_store.release(state.shapes[leaf].leaf);
                           if (leaf != shape)
                               state.shapes.destroy(leaf);
                       });
@@ -227,6 +231,7 @@ void destroy_shape(SceneData& data, int shape)
     remove_leaves(data, shape);
     unlink_shape(data, shape);
     keep_callbacks(data, shape, nullptr);
+    write_rare_traits(data.state, data.state.shapes[shape].rare_traits, {});
     data.state.shapes.destroy(shape);
 }
 
@@ -246,9 +251,9 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     ShapeRecord record;
     record.body = body_slot;
     write_def(record, def);
+    write_rare_traits(state, record.rare_traits, def);
     const int slot = state.shapes.create(record);
     state.shapes[slot].owner = slot;
-    keep_extras(state, slot, def);
     // At the end of the body's list, so that shapes keep the order they were made in.
     BodyRecord& owner = state.bodies[body_slot];
     (owner.last_shape == none ? owner.first_shape : state.shapes[owner.last_shape].next_shape) = slot;
@@ -389,11 +394,12 @@ void Shape::set_def(const ShapeDef& def)
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
     const bool meets_others = old.filter != def.filter || old.trigger != def.trigger;
     write_def(state.shapes[slot], def);
-    keep_extras(state, slot, def);
+    write_rare_traits(state, state.shapes[slot].rare_traits, def);
     for_each_own_leaf(state, slot,
                       [&](int leaf)
                       {
                           write_def(state.shapes[leaf], def);
+                          state.shapes[leaf].rare_traits = state.shapes[slot].rare_traits;
                           if (meets_others)
                           {
                               destroy_contacts_of_shape(*m_data, leaf);

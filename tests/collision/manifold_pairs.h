@@ -57,7 +57,7 @@ inline Geometry random_geometry(Random& random, LeafType type)
 
 struct Sample
 {
-    VertexStore store;
+    LeafStore store;
     Geometry geometry_a;
     Geometry geometry_b;
     Leaf a;
@@ -66,7 +66,7 @@ struct Sample
     Pose pose_b;
 };
 
-inline Leaf leaf_of(Geometry& geometry, VertexStore& store)
+inline Leaf leaf_of(Geometry& geometry, LeafStore& store)
 {
     EXPECT_TRUE(normalize_geometry("test", geometry));
     return make_leaves(geometry, store)[0];

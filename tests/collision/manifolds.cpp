@@ -52,7 +52,7 @@ TEST(CollisionManifold, CapsulesInLine)
     for (const Geometry& other : {Geometry{Capsule{}}, Geometry{Segment{{-0.5f, 0}, {0.5f, 0}, 0.25f}}})
         for (const float gap : {0.05f, -0.01f})
         {
-            VertexStore store;
+            LeafStore store;
             const Leaf a = make_leaves(Capsule{}, store)[0];
             const Leaf b = make_leaves(other, store)[0];
             const LocalManifold m = collide(view(a, store), view(b, store), {{1.5f + gap, 0}, {}}, 0.1f);

@@ -74,7 +74,7 @@ TEST(CollisionTimeOfImpact, AgreesWithFineStepping)
         c.frame.w = i % 6 == 5 ? 0 : random.range(-20, 20);
         if (distance_at(c, 0) < 0.02)
             continue;
-        VertexStore store;
+        LeafStore store;
         ASSERT_TRUE(normalize_geometry("test", c.geometry));
         const Leaf leaf = make_leaves(c.geometry, store)[0];
         const Leaf ball = {.type = LeafType::Circle, .r0 = static_cast<float>(c.radius)};

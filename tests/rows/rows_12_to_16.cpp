@@ -140,6 +140,27 @@ TEST(Row13_Bouncer, CooldownHoldsItBack)
         EXPECT_GE(kicks[i] - kicks[i - 1], 1 - 1.0 / 60);
 }
 
+TEST(Row13_Bouncer, AChainHasOneCooldown)
+{
+    Scene scene(weightless());
+    add_static(scene, Chain{.start = {-2, 0}, .pieces = {{{0, 0}}, {{2, 0}}}},
+               {.friction = 0, .kick = {.speed = 1, .threshold = 0.5f, .cooldown = 1}});
+    add_dynamic(scene, {-1, 0.5}, Circle{.radius = 0.1f}, {.friction = 0}, {0, -4});
+    add_dynamic(scene, {1, 1.5}, Circle{.radius = 0.1f}, {.friction = 0}, {0, -4});
+    add_dynamic(scene, {1.6, 5.5}, Circle{.radius = 0.1f}, {.friction = 0}, {0, -4});
+    std::vector<float> kicks;
+    for (int i = 0; i < 120; ++i)
+    {
+        scene.step(1.0f / 60);
+        for (const ImpactEvent& e : scene.impacts())
+            kicks.push_back(e.kick_speed);
+    }
+    ASSERT_EQ(kicks.size(), 3u);
+    EXPECT_EQ(kicks[0], 1) << "the first ball is kicked";
+    EXPECT_EQ(kicks[1], 0) << "the second comes 0.25 s later, to another piece";
+    EXPECT_EQ(kicks[2], 1) << "the third after the cooldown";
+}
+
 // --- 14 ----------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Row14_BroadPhase, PairsGrowWithTheBodiesNotWithTheirSquare)

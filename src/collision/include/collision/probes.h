@@ -11,7 +11,7 @@ struct Probe
 {
     Vec2 point{}; ///< in the body's frame
     double radius = 0;
-    const Leaf* piece = nullptr; ///< of a segment or arc: only part of the circle is surface
+    LeafView piece{}; ///< the segment or arc of which it is a part: only some of the circle is surface
     enum class Part : std::uint8_t
     {
         All,
@@ -30,21 +30,22 @@ struct Probe
 {
     if (probe.part == Probe::Part::All)
         return true;
-    const Leaf& leaf = *probe.piece;
+    const Leaf& leaf = *probe.piece.leaf;
     constexpr double slack = 1e-3;
     if (probe.part == Probe::Part::Start)
     {
-        const Vec2 t = start_tangent(leaf);
+        const Vec2 t = start_tangent(probe.piece);
         return static_cast<double>(t.x) * dx + static_cast<double>(t.y) * dy <= slack && start_answers<double>(leaf, t, dx, dy);
     }
     if (probe.part == Probe::Part::End)
     {
-        const Vec2 t = end_tangent(leaf);
+        const Vec2 t = end_tangent(probe.piece);
         return static_cast<double>(t.x) * dx + static_cast<double>(t.y) * dy >= -slack && end_answers<double>(leaf, t, dx, dy);
     }
-    const Sides outer = leaf.sweep > 0 ? Sides::Right : Sides::Left;
+    const Sides outer = probe.piece.span->sweep > 0 ? Sides::Right : Sides::Left;
     return (leaf.sides == Sides::Both || leaf.sides == outer) &&
-           dx * static_cast<double>(leaf.p1.x) + dy * static_cast<double>(leaf.p1.y) >= static_cast<double>(leaf.cos_half_sweep);
+           dx * static_cast<double>(leaf.p1.x) + dy * static_cast<double>(leaf.p1.y) >=
+               static_cast<double>(probe.piece.span->cos_half_sweep);
 }
 
 /// Calls visit(probe) for each; bands only matter against lines.
@@ -76,14 +77,12 @@ void for_each_probe(const LeafView& v, bool against_line, Visit&& visit)
         }
         return;
     }
-    case LeafType::Arc:
-        visit(Probe{leaf.p0, static_cast<double>(leaf.arc_radius) + r0, &leaf, Probe::Part::Bulge});
-        [[fallthrough]];
+    case LeafType::Arc: visit(Probe{leaf.p0, static_cast<double>(leaf.arc_radius) + r0, v, Probe::Part::Bulge}); [[fallthrough]];
     case LeafType::Segment:
-        if (start_may_answer(leaf, start_tangent(leaf)))
-            visit(Probe{start_point(leaf), r0, &leaf, Probe::Part::Start});
+        if (start_may_answer(leaf, start_tangent(v)))
+            visit(Probe{start_point(v), r0, v, Probe::Part::Start});
         if (!leaf.has_next)
-            visit(Probe{end_point(leaf), r0, &leaf, Probe::Part::End});
+            visit(Probe{end_point(v), r0, v, Probe::Part::End});
         return;
     }
 }

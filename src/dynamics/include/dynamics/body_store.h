@@ -23,7 +23,7 @@ void for_each_leaf(const SceneState& state, int body, Visit&& visit)
 
 [[nodiscard]] inline LeafView leaf_view(const SceneState& state, int shape)
 {
-    return view(state.shapes[shape].leaf, state.vertices);
+    return view(state.shapes[shape].leaf, state.leaf_store);
 }
 
 /// Mass, centre and inertia from the shapes (unless overridden), inverse masses from type and locks, and the extent.

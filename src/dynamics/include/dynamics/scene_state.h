@@ -99,6 +99,16 @@ struct BodyState
 };
 static_assert(sizeof(BodyState) == 32);
 
+/// What few shapes have.
+struct RareTraits
+{
+    RestitutionCurve restitution_curve{};
+    Field field{};
+    Vec2 one_way{};
+    Kick kick{};
+    double kick_ready = 0; ///< scene time from which the kick may fire again
+};
+
 /// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces. The first cache line is all that boxes and
 /// contacts read, but for arcs.
 struct alignas(64) ShapeRecord
@@ -110,22 +120,18 @@ struct alignas(64) ShapeRecord
     bool has_leaf = false;
     bool trigger = false;
     bool yields_material = false;
-    bool has_curve = false; ///< of restitution, in SceneState::curves
     Leaf leaf{};
     float density = 0;
     float friction = 0;
     float restitution = 0;
     float rolling_resistance = 0;
     float surface_speed = 0;
-    Vec2 one_way{};
-    Kick kick{};
-    bool has_field = false; ///< in SceneState::fields
-    double kick_ready = 0;  ///< scene time from which the kick may fire again
+    std::int32_t rare_traits = none; ///< in SceneState::rare_traits; pieces have those of their chain
     Filter filter{};
 };
 
 static_assert(offsetof(ShapeRecord, leaf) + offsetof(Leaf, arc_radius) <= 64);
-static_assert(sizeof(ShapeRecord) == 192);
+static_assert(sizeof(ShapeRecord) == 128);
 
 struct ManifoldPoint
 {
@@ -314,9 +320,8 @@ struct SceneState
     std::vector<std::uint64_t> colors; ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
     std::vector<BodyTarget> targets;   ///< by body slot, as far as any body has had one
     Pool<ShapeRecord> shapes;
-    std::vector<RestitutionCurve> curves; ///< by slot of the public shape, as far as any shape has had one
-    std::vector<Field> fields;            ///< likewise
-    VertexStore vertices;
+    Pool<RareTraits> rare_traits;
+    LeafStore leaf_store;
     Pool<JointRecord> joints;
     Pool<Contact, Growth::Half> contacts;
     std::vector<ContactImpulses> impulses;    ///< by contact slot
@@ -351,15 +356,10 @@ inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static
 }
 
 /// Without effect where the shape has none.
-[[nodiscard]] inline Field field_of(const SceneState& state, const ShapeRecord& shape)
+[[nodiscard]] inline const RareTraits& rare_traits_of(const SceneState& state, const ShapeRecord& shape)
 {
-    return shape.has_field ? state.fields[static_cast<std::size_t>(shape.owner)] : Field{};
-}
-
-/// Empty where the restitution is the same at all speeds.
-[[nodiscard]] inline RestitutionCurve curve_of(const SceneState& state, const ShapeRecord& shape)
-{
-    return shape.has_curve ? state.curves[static_cast<std::size_t>(shape.owner)] : RestitutionCurve{};
+    static constexpr RareTraits without{};
+    return shape.rare_traits == none ? without : state.rare_traits[shape.rare_traits];
 }
 
 } // namespace carom::internal

@@ -1,11 +1,13 @@
 #pragma once
 
 // A leaf is a shape as collision sees it: plain data in its body's frame. A chain becomes several leaves; every other public
-// shape becomes one. Polygons keep their vertices in a store of their own, so that leaves stay plain and small.
+// shape becomes one. What polygons and arcs have beyond that stands in a store of its own, so that leaves stay plain and small.
 
 #include "carom/math.h"
 #include "carom/shape.h"
+#include "core/pool.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,7 +32,7 @@ struct Leaf
     Sides sides = Sides::Both;
     bool has_previous = false; ///< the seam at the start is shared with the piece before
     bool has_next = false;
-    std::int32_t first = 0; ///< polygon: vertices [first, first + count) of the store
+    std::int32_t first = 0; ///< in the store. Polygon: its vertices are [first, first + count). Arc: its span
     std::int32_t count = 0;
     /// Circle: p0 center, r0 radius. Capsule: circles (p0, r0), (p1, r1). Segment: from p0 to p1, r0 = r1 half thickness.
     /// Half-space: p0 normal, r0 offset. Polygon: r0 corner radius. Arc: p0 center, r0 half thickness, p1 unit direction of its middle.
@@ -39,11 +41,6 @@ struct Leaf
     float r0 = 0;
     float r1 = 0;
     float arc_radius = 0;
-    float start_angle = 0;
-    float sweep = 0;
-    float cos_half_sweep = 0;
-    Vec2 arc_start{}; ///< ends of an arc
-    Vec2 arc_end{};
     Vec2 previous_tangent{}; ///< direction in which the piece before arrives at the start
     Vec2 next_tangent{};     ///< direction in which the piece after leaves the end
 };
@@ -60,54 +57,80 @@ struct Leaf
     return (piece.sides == Sides::Left && left < 0) || (piece.sides == Sides::Right && left > 0);
 }
 
-/// Vertices and outward edge normals of all polygons of a scene (edge i runs from vertex i to i + 1).
-class VertexStore
+/// From where to where an arc runs about its center.
+struct ArcSpan
 {
-public:
-    [[nodiscard]] int allocate(int count);
-    void release(int first, int count);
-    Vec2* points(int first) { return m_points.data() + first; }
-    Vec2* normals(int first) { return m_normals.data() + first; }
-    [[nodiscard]] const Vec2* points(int first) const { return m_points.data() + first; }
-    [[nodiscard]] const Vec2* normals(int first) const { return m_normals.data() + first; }
-
-private:
-    struct Hole
-    {
-        std::int32_t first;
-        std::int32_t count;
-    };
-    std::vector<Vec2> m_points;
-    std::vector<Vec2> m_normals;
-    std::vector<Hole> m_holes;
+    float start_angle = 0;
+    float sweep = 0;
+    float cos_half_sweep = 0;
+    Vec2 start{};
+    Vec2 end{};
 };
 
-/// A leaf with its vertices at hand.
+/// Outlines of all polygons of a scene, and spans of its arcs. An outline is its vertices and its outward edge normals (edge i runs from vertex i to i + 1).
+/// Polygons that are made alike, as most bodies of a pile are, share one: it stays in the cache.
+class LeafStore
+{
+public:
+    /// Where its first vertex is. Of convex outlines given lately one that is the same bit by bit, or a new one.
+    [[nodiscard]] int add_outline(std::span<const Vec2> vertices);
+    [[nodiscard]] int add_span(const ArcSpan& span);
+    /// The leaf needs no longer what it has here.
+    void release(const Leaf& leaf);
+
+    [[nodiscard]] const Vec2* points(int first) const { return m_points.data() + first; }
+    [[nodiscard]] const Vec2* normals(int first) const { return m_normals.data() + first; }
+    [[nodiscard]] const ArcSpan& span(int place) const { return m_spans[place]; }
+
+private:
+    static constexpr std::size_t recent_count = 64;
+
+    struct Outline
+    {
+        std::int32_t first = 0;
+        std::int32_t count = 0; ///< 0: none
+    };
+
+    [[nodiscard]] int allocate(int count);
+    [[nodiscard]] std::int32_t& users(int first) { return m_users[static_cast<std::size_t>(first / 3)]; }
+
+    std::vector<Vec2> m_points;
+    std::vector<Vec2> m_normals;
+    std::vector<std::int32_t> m_users;              ///< of the outline at `first`, by first / 3, for none is shorter than that
+    std::vector<std::vector<std::int32_t>> m_holes; ///< by their length
+    std::array<Outline, recent_count> m_recent{};   ///< by the hash of their vertices
+    Pool<ArcSpan> m_spans;
+};
+
+/// A leaf with what it has in the store at hand.
 struct LeafView
 {
     const Leaf* leaf;
-    const Vec2* points = nullptr;
+    const Vec2* points = nullptr; ///< of a polygon
     const Vec2* normals = nullptr;
+    const ArcSpan* span = nullptr; ///< of an arc
 };
 
-[[nodiscard]] inline LeafView view(const Leaf& leaf, const VertexStore& store)
+[[nodiscard]] inline LeafView view(const Leaf& leaf, const LeafStore& store)
 {
-    if (leaf.type != LeafType::Polygon)
-        return {&leaf};
-    return {&leaf, store.points(leaf.first), store.normals(leaf.first)};
+    if (leaf.type == LeafType::Polygon)
+        return {&leaf, store.points(leaf.first), store.normals(leaf.first)};
+    if (leaf.type == LeafType::Arc)
+        return {&leaf, nullptr, nullptr, &store.span(leaf.first)};
+    return {&leaf};
 }
 
 /// The unit direction of an arc or segment at its start and end, along its course.
-[[nodiscard]] Vec2 start_tangent(const Leaf& leaf);
-[[nodiscard]] Vec2 end_tangent(const Leaf& leaf);
-[[nodiscard]] Vec2 start_point(const Leaf& leaf);
-[[nodiscard]] Vec2 end_point(const Leaf& leaf);
+[[nodiscard]] Vec2 start_tangent(const LeafView& view);
+[[nodiscard]] Vec2 end_tangent(const LeafView& view);
+[[nodiscard]] Vec2 start_point(const LeafView& view);
+[[nodiscard]] Vec2 end_point(const LeafView& view);
 
 /// Normalises a geometry (winding, unit normals, collinear points) or refuses it in `function`'s name with a sentence.
 [[nodiscard]] bool normalize_geometry(const char* function, Geometry& geometry);
 
-/// The leaves of a normalised geometry. Polygon vertices go to the store.
-[[nodiscard]] std::vector<Leaf> make_leaves(const Geometry& geometry, VertexStore& store);
+/// The leaves of a normalised geometry.
+[[nodiscard]] std::vector<Leaf> make_leaves(const Geometry& geometry, LeafStore& store);
 
 /// Back: the normalised geometry that the leaf was made from, where it was no chain.
 [[nodiscard]] Geometry geometry_of(const LeafView& leaf);

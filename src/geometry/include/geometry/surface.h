@@ -76,26 +76,27 @@ template <class R>
 }
 
 template <class R>
-[[nodiscard]] std::optional<Surface<R>> surface_of_start(const Leaf& leaf, Vec2 tangent, R px, R py)
+[[nodiscard]] std::optional<Surface<R>> surface_of_start(const LeafView& v, Vec2 tangent, R px, R py)
 {
-    const Vec2 v = start_point(leaf);
-    if (!start_answers<R>(leaf, tangent, px - v.x, py - v.y))
+    const Vec2 p = start_point(v);
+    if (!start_answers<R>(*v.leaf, tangent, px - p.x, py - p.y))
         return std::nullopt;
-    return surface_of_circle<R>(px, py, v.x, v.y, leaf.r0, 1);
+    return surface_of_circle<R>(px, py, p.x, p.y, v.leaf->r0, 1);
 }
 
 template <class R>
-[[nodiscard]] std::optional<Surface<R>> surface_of_end(const Leaf& leaf, Vec2 tangent, R px, R py)
+[[nodiscard]] std::optional<Surface<R>> surface_of_end(const LeafView& v, Vec2 tangent, R px, R py)
 {
-    const Vec2 v = end_point(leaf);
-    if (!end_answers<R>(leaf, tangent, px - v.x, py - v.y))
+    const Vec2 p = end_point(v);
+    if (!end_answers<R>(*v.leaf, tangent, px - p.x, py - p.y))
         return std::nullopt;
-    return surface_of_circle<R>(px, py, v.x, v.y, leaf.r0, 2);
+    return surface_of_circle<R>(px, py, p.x, p.y, v.leaf->r0, 2);
 }
 
 template <class R>
-[[nodiscard]] std::optional<Surface<R>> surface_of_segment(const Leaf& leaf, R px, R py)
+[[nodiscard]] std::optional<Surface<R>> surface_of_segment(const LeafView& v, R px, R py)
 {
+    const Leaf& leaf = *v.leaf;
     const R ex = static_cast<R>(leaf.p1.x) - leaf.p0.x;
     const R ey = static_cast<R>(leaf.p1.y) - leaf.p0.y;
     const R l = std::sqrt(ex * ex + ey * ey);
@@ -106,9 +107,9 @@ template <class R>
     const R along = ux * dx + uy * dy;
     const Vec2 tangent = {static_cast<float>(ux), static_cast<float>(uy)};
     if (along < 0)
-        return surface_of_start<R>(leaf, tangent, px, py);
+        return surface_of_start<R>(v, tangent, px, py);
     if (along > l)
-        return surface_of_end<R>(leaf, tangent, px, py);
+        return surface_of_end<R>(v, tangent, px, py);
     const R left = ux * dy - uy * dx;
     if (is_beside_solid_side(leaf, static_cast<double>(left)))
         return std::nullopt;
@@ -118,29 +119,31 @@ template <class R>
 }
 
 template <class R>
-[[nodiscard]] std::optional<Surface<R>> surface_of_arc(const Leaf& leaf, R px, R py)
+[[nodiscard]] std::optional<Surface<R>> surface_of_arc(const LeafView& v, R px, R py)
 {
+    const Leaf& leaf = *v.leaf;
+    const ArcSpan& span = *v.span;
     const R dx = px - leaf.p0.x;
     const R dy = py - leaf.p0.y;
     const R d = std::sqrt(dx * dx + dy * dy);
     const R ahead = dx * leaf.p1.x + dy * leaf.p1.y;
-    if (d > 0 && ahead >= d * leaf.cos_half_sweep)
+    if (d > 0 && ahead >= d * span.cos_half_sweep)
     {
         const bool inside = d < leaf.arc_radius;
-        const Sides side = inside == (leaf.sweep > 0) ? Sides::Left : Sides::Right;
+        const Sides side = inside == (span.sweep > 0) ? Sides::Left : Sides::Right;
         if (leaf.sides != Sides::Both && leaf.sides != side)
             return std::nullopt;
         const R sign = inside ? R(-1) : R(1);
         return Surface<R>{sign * (d - leaf.arc_radius) - leaf.r0, sign * dx / d, sign * dy / d, sign / d, 0};
     }
     // Beyond the ends: the nearer corner.
-    const R sx = px - leaf.arc_start.x;
-    const R sy = py - leaf.arc_start.y;
-    const R ex = px - leaf.arc_end.x;
-    const R ey = py - leaf.arc_end.y;
+    const R sx = px - span.start.x;
+    const R sy = py - span.start.y;
+    const R ex = px - span.end.x;
+    const R ey = py - span.end.y;
     if (sx * sx + sy * sy <= ex * ex + ey * ey)
-        return surface_of_start<R>(leaf, start_tangent(leaf), px, py);
-    return surface_of_end<R>(leaf, end_tangent(leaf), px, py);
+        return surface_of_start<R>(v, start_tangent(v), px, py);
+    return surface_of_end<R>(v, end_tangent(v), px, py);
 }
 
 /// The convex hull of the circles (point i, radius i): polygons with round corners and capsules, tapered ones included. Edge i touches the
@@ -216,8 +219,8 @@ template <class R>
         const CapsuleSides sides = capsule_sides(leaf);
         return surface_of_hull<R>(sides.points, sides.normals, sides.radii, 2, px, py);
     }
-    case LeafType::Segment: return surface_of_segment<R>(leaf, px, py);
-    case LeafType::Arc: return surface_of_arc<R>(leaf, px, py);
+    case LeafType::Segment: return surface_of_segment<R>(v, px, py);
+    case LeafType::Arc: return surface_of_arc<R>(v, px, py);
     }
     return std::nullopt;
 }
