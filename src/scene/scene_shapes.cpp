@@ -392,7 +392,8 @@ void Shape::set_def(const ShapeDef& def)
         return;
     const ShapeRecord old = state.shapes[slot];
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
-    const bool meets_others = old.filter != def.filter || old.trigger != def.trigger;
+    const bool meets_others =
+        old.filter != def.filter || old.trigger != def.trigger || rare_traits_of(state, old).one_way != normalize(def.one_way);
     write_def(state.shapes[slot], def);
     write_rare_traits(state, state.shapes[slot].rare_traits, def);
     for_each_own_leaf(state, slot,

@@ -49,6 +49,23 @@ TEST(LawOneWay, FastBallsToo)
     }
 }
 
+TEST(LawOneWay, FromWhenItIsSet)
+{
+    Scene scene(sleepless());
+    const Thing platform = add_static(scene, Segment{{-3, 0}, {3, 0}});
+    const BodyId ball = add_dynamic(scene, {0, 0.1}, Circle{.radius = 0.1f}).body;
+    steps(scene, 30);
+    ASSERT_NEAR(scene.body(ball).position().y, 0.1, 0.01);
+    scene.shape(platform.shape).set_def({.one_way = {0, -1}});
+    steps(scene, 60);
+    EXPECT_LT(scene.body(ball).position().y, -3) << "what rested on it falls through";
+    scene.shape(platform.shape).set_def({});
+    scene.body(ball).teleport({0, 0.5}, 0);
+    scene.body(ball).set_velocity({});
+    steps(scene, 60);
+    EXPECT_NEAR(scene.body(ball).position().y, 0.1, 0.01) << "and no more once it is solid";
+}
+
 TEST(LawOneWay, OneSidedSegmentsAndArcs)
 {
     for (const float v : {5.0f, 500.0f})
