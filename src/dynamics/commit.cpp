@@ -11,7 +11,6 @@
 #include "dynamics/flight/motion.h"
 #include "dynamics/force_laws.h"
 #include "dynamics/quarantine.h"
-#include "dynamics/raw_events.h"
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
 #include "dynamics/task_sizes.h"
@@ -211,12 +210,11 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
             if (known)
                 continue;
         }
-        append(ctx.scene.events.begins,
-               {shape_id(state, t.shape_a), shape_id(state, t.shape_b), body_id(state, state.shapes[t.shape_a].body),
-                body_id(state, state.shapes[t.shape_b].body), t.point, t.normal, t.time});
+        ContactBeginEvent event{.point = t.point, .normal = t.normal, .time = t.time};
+        name_shapes(state, t.shape_a, t.shape_b, event);
+        append(ctx.scene.events.begins, event);
     }
-    for (const RawImpact& raw : output.impacts)
-        append(ctx.scene.events.impacts, impact_event(state, raw));
+    append_all(ctx.scene.events.impacts, output.impacts);
     for (const DeferredImpulse& d : output.deferred)
         apply_deferred(ctx, d);
     for (const std::int32_t shape : output.kicked_shapes)

@@ -3,10 +3,10 @@
 
 #include "dynamics/force_laws.h"
 
+#include "dynamics/contact_store.h"
 #include "dynamics/flight.h"
 
 #include "core/refuse.h"
-#include "dynamics/raw_events.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,7 @@ namespace carom::internal {
 
 namespace {
 
-bool takes_part(const SceneState& state, int body, const RawImpact& raw)
-{
-    return state.shapes[raw.shape_a].body == body || state.shapes[raw.shape_b].body == body;
-}
+bool takes_part(BodyId body, const ImpactEvent& event) { return event.body_a == body || event.body_b == body; }
 
 // What has struck the body since its law was last called.
 std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k, UnitOutput& output)
@@ -30,9 +27,9 @@ std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k,
             if (untold.body == body)
                 output.law_impacts.push_back(untold.event);
     }
-    for (const RawImpact& raw : std::span(output.impacts).subspan(output.told_impacts))
-        if (takes_part(ctx.state, body, raw))
-            output.law_impacts.push_back(impact_event(ctx.state, raw));
+    for (const ImpactEvent& event : std::span(output.impacts).subspan(output.told_impacts))
+        if (takes_part(body_id(ctx.state, body), event))
+            output.law_impacts.push_back(event);
     return output.law_impacts;
 }
 
@@ -101,20 +98,21 @@ void note_untold_impacts(StepContext& ctx)
     if (ctx.scene.law_count == 0)
         return;
     const SceneState& state = ctx.state;
-    const auto note = [&](std::size_t unit, std::size_t i, int body, const RawImpact& raw)
+    const auto note = [&](std::size_t unit, std::size_t i, BodyId id, const ImpactEvent& event)
     {
+        const int body = static_cast<int>(id.slot) - 1;
         const int place = state.bodies[body].awake_index;
         const bool of_unit = place != none && ctx.scratch.unit_of[static_cast<std::size_t>(place)] == static_cast<int>(unit);
         if (force_law_of(ctx, body) != nullptr && !(of_unit && i < ctx.scratch.outputs[unit].told_impacts))
-            ctx.scene.untold_impacts.push_back({body, impact_event(state, raw)});
+            ctx.scene.untold_impacts.push_back({body, event});
     };
     for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
     {
-        const std::vector<RawImpact>& impacts = ctx.scratch.outputs[u].impacts;
+        const std::vector<ImpactEvent>& impacts = ctx.scratch.outputs[u].impacts;
         for (std::size_t i = 0; i < impacts.size(); ++i)
         {
-            note(u, i, state.shapes[impacts[i].shape_a].body, impacts[i]);
-            note(u, i, state.shapes[impacts[i].shape_b].body, impacts[i]);
+            note(u, i, impacts[i].body_a, impacts[i]);
+            note(u, i, impacts[i].body_b, impacts[i]);
         }
     }
 }

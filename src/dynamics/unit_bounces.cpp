@@ -6,6 +6,7 @@
 #include "core/grow.h"
 #include "core/nonzero.h"
 #include "core/prefetch.h"
+#include "dynamics/contact_store.h"
 #include "dynamics/material.h"
 #include "dynamics/scene_data.h"
 #include "dynamics/unit_bins.h"
@@ -208,14 +209,15 @@ private:
             told.kicked_shapes.push_back(contact.shape_a);
         if (kick.b_fired)
             told.kicked_shapes.push_back(contact.shape_b);
-        RawImpact raw{contact.shape_a, contact.shape_b, {}};
+        ImpactEvent event;
         const ContactRow before = row;
         bounce_points(row, e, kick.speed);
         for (int i = 0; i < row.count; ++i)
-            account_for_bounce(row.points[i], e, kick.speed, raw.event);
+            account_for_bounce(row.points[i], e, kick.speed, event);
         forget_pushes(before, row);
-        fill_impact(row, raw.event, approach, e, kick.speed, k);
-        append(told.impacts, raw);
+        name_shapes(m_ctx.state, contact.shape_a, contact.shape_b, event);
+        fill_impact(row, event, approach, e, kick.speed, k);
+        append(told.impacts, event);
         ++told.bulk_impacts;
     }
 

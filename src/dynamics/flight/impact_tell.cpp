@@ -1,6 +1,8 @@
 // What the user hears of an impact.
 
+#include "core/grow.h"
 #include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
 #include "dynamics/flight/impact_set.h"
 
 #include <algorithm>
@@ -16,18 +18,19 @@ void ImpactSet::tell(std::size_t i)
         return;
     sum_impulse(row);
     const bool own_is_a = s.contact == none || m_state.contacts[s.contact].shape_a == s.own;
-    const ImpactEvent event = event_of(row, s, own_is_a);
+    ImpactEvent event = event_of(row, s, own_is_a);
     const std::int32_t shape_a = own_is_a ? s.own : s.other;
     const std::int32_t shape_b = own_is_a ? s.other : s.own;
     if (is_worth_telling(row, s))
     {
-        m_span.output.impacts.push_back({shape_a, shape_b, event});
+        name_shapes(m_state, shape_a, shape_b, event);
+        append(m_span.output.impacts, event);
         ++m_span.output.flight_impacts;
     }
     const bool known = s.contact != none && (m_state.contacts[s.contact].flags & contact_flag::touching) != 0;
     if (known)
         return;
-    m_span.output.begins.push_back({s.contact, shape_a, shape_b, event.point, event.normal, event.time});
+    append(m_span.output.begins, {s.contact, shape_a, shape_b, event.point, event.normal, event.time});
     if (s.contact != none)
         m_state.contacts[s.contact].flags |= contact_flag::touching | contact_flag::begun;
 }

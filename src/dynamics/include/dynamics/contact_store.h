@@ -73,4 +73,14 @@ void end_touch(SceneData& scene, int contact, Events& events, float time);
 [[nodiscard]] ShapeId shape_id(const SceneState& state, int slot); ///< of the owner, for pieces of chains
 [[nodiscard]] JointId joint_id(const SceneState& state, int slot);
 
+/// Who met in an event.
+template <class Event>
+void name_shapes(const SceneState& state, int shape_a, int shape_b, Event& event)
+{
+    event.shape_a = shape_id(state, shape_a);
+    event.shape_b = shape_id(state, shape_b);
+    event.body_a = body_id(state, state.shapes[shape_a].body);
+    event.body_b = body_id(state, state.shapes[shape_b].body);
+}
+
 } // namespace carom::internal

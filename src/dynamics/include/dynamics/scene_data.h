@@ -27,14 +27,7 @@ struct Tolerances
     float rest_speed = 0; ///< approach slower than this is not an impact
 };
 
-/// What an impact leaves for the events stage; ids are made there.
-struct RawImpact
-{
-    std::int32_t shape_a = none;
-    std::int32_t shape_b = none;
-    ImpactEvent event{};
-};
-
+/// A touch that begins, until the events stage.
 struct RawTouch
 {
     std::int32_t contact = none; ///< none: the pair has no contact, and the touch ends in the step it began

@@ -23,7 +23,6 @@
 namespace carom::internal {
 
 struct SceneData;
-struct RawImpact;
 class DirectSolve;
 struct RawTouch;
 
@@ -322,7 +321,7 @@ struct StoppedJoint
 /// What a thread tells of a unit's impacts.
 struct Told
 {
-    std::vector<RawImpact> impacts;
+    std::vector<ImpactEvent> impacts;
     std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
     std::vector<std::int32_t> kicked_shapes;
     int bulk_impacts = 0;
