@@ -203,10 +203,10 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     note_sleeper(state, contact);
     const int index = state.contacts.create(contact);
     const auto capacity = static_cast<std::size_t>(state.contacts.capacity());
-    grow<Growth::Half>(state.kept_manifolds, capacity);
-    grow<Growth::Half>(state.impulses, capacity);
+    grow<Growth::Third>(state.kept_manifolds, capacity);
+    grow<Growth::Third>(state.impulses, capacity);
     impulses_of(state, index) = {};
-    grow<Growth::Half>(state.lane_marks, capacity);
+    grow<Growth::Third>(state.lane_marks, capacity);
     state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
     link_contact(state, index);
     mix_materials(scene, state.contacts[index]);

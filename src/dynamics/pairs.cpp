@@ -41,7 +41,7 @@ bool is_known(const SceneState& state, int a, int b)
 void offer_pair(const StepContext& ctx, int a, int b, Pairs& pairs)
 {
     if (a != b && may_collide(ctx.state, a, b) && !is_known(ctx.state, a, b))
-        pairs.push_back(pair_key(a, b));
+        append(pairs, pair_key(a, b));
 }
 
 // What overlapped when pairs were last looked for is a pair already; of two that have changed, the first finds the second.

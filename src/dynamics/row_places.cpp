@@ -207,7 +207,7 @@ private:
             });
         make_room(m_scratch.lane_links, as_index(lane));
         m_scratch.lane_links.resize(as_index(lane), none);
-        m_scratch.row_links.resize(as_index(row));
+        set_size(m_scratch.row_links, as_index(row));
     }
 
     // From how many of a bin each task has to where its first goes.

@@ -152,8 +152,8 @@ void form_batches(Scratch& scratch)
     const auto wanted = static_cast<std::size_t>(groups);
     if (scratch.wide_rows.capacity() < wanted)
         scratch.wide_rows.clear(); // all are filled in this step: there is nothing to copy
-    grow<Growth::Half>(scratch.wide_rows, wanted);
-    scratch.struck.resize(scratch.wide_rows.size());
+    grow(scratch.wide_rows, wanted);
+    set_size(scratch.struck, scratch.wide_rows.size());
 }
 
 void solve_small(StepContext& ctx)
@@ -183,12 +183,12 @@ void solve_units(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     if (scratch.outputs.size() < scratch.units.size())
-        scratch.outputs.resize(scratch.units.size());
+        set_size(scratch.outputs, scratch.units.size());
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
         scratch.outputs[i].clear();
     mark_traced(ctx);
-    scratch.unpushed.resize(scratch.states.size());
-    scratch.speeds.resize(scratch.states.size());
+    set_size(scratch.unpushed, scratch.states.size());
+    set_size(scratch.speeds, scratch.states.size());
     form_batches(scratch);
     solve_large(ctx);
     solve_small(ctx);

@@ -239,7 +239,7 @@ bool sweep_all(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     const std::vector<std::int32_t>& bodies = ctx.state.awake_bodies;
-    scratch.motion.resize(bodies.size());
+    set_size(scratch.motion, bodies.size());
     const std::span<MovedBoxes> parts =
         find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.moved_of_task,
                       [&](std::size_t first, std::size_t last, MovedBoxes& moved) { TaskSweep(ctx, first, last, moved).run(); });

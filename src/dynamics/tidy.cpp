@@ -100,7 +100,7 @@ public:
         slots = m_state.awake_contacts;
         std::sort(slots.begin(), slots.end());
         m_state.awake_contacts = slots;
-        m_moved_to.resize(static_cast<std::size_t>(m_state.contacts.capacity()));
+        set_size(m_moved_to, static_cast<std::size_t>(m_state.contacts.capacity()));
         std::iota(m_moved_to.begin(), m_moved_to.end(), 0);
         for (std::size_t i = 0; i < m_order.size(); ++i)
             m_moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
@@ -209,13 +209,13 @@ private:
         {
             if (is_marked(m_moved_to[as_index(first)]) || m_moved_to[as_index(first)] == first)
                 continue;
-            cycles.push_back(marked(first));
+            append(cycles, marked(first));
             for (std::int32_t slot = first;;)
             {
                 const std::int32_t next = std::exchange(m_moved_to[as_index(slot)], marked(m_moved_to[as_index(slot)]));
                 if (next == first)
                     break;
-                cycles.push_back(next);
+                append(cycles, next);
                 slot = next;
             }
         }

@@ -3,6 +3,7 @@
 
 #include "dynamics/unit_layout.h"
 
+#include "core/grow.h"
 #include "core/index.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
@@ -42,8 +43,8 @@ public:
         m_scratch.flier_seeds.clear();
         for (Unit& unit : m_scratch.units)
             place_states_of(unit);
-        m_scratch.states.resize(m_scratch.state_bodies.size());
-        m_scratch.constants.resize(m_scratch.state_bodies.size());
+        set_size(m_scratch.states, m_scratch.state_bodies.size());
+        set_size(m_scratch.constants, m_scratch.state_bodies.size());
     }
 
     void fill_states()
@@ -71,7 +72,7 @@ public:
 
     void add_fliers()
     {
-        m_scratch.fliers.resize(m_scratch.flier_seeds.size());
+        set_size(m_scratch.fliers, m_scratch.flier_seeds.size());
         m_scratch.event_times.assign(m_scratch.fliers.size(), 1e300);
         m_scratch.flier_of_state.assign(m_scratch.state_bodies.size(), none);
         m_scratch.versions.assign(m_scratch.state_bodies.size(), 0);
@@ -109,7 +110,7 @@ public:
         m_scratch.joint_places.clear();
         m_scratch.joint_lanes.clear();
         m_scratch.joint_bin_starts.clear();
-        m_scratch.joint_colors.resize(m_scratch.state_bodies.size());
+        set_size(m_scratch.joint_colors, m_scratch.state_bodies.size());
         m_groups = 0;
         for (Unit& unit : m_scratch.units)
             place_joints_of(unit);
@@ -118,9 +119,9 @@ public:
     // For what unit_rows.cpp fills.
     void make_room()
     {
-        m_scratch.rows.resize(m_scratch.row_links.size());
-        m_scratch.joints.resize(m_scratch.joint_places.size());
-        m_scratch.wide_joints.resize(as_index(m_groups));
+        set_size(m_scratch.rows, m_scratch.row_links.size());
+        set_size(m_scratch.joints, m_scratch.joint_places.size());
+        set_size(m_scratch.wide_joints, as_index(m_groups));
     }
 
     // What held each state when the rows were placed holds it still.

@@ -1,7 +1,7 @@
 #pragma once
 
-// Arrays that grow by a quarter of what they have, or by half. What doubles, as std::vector does, leaves a quarter of its memory unused in the mean, these a
-// tenth and a sixth; on the way an item is copied four times, or twice, not once.
+// Arrays that grow by a quarter of what they have, or by a third. What doubles, as std::vector does, leaves a quarter of its memory unused in the mean, these a
+// tenth and an eighth; on the way an item is copied four times, or three times, not once.
 
 #include <cstddef>
 #include <span>
@@ -13,7 +13,7 @@ namespace carom::internal {
 enum class Growth : std::size_t
 {
     Quarter = 4,
-    Half = 2, ///< what grows while a scene is stepped
+    Third = 3, ///< what grows while a scene is stepped
 };
 
 /// Room for `size` items in all.

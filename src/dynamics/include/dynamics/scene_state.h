@@ -323,7 +323,7 @@ struct SceneState
     Pool<RareTraits> rare_traits;
     LeafStore leaf_store;
     Pool<JointRecord> joints;
-    Pool<Contact, Growth::Half> contacts;
+    Pool<Contact, Growth::Third> contacts;
     std::vector<ContactImpulses> impulses;    ///< by contact slot
     std::vector<KeptManifold> kept_manifolds; ///< by contact slot
     std::vector<LaneMark> lane_marks;         ///< by contact slot
