@@ -178,9 +178,7 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
         const SceneState& state = ctx.state;
         if (touch.contact == none)
         {
-            append(ctx.scene.events.ends, {shape_id(state, touch.shape_a), shape_id(state, touch.shape_b),
-                                           body_id(state, state.shapes[touch.shape_a].body),
-                                           body_id(state, state.shapes[touch.shape_b].body), touch.time});
+            append(ctx.scene.events.ends, event_between<ContactEndEvent>(state, touch.shape_a, touch.shape_b, touch.time));
             continue;
         }
         const Contact& contact = ctx.state.contacts[touch.contact];
@@ -210,9 +208,7 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
             if (known)
                 continue;
         }
-        ContactBeginEvent event{.point = t.point, .normal = t.normal, .time = t.time};
-        name_shapes(state, t.shape_a, t.shape_b, event);
-        append(ctx.scene.events.begins, event);
+        append(ctx.scene.events.begins, event_between<ContactBeginEvent>(state, t.shape_a, t.shape_b, t.point, t.normal, t.time));
     }
     append_all(ctx.scene.events.impacts, output.impacts);
     for (const DeferredImpulse& d : output.deferred)

@@ -258,18 +258,10 @@ void end_touch(SceneData& scene, int index, Events& events, float time)
         scene.state.graph_dirty = true;
     if (touches_elsewhere(state, index))
         return;
-    const ShapeId a = shape_id(state, contact.shape_a);
-    const ShapeId b = shape_id(state, contact.shape_b);
-    const BodyId body_a = body_id(state, contact.body_a);
-    const BodyId body_b = body_id(state, contact.body_b);
     if ((contact.flags & contact_flag::trigger) != 0)
-    {
-        events.exits.push_back({a, b, body_a, body_b, time});
-    }
+        append(events.exits, event_between<TriggerEvent>(state, contact.shape_a, contact.shape_b, time));
     else
-    {
-        append(events.ends, {a, b, body_a, body_b, time});
-    }
+        append(events.ends, event_between<ContactEndEvent>(state, contact.shape_a, contact.shape_b, time));
 }
 
 void destroy_contact(SceneData& scene, int index, Events& events, float time)

@@ -153,8 +153,7 @@ void begin_touch(StepContext& ctx, int index)
         return;
     const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
     append(ctx.scene.events.begins,
-           {shape_id(state, contact.shape_a), shape_id(state, contact.shape_b), body_id(state, contact.body_a),
-            body_id(state, contact.body_b), point, contact.manifold.normal, 0});
+           event_between<ContactBeginEvent>(state, contact.shape_a, contact.shape_b, point, contact.manifold.normal));
 }
 
 // Something fast that may hit a sleeper in this step wakes it before the units are built.

@@ -70,9 +70,7 @@ private:
     {
         const float time = std::clamp(static_cast<float>(c.time), 0.0f, m_ctx.dt);
         (c.enters ? m_ctx.scene.events.enters : m_ctx.scene.events.exits)
-            .push_back({shape_id(m_state, c.trigger), shape_id(m_state, c.visitor),
-                        body_id(m_state, m_state.shapes[c.trigger].body), body_id(m_state, m_state.shapes[c.visitor].body),
-                        time});
+            .push_back(event_between<TriggerEvent>(m_state, c.trigger, c.visitor, time));
     }
 
     StepContext& m_ctx;

@@ -86,7 +86,7 @@ std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, int s
 // The callbacks of a shape that still lives, held: the callback may replace or destroy them.
 std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, ShapeId id)
 {
-    const int slot = static_cast<int>(id.slot) - 1;
+    const int slot = slot_of(id);
     return scene.state.shapes.is_live(slot, id.generation) ? callbacks_of(scene, slot) : nullptr;
 }
 
@@ -160,8 +160,7 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
     {
         const Contact& c = state.contacts[index];
         if ((c.flags & contact_flag::touching) != 0 && (listens(c.shape_a) || listens(c.shape_b)))
-            events.push_back(
-                {shape_id(state, c.shape_a), shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), 0});
+            events.push_back(event_between<TriggerEvent>(state, c.shape_a, c.shape_b));
     }
     std::vector<EventKey> keys;
     sort_events(events, keys);

@@ -27,8 +27,9 @@ std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k,
             if (untold.body == body)
                 output.law_impacts.push_back(untold.event);
     }
+    const BodyId id = body_id(ctx.state, body);
     for (const ImpactEvent& event : std::span(output.impacts).subspan(output.told_impacts))
-        if (takes_part(body_id(ctx.state, body), event))
+        if (takes_part(id, event))
             output.law_impacts.push_back(event);
     return output.law_impacts;
 }
@@ -100,7 +101,7 @@ void note_untold_impacts(StepContext& ctx)
     const SceneState& state = ctx.state;
     const auto note = [&](std::size_t unit, std::size_t i, BodyId id, const ImpactEvent& event)
     {
-        const int body = static_cast<int>(id.slot) - 1;
+        const int body = slot_of(id);
         const int place = state.bodies[body].awake_index;
         const bool of_unit = place != none && ctx.scratch.unit_of[static_cast<std::size_t>(place)] == static_cast<int>(unit);
         if (force_law_of(ctx, body) != nullptr && !(of_unit && i < ctx.scratch.outputs[unit].told_impacts))

@@ -209,13 +209,12 @@ private:
             told.kicked_shapes.push_back(contact.shape_a);
         if (kick.b_fired)
             told.kicked_shapes.push_back(contact.shape_b);
-        ImpactEvent event;
+        auto event = event_between<ImpactEvent>(m_ctx.state, contact.shape_a, contact.shape_b);
         const ContactRow before = row;
         bounce_points(row, e, kick.speed);
         for (int i = 0; i < row.count; ++i)
             account_for_bounce(row.points[i], e, kick.speed, event);
         forget_pushes(before, row);
-        name_shapes(m_ctx.state, contact.shape_a, contact.shape_b, event);
         fill_impact(row, event, approach, e, kick.speed, k);
         append(told.impacts, event);
         ++told.bulk_impacts;

@@ -18,12 +18,11 @@ void ImpactSet::tell(std::size_t i)
         return;
     sum_impulse(row);
     const bool own_is_a = s.contact == none || m_state.contacts[s.contact].shape_a == s.own;
-    ImpactEvent event = event_of(row, s, own_is_a);
+    const ImpactEvent event = event_of(row, s, own_is_a);
     const std::int32_t shape_a = own_is_a ? s.own : s.other;
     const std::int32_t shape_b = own_is_a ? s.other : s.own;
     if (is_worth_telling(row, s))
     {
-        name_shapes(m_state, shape_a, shape_b, event);
         append(m_span.output.impacts, event);
         ++m_span.output.flight_impacts;
     }
@@ -68,7 +67,7 @@ bool ImpactSet::is_worth_telling(const ImpactRow& row, const Source& s) const
 ImpactEvent ImpactSet::event_of(const ImpactRow& row, const Source& s, bool own_is_a) const
 {
     const auto sign = static_cast<float>(own_is_a ? -1 : 1);
-    ImpactEvent e;
+    auto e = event_between<ImpactEvent>(m_state, own_is_a ? s.own : s.other, own_is_a ? s.other : s.own);
     e.point = {m_origin.x + s.touch.x, m_origin.y + s.touch.y};
     e.normal = sign * Vec2{static_cast<float>(row.nx), static_cast<float>(row.ny)};
     e.time = static_cast<float>(m_span.time_of_step(m_time));

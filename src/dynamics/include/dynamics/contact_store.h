@@ -73,14 +73,19 @@ void end_touch(SceneData& scene, int contact, Events& events, float time);
 [[nodiscard]] ShapeId shape_id(const SceneState& state, int slot); ///< of the owner, for pieces of chains
 [[nodiscard]] JointId joint_id(const SceneState& state, int slot);
 
-/// Who met in an event.
-template <class Event>
-void name_shapes(const SceneState& state, int shape_a, int shape_b, Event& event)
+/// Back; -1: null.
+template <class Kind>
+[[nodiscard]] int slot_of(Id<Kind> id)
 {
-    event.shape_a = shape_id(state, shape_a);
-    event.shape_b = shape_id(state, shape_b);
-    event.body_a = body_id(state, state.shapes[shape_a].body);
-    event.body_b = body_id(state, state.shapes[shape_b].body);
+    return static_cast<int>(id.slot) - 1;
+}
+
+/// An event of any kind: of these two shapes, and what else it says in its order.
+template <class Event, class... Rest>
+[[nodiscard]] Event event_between(const SceneState& state, int shape_a, int shape_b, const Rest&... rest)
+{
+    return {shape_id(state, shape_a), shape_id(state, shape_b), body_id(state, state.shapes[shape_a].body),
+            body_id(state, state.shapes[shape_b].body), rest...};
 }
 
 } // namespace carom::internal

@@ -11,12 +11,6 @@
 namespace carom::internal {
 
 template <class Kind>
-[[nodiscard]] int slot_of(Id<Kind> id)
-{
-    return static_cast<int>(id.slot) - 1;
-}
-
-template <class Kind>
 [[nodiscard]] std::string to_text(Id<Kind> id)
 {
     return id.is_null() ? std::string("null")
