@@ -8,15 +8,10 @@ namespace carom::internal {
 
 namespace {
 
-bool in_sweep(const LeafView& arc, Vec2 from_center)
-{
-    return dot(from_center, arc.leaf->p1) >= length(from_center) * arc.span->cos_half_sweep;
-}
-
 bool faces(const LeafView& arc, bool inside)
 {
     const Sides sides = arc.leaf->sides;
-    return sides == Sides::Both || sides == ((inside == (arc.span->sweep > 0)) ? Sides::Left : Sides::Right);
+    return sides == Sides::Both || sides == side_of(arc, inside);
 }
 
 struct Corner
@@ -52,7 +47,7 @@ void collide_hollow_side(const LeafView& v, const Hull& hull, float margin, Loca
     {
         const Vec2 r = hull.point(i) - arc.p0;
         const float separation = arc.arc_radius - arc.r0 - hull.radius(i) - length(r);
-        if (!in_sweep(v, r) || separation > margin)
+        if (!is_in_sweep(v, r) || separation > margin)
             continue;
         if (separation < corners[0].separation)
         {
@@ -112,7 +107,7 @@ void collide_arc_hull(const LeafView& a, const LeafView& b, const RelativePose& 
     else
     {
         collide_round(b, pose, {arc.p0, arc.arc_radius + arc.r0, 0x100}, margin, out);
-        if (out.count > 0 && !in_sweep(a, out.points[0].on_a - arc.p0))
+        if (out.count > 0 && !is_in_sweep(a, out.points[0].on_a - arc.p0))
             out.count = 0;
     }
     if (out.count == 0 && !arc.has_previous)

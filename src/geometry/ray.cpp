@@ -97,17 +97,12 @@ void offer_line(Nearest& nearest, const Ray& ray, const Leaf& leaf)
 void offer_arc(Nearest& nearest, const Ray& ray, const LeafView& v)
 {
     const Leaf& leaf = *v.leaf;
-    const auto on_arc = [&](Vec2 p)
-    {
-        const Vec2 r = p - leaf.p0;
-        return dot(r, leaf.p1) >= length(r) * v.span->cos_half_sweep;
-    };
+    const auto on_arc = [&](Vec2 p) { return is_in_sweep(v, p - leaf.p0); };
     const Roots outer = meet_circle(ray, leaf.p0, static_cast<double>(leaf.arc_radius) + leaf.r0);
     const Roots inner = meet_circle(ray, leaf.p0, static_cast<double>(leaf.arc_radius) - leaf.r0);
-    const Sides outside = v.span->sweep > 0 ? Sides::Right : Sides::Left;
-    if (outer.real && leaf.sides != (outside == Sides::Right ? Sides::Left : Sides::Right) && on_arc(ray.at(outer.first)))
+    if (outer.real && leaf.sides != side_of(v, true) && on_arc(ray.at(outer.first)))
         nearest.offer(outer.first, normalize(ray.at(outer.first) - leaf.p0));
-    if (inner.real && leaf.sides != outside && on_arc(ray.at(inner.second)))
+    if (inner.real && leaf.sides != side_of(v, false) && on_arc(ray.at(inner.second)))
         nearest.offer(inner.second, -normalize(ray.at(inner.second) - leaf.p0));
 }
 

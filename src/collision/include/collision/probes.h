@@ -42,8 +42,7 @@ struct Probe
         const Vec2 t = end_tangent(probe.piece);
         return static_cast<double>(t.x) * dx + static_cast<double>(t.y) * dy >= -slack && end_answers<double>(leaf, t, dx, dy);
     }
-    const Sides outer = probe.piece.span->sweep > 0 ? Sides::Right : Sides::Left;
-    return (leaf.sides == Sides::Both || leaf.sides == outer) &&
+    return (leaf.sides == Sides::Both || leaf.sides == side_of(probe.piece, false)) &&
            dx * static_cast<double>(leaf.p1.x) + dy * static_cast<double>(leaf.p1.y) >=
                static_cast<double>(probe.piece.span->cos_half_sweep);
 }

@@ -89,9 +89,11 @@ private:
     {
         std::int32_t first = 0;
         std::int32_t count = 0; ///< 0: none
+        friend bool operator==(const Outline&, const Outline&) = default;
     };
 
     [[nodiscard]] int allocate(int count);
+    void make_hole(const Outline& outline);
     [[nodiscard]] std::int32_t& users(int first) { return m_users[static_cast<std::size_t>(first / 3)]; }
 
     std::vector<Vec2> m_points;
@@ -125,6 +127,18 @@ struct LeafView
 [[nodiscard]] Vec2 end_tangent(const LeafView& view);
 [[nodiscard]] Vec2 start_point(const LeafView& view);
 [[nodiscard]] Vec2 end_point(const LeafView& view);
+
+/// Does an arc run where this way from its center leads?
+[[nodiscard]] inline bool is_in_sweep(const LeafView& arc, Vec2 from_center)
+{
+    return dot(from_center, arc.leaf->p1) >= length(from_center) * arc.span->cos_half_sweep;
+}
+
+/// Which side of its course is that of an arc's center, its inside; or the other one.
+[[nodiscard]] inline Sides side_of(const LeafView& arc, bool inside)
+{
+    return inside == (arc.span->sweep > 0) ? Sides::Left : Sides::Right;
+}
 
 /// Normalises a geometry (winding, unit normals, collinear points) or refuses it in `function`'s name with a sentence.
 [[nodiscard]] bool normalize_geometry(const char* function, Geometry& geometry);

@@ -130,8 +130,7 @@ template <class R>
     if (d > 0 && ahead >= d * span.cos_half_sweep)
     {
         const bool inside = d < leaf.arc_radius;
-        const Sides side = inside == (span.sweep > 0) ? Sides::Left : Sides::Right;
-        if (leaf.sides != Sides::Both && leaf.sides != side)
+        if (leaf.sides != Sides::Both && leaf.sides != side_of(v, inside))
             return std::nullopt;
         const R sign = inside ? R(-1) : R(1);
         return Surface<R>{sign * (d - leaf.arc_radius) - leaf.r0, sign * dx / d, sign * dy / d, sign / d, 0};
