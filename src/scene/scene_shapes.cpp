@@ -88,14 +88,18 @@ bool has_rare_traits(const ShapeDef& def)
     return def.restitution_curve.count > 0 || is_field(def.field) || def.one_way != Vec2{} || def.kick != Kick{};
 }
 
+void drop_rare_traits(SceneState& state, std::int32_t& place)
+{
+    if (place != none)
+        state.rare_traits.destroy(std::exchange(place, none));
+}
+
 // Of a public shape. When its kick may fire again stays as it was.
 void write_rare_traits(SceneState& state, std::int32_t& place, const ShapeDef& def)
 {
     if (!has_rare_traits(def))
     {
-        if (place != none)
-            state.rare_traits.destroy(place);
-        place = none;
+        drop_rare_traits(state, place);
         return;
     }
     if (place == none)
@@ -231,7 +235,7 @@ void destroy_shape(SceneData& data, int shape)
     remove_leaves(data, shape);
     unlink_shape(data, shape);
     keep_callbacks(data, shape, nullptr);
-    write_rare_traits(data.state, data.state.shapes[shape].rare_traits, {});
+    drop_rare_traits(data.state, data.state.shapes[shape].rare_traits);
     data.state.shapes.destroy(shape);
 }
 
