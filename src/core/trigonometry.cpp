@@ -50,9 +50,10 @@ double atan_unit(double x)
 
 SinCos sin_cos(double radians)
 {
-    // Clamped before the conversion to integer: beyond it the angle has lost its meaning, but the result stays defined.
+    // Clamped before the conversion to integer, what is no number as well: beyond it the angle has lost its meaning, but the result stays defined, and
+    // of what is no number it is none.
     double turns = radians * (1.0 / half_pi);
-    turns = turns > 1e15 ? 1e15 : (turns < -1e15 ? -1e15 : turns);
+    turns = turns < 1e15 ? (turns > -1e15 ? turns : -1e15) : 1e15;
     const auto n = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
     const auto count = static_cast<double>(n);
     double x = (radians - count * half_pi_high) - count * half_pi_low;

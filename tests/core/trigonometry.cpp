@@ -4,6 +4,7 @@
 #include "core/pair_set.h"
 #include "support/test_scene.h"
 
+#include <limits>
 #include <set>
 
 using namespace carom;
@@ -28,6 +29,15 @@ TEST(CoreTrigonometry, SineAndCosine)
     }
     EXPECT_EQ(sin_cos(0).sin, 0);
     EXPECT_EQ(sin_cos(0).cos, 1);
+}
+
+TEST(CoreTrigonometry, OfWhatIsNoNumberTheResultIsNone)
+{
+    for (const double x : {1e300, -1e300, std::numeric_limits<double>::infinity()})
+        EXPECT_LE(std::fabs(sin_cos(x).sin), 1) << x;
+    const SinCos none = sin_cos(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_TRUE(std::isnan(none.sin));
+    EXPECT_TRUE(std::isnan(none.cos));
 }
 
 TEST(CoreTrigonometry, ArcTangent)
