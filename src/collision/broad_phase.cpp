@@ -128,7 +128,7 @@ void BroadPhase::fit_moving(const TaskHooks& tasks)
         forest.trees[0].refit(tasks, [&](std::int32_t item) { return box(item); });
     else
         rebuild(forest, 0);
-    m_past.resize(static_cast<std::size_t>(block_count()));
+    set_size(m_past, static_cast<std::size_t>(block_count()));
 }
 
 void BroadPhase::choose_all_but(Layer layer, std::span<const std::int32_t> left_out, std::vector<std::uint8_t>& chosen) const

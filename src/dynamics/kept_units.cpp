@@ -4,6 +4,7 @@
 
 #include "dynamics/kept_units.h"
 
+#include "core/grow.h"
 #include "dynamics/scene_data.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_graph.h"
@@ -51,7 +52,7 @@ void keep_units(StepContext& ctx)
     kept.bodies.clear();
     for (const std::int32_t body : ctx.state.awake_bodies)
         kept.bodies.push_back({body, ctx.state.bodies[body].plane_cell});
-    kept.bound.resize(scratch.states.size());
+    set_size(kept.bound, scratch.states.size());
     for (std::size_t s = 0; s < scratch.states.size(); ++s)
         kept.bound[s] = (scratch.states[s].flags & body_flag::unbound) == 0 ? 1 : 0;
 }

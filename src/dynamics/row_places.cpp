@@ -286,7 +286,7 @@ int parts_of(const Unit& unit)
 void place_rows_of_small_units(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    scratch.parts.resize(scratch.state_bodies.size());
+    set_size(scratch.parts, scratch.state_bodies.size());
     scratch.row_links.clear();
     scratch.lane_links.clear();
     scratch.impact_rows.clear();

@@ -1,5 +1,6 @@
 // The last of stage 6: bodies come to rest, islands fall asleep, and what a user asked for this step alone is forgotten.
 
+#include "core/grow.h"
 #include "core/nonzero.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
@@ -144,7 +145,7 @@ private:
     {
         const std::size_t count = m_state.awake_bodies.size();
         m_sets.reset(count);
-        m_is_tired.resize(count);
+        set_size(m_is_tired, count);
         m_is_kept_awake.assign(count, 0);
         for_each_in_parts(m_ctx.scene.def.tasks, count, bodies_per_task,
                           [&](std::size_t i)

@@ -202,7 +202,7 @@ public:
     // Of joints in small units, on all threads.
     void find_swings()
     {
-        scratch.swings.resize(scratch.joint_links.size());
+        set_size(scratch.swings, scratch.joint_links.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.joint_links.size(), joints_per_task,
                           [&](std::size_t i)
                           {
@@ -255,7 +255,7 @@ public:
     // Of what flies.
     void find_alone()
     {
-        scratch.is_alone.resize(state.awake_bodies.size());
+        set_size(scratch.is_alone, state.awake_bodies.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
@@ -556,7 +556,7 @@ public:
             ++starts[cell_of(body) + 1];
         for (int cell = 0; cell < plane_cells; ++cell)
             starts[cell + 1] += starts[cell];
-        places.resize(state.awake_bodies.size());
+        set_size(places, state.awake_bodies.size());
         for (std::size_t i = 0; i < places.size(); ++i)
             places[static_cast<std::size_t>(starts[cell_of(state.awake_bodies[i])]++)] = static_cast<std::int32_t>(i);
     }

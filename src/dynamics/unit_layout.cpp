@@ -386,7 +386,7 @@ private:
         for (int bin = 0; bin < 2 * color_limit; ++bin)
             starts[bin + 1] += starts[bin];
         std::vector<JointLane>& sorted = m_scratch.sorted_lanes;
-        sorted.resize(lanes.size() - first);
+        set_size(sorted, lanes.size() - first);
         for (std::size_t i = first; i < lanes.size(); ++i)
             sorted[as_index(starts[lanes[i].bin]++)] = lanes[i];
         std::copy(sorted.begin(), sorted.end(), lanes.begin() + static_cast<std::ptrdiff_t>(first));

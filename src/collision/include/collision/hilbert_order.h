@@ -2,6 +2,7 @@
 
 // Points of the plane along a Hilbert curve: what is near in the order is near in the plane, and mostly the other way round.
 
+#include "core/grow.h"
 #include "geometry/bounds.h"
 
 #include <cmath>
@@ -33,7 +34,7 @@ public:
         }
         const float width = std::fmax(around.ux - around.lx, around.uy - around.ly);
         const float scale = width > 0 ? 65535 / width : 0;
-        m_keys.resize(count);
+        set_size(m_keys, count);
         for (std::size_t i = 0; i < count; ++i)
         {
             const Vec2 p = at(i);
@@ -110,7 +111,7 @@ private:
     // Least significant digit first, 8 bits a pass; stable, so that equal codes keep the order they came in.
     void radix_sort()
     {
-        m_other.resize(m_keys.size());
+        set_size(m_other, m_keys.size());
         for (int shift = 0; shift < 32; shift += 8)
         {
             std::uint32_t counts[257] = {};
