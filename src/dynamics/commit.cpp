@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -193,6 +194,22 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
     }
 }
 
+constexpr std::size_t worth_lending = 1024;
+
+// Sorted later on. Where there are many one unit has nearly all of them, and lends its array until the next step.
+void take_impacts(StepContext& ctx, std::size_t u)
+{
+    std::vector<ImpactEvent>& all = ctx.scene.events.impacts;
+    std::vector<ImpactEvent>& own = ctx.scratch.outputs[u].impacts;
+    if (own.size() > std::max(all.size(), worth_lending))
+    {
+        std::swap(own, all);
+        ctx.scratch.impacts_lender = u;
+    }
+    append_all(all, own);
+    own.clear();
+}
+
 void merge_output(StepContext& ctx, const UnitOutput& output)
 {
     const SceneState& state = ctx.state;
@@ -210,7 +227,6 @@ void merge_output(StepContext& ctx, const UnitOutput& output)
         }
         append(ctx.scene.events.begins, event_between<ContactBeginEvent>(state, t.shape_a, t.shape_b, t.point, t.normal, t.time));
     }
-    append_all(ctx.scene.events.impacts, output.impacts);
     for (const DeferredImpulse& d : output.deferred)
         apply_deferred(ctx, d);
     for (const std::int32_t shape : output.kicked_shapes)
@@ -253,7 +269,10 @@ void commit(StepContext& ctx)
         commit_hinge(ctx, flier);
     note_untold_impacts(ctx);
     for (std::size_t u = 0; u < scratch.units.size(); ++u)
+    {
+        take_impacts(ctx, u);
         merge_output(ctx, scratch.outputs[u]);
+    }
     update_triggers(ctx);
     for (const std::int32_t body : scratch.unsound)
         quarantine(ctx, body, ctx.dt);

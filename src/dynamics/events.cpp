@@ -1,5 +1,6 @@
 // Stage 7, events: sorted spans, then callbacks from copies of the events, so that callbacks may change anything.
 
+#include "core/grow.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
@@ -61,7 +62,7 @@ void move_to_keys(std::vector<Event>& events, std::vector<EventKey>& keys)
 template <class Event>
 void sort_events(std::vector<Event>& events, std::vector<EventKey>& keys)
 {
-    keys.resize(events.size());
+    set_size(keys, events.size());
     for (std::size_t i = 0; i < events.size(); ++i)
         keys[i] = key_of(events[i], i);
     std::sort(keys.begin(), keys.end());

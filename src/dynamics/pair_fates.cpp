@@ -1,6 +1,7 @@
 // What becomes of pairs whose boxes have come to overlap: those that may meet in this step get a contact, those that can't any more lose theirs, those
 // whose boxes have parted go.
 
+#include "core/grow.h"
 #include "core/index.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
@@ -102,7 +103,7 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
     const auto add = [&](std::size_t i, std::uint8_t what)
     {
         if (what != 0)
-            fates.push_back({static_cast<std::int32_t>(i), what});
+            append(fates, {static_cast<std::int32_t>(i), what});
     };
     fates.clear();
     SeenPair changes[pairs_per_task];
@@ -182,13 +183,13 @@ private:
     {
         const BoxPair pair = m_state.box_pairs[as_index(fate.pair)];
         if ((fate.what & fate::parted) != 0)
-            m_state.parted_pairs.push_back(pair_key(pair.a, pair.b));
+            append(m_state.parted_pairs, pair_key(pair.a, pair.b));
         if ((fate.what & fate::gets_contact) != 0)
             give_contact(pair, fate.pair);
         if ((fate.what & fate::loses_contact) != 0)
             destroy_contact(m_ctx.scene, pair.contact, m_ctx.scene.events, 0);
         if ((fate.what & fate::goes) != 0)
-            m_going.push_back(fate.pair);
+            append(m_going, fate.pair);
     }
 
     // Triggers' pairs may be found twice, see find_deflected_pairs.

@@ -14,6 +14,7 @@
 #include "dynamics/unit_solver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::internal {
 
@@ -184,6 +185,8 @@ void solve_units(StepContext& ctx)
     Scratch& scratch = ctx.scratch;
     if (scratch.outputs.size() < scratch.units.size())
         set_size(scratch.outputs, scratch.units.size());
+    if (scratch.impacts_lender < scratch.outputs.size())
+        std::swap(scratch.outputs[scratch.impacts_lender].impacts, ctx.scene.events.impacts); // see take_impacts()
     for (std::size_t i = 0; i < scratch.units.size(); ++i)
         scratch.outputs[i].clear();
     mark_traced(ctx);

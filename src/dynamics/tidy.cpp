@@ -78,7 +78,7 @@ public:
         ++m_color;
         for (const std::int32_t contact : m_state.awake_contacts)
             place(contact);
-        sort_by(m_state.awake_bodies.size(), [](const ContactPlace& p) { return p.body; });
+        sort_by(m_state.awake_bodies.size(), [this](const ContactPlace& p) { return body_of(p); });
         sort_by(m_color + 1, [](const ContactPlace& p) { return p.color; });
         order_equals();
     }
@@ -134,9 +134,15 @@ private:
         if (!m_state.contacts.is_live(contact) || c.awake_index == none || (c.flags & contact_flag::trigger) != 0 ||
             std::exchange(m_scratch.order[static_cast<std::size_t>(c.awake_index)], 1) != 0)
             return;
-        const bool of_a = is_moving_dynamic(m_state, c.body_a);
-        const std::int32_t body = m_state.bodies[of_a ? c.body_a : c.body_b].awake_index;
-        m_order.push_back({m_color, static_cast<std::uint32_t>(std::max(body, 0)), contact});
+        m_order.push_back({m_color, contact});
+    }
+
+    // Place in awake_bodies.
+    [[nodiscard]] std::uint32_t body_of(const ContactPlace& p) const
+    {
+        const Contact& c = m_state.contacts[p.contact];
+        const std::int32_t body = m_state.bodies[is_moving_dynamic(m_state, c.body_a) ? c.body_a : c.body_b].awake_index;
+        return static_cast<std::uint32_t>(std::max(body, 0));
     }
 
     // By counting; those with the same key stay in order.
@@ -160,8 +166,9 @@ private:
     {
         for (auto first = m_order.begin(); first != m_order.end();)
         {
-            const auto last = std::find_if(first, m_order.end(), [&](const ContactPlace& p)
-                                           { return p.color != first->color || p.body != first->body; });
+            const std::uint32_t body = body_of(*first);
+            const auto last = std::find_if(first + 1, m_order.end(),
+                                           [&](const ContactPlace& p) { return p.color != first->color || body_of(p) != body; });
             std::sort(first, last, [](const ContactPlace& a, const ContactPlace& b) { return a.contact < b.contact; });
             first = last;
         }

@@ -228,7 +228,8 @@ public:
             Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
             if (batch == nullptr || batch->unit == none || batch->bodies >= enough_bodies)
             {
-                Unit& unit = scratch.units.emplace_back();
+                append(scratch.units, {});
+                Unit& unit = scratch.units.back();
                 unit.slices = heap ? 1 : t.slices;
                 unit.heap = heap;
                 unit.alone = alone;
@@ -469,7 +470,7 @@ public:
             else if (!scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic)
             {
                 scratch.unit_of[i] = static_cast<std::int32_t>(scratch.tallies.size());
-                scratch.tallies.emplace_back().first = static_cast<std::int32_t>(i);
+                append(scratch.tallies, {.first = static_cast<std::int32_t>(i)});
             }
         }
         for_each_run(

@@ -171,7 +171,6 @@ struct SomeReaches
 struct ContactPlace
 {
     std::uint32_t color; ///< counted over all units
-    std::uint32_t body;  ///< place in awake_bodies
     std::int32_t contact;
 };
 
@@ -450,7 +449,8 @@ struct Scratch
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
     std::vector<UnitOutput> outputs;
-    std::vector<PathPiece> paths; ///< of all units, by body
+    std::size_t impacts_lender = 0; ///< whose array of impacts the events have
+    std::vector<PathPiece> paths;   ///< of all units, by body
     std::vector<Crossing> crossings;
     std::vector<SomePlaces> places_of_task;
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
