@@ -253,11 +253,14 @@ void commit(StepContext& ctx)
         commit_kinematic_bodies(ctx);
     forget_surroundings(ctx);
     std::atomic<bool> any_unsound{false};
-    for_each_in_parts(ctx.scene.def.tasks, scratch.states.size(), bodies_per_task,
-                      [&](std::size_t i)
+    for_each_in_parts(ctx.scene.def.tasks, scratch.state_of.size(), bodies_per_task,
+                      [&](std::size_t place)
                       {
-                          commit_state(ctx, static_cast<std::int32_t>(i));
-                          if ((scratch.states[i].flags & body_flag::unsound) != 0)
+                          const std::int32_t i = scratch.state_of[place];
+                          if (i == none)
+                              return;
+                          commit_state(ctx, i);
+                          if ((scratch.states[static_cast<std::size_t>(i)].flags & body_flag::unsound) != 0)
                               raise(any_unsound);
                       });
     for (std::size_t i = 0; any_unsound && i < scratch.states.size(); ++i)
