@@ -18,6 +18,12 @@ truth::Vec world_point(const truth::State& state, carom::Vec2 local)
     return state.position + truth::rotate(state.angle, {local.x, local.y});
 }
 
+double kinetic_energy(const carom::ConstBody& body, const truth::State& state)
+{
+    const double speed = length(state.velocity);
+    return 0.5 * (static_cast<double>(body.mass()) * speed * speed + static_cast<double>(body.inertia()) * state.spin * state.spin);
+}
+
 std::vector<truth::Vec> positions(const std::vector<truth::State>& states)
 {
     std::vector<truth::Vec> list;
@@ -101,9 +107,11 @@ void QualityMeter::sample_bodies(Contestant& contestant, const std::vector<truth
     const std::vector<carom::BodyId> bodies = contestant.scene().bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i)
     {
-        if (contestant.scene().body(bodies[i]).type() != carom::BodyType::Dynamic)
+        const carom::Body body = contestant.scene().body(bodies[i]);
+        if (body.type() != carom::BodyType::Dynamic)
             continue;
         m_awake += states[i].awake ? 1 : 0;
+        m_energy += kinetic_energy(body, states[i]);
         if (!m_at_rest)
             continue;
         m_speeds.push_back(length(states[i].velocity));
@@ -120,7 +128,8 @@ Quality QualityMeter::result() const
             .drift = spread(m_drifts),
             .speed = spread(m_speeds),
             .near_pairs = m_near_pairs / m_samples,
-            .awake = m_awake / m_samples};
+            .awake = m_awake / m_samples,
+            .energy = m_energy / m_samples};
 }
 
 } // namespace speed

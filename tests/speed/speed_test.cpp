@@ -122,7 +122,7 @@ TEST(Quality, MeasuresOverlapsOfPairsThatMayTouch)
     EXPECT_TRUE(std::isnan(quality.joint.worst));
 }
 
-TEST(Quality, MeasuresJointsDriftAndSpeed)
+TEST(Quality, MeasuresJointsDriftSpeedAndEnergy)
 {
     StillContestant still;
     const carom::BodyId a = still.add(BodyType::Dynamic, {0, 0}, carom::box(0.5f, 0.5f));
@@ -132,11 +132,13 @@ TEST(Quality, MeasuresJointsDriftAndSpeed)
     meter.start(still);
     still.placed[1].position = {0.9, 0.2};
     still.placed[1].velocity = {0.3, 0.4};
+    still.placed[1].spin = 3;
     meter.sample(still);
     const Quality quality = meter.result();
     EXPECT_NEAR(quality.joint.worst, std::hypot(0.1, 0.2), 1e-9);
     EXPECT_NEAR(quality.drift.worst, std::hypot(0.1, 0.2), 1e-9);
     EXPECT_NEAR(quality.speed.mean, 0.25, 1e-9);
+    EXPECT_NEAR(quality.energy, 0.5 * (0.25 + 9.0 / 6), 1e-6); // 1 kg, 1/6 kg m²
     EXPECT_EQ(quality.near_pairs, 0); // they are joined
 }
 
