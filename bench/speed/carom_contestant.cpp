@@ -27,11 +27,7 @@ public:
     }
     int contacts() override { return m_built.scene.report().pairs; }
     std::uint64_t hash() override { return m_built.scene.state_hash(); }
-    Stages stages() const override
-    {
-        const carom::StageTimes& ms = m_built.scene.report().ms;
-        return {ms.sweep, ms.pairs, ms.contacts, ms.units, ms.solve, ms.commit, ms.events};
-    }
+    Stages stages() const override { return stages_of(m_built.scene.report().ms); }
     std::size_t bytes() const override { return heap_bytes() - m_bytes_before; }
 
 private:
@@ -40,6 +36,11 @@ private:
 };
 
 } // namespace
+
+Stages stages_of(const carom::StageTimes& ms)
+{
+    return {ms.sweep, ms.pairs, ms.contacts, ms.units, ms.solve, ms.commit, ms.events};
+}
 
 std::unique_ptr<Contestant> enter_carom(const SceneMaker& build, const carom::SceneDef& def)
 {

@@ -182,8 +182,11 @@ int show_scaling(const Options& options)
     std::vector<truth::Series> piles;
     for (const int threads : options.run.threads > 1 ? std::vector{1, options.run.threads} : std::vector{1})
     {
-        say("A stirred pile, %d threads\n%10s %10s %6s %12s %12s %8s\n", threads, "bodies", "pairs", "steps", "ms/step",
-            "ns/body", "B/body");
+        say("A stirred pile, %d threads\n%10s %10s %6s %12s %8s %12s", threads, "bodies", "pairs", "steps", "ms/step", "B/body",
+            "ns/body:");
+        for (const char* stage : speed::stage_names)
+            say(" %8s", stage);
+        say("\n");
         const std::string name = std::to_string(threads) + (threads > 1 ? " threads" : " thread");
         piles.push_back({.name = name, .color = threads > 1 ? "#d55e00" : "#0072b2", .lines = {{}}});
         speed::RunOptions run = options.run;
@@ -191,8 +194,10 @@ int show_scaling(const Options& options)
         for (int n = 1000; n <= options.scaling; n *= 10)
         {
             const speed::PileCost c = speed::pile_cost(n, run);
-            say("%10d %10d %6d %12.3f %12.0f %8.0f\n", c.bodies, c.pairs, c.steps, c.ms_per_step, c.ns_per_body,
-                c.bytes_per_body);
+            say("%10d %10d %6d %12.3f %8.0f %12.0f", c.bodies, c.pairs, c.steps, c.ms_per_step, c.bytes_per_body, c.ns_per_body);
+            for (const double ns : c.stages)
+                say(" %8.0f", ns);
+            say("\n");
             piles.back().lines.front().push_back({std::log10(c.pairs), 1e6 * c.ms_per_step / c.pairs});
         }
     }

@@ -25,6 +25,12 @@ constexpr int stirring_steps = 30; // until the bars are in the pile
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+void add(Stages& sum, const Stages& more, double factor)
+{
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += factor * more[i];
+}
+
 // Bars lie over the pile, flat, until it is stirred.
 class Pile
 {
@@ -70,19 +76,21 @@ PileCost pile_cost(int bodies, const RunOptions& options)
     const std::size_t before = heap_bytes();
     Pile pile(bodies, pool.hooks());
     const std::string what = std::to_string(bodies) + " bodies, step ";
+    Stages ns{};
     const auto run = [&](int steps, const char* doing)
     {
         const auto begin = Clock::now();
         for (int i = 0; i < steps; ++i)
         {
             options.progress(what + std::to_string(i) + " of " + std::to_string(steps) + doing);
-            pile.scene().step(dt);
+            add(ns, stages_of(pile.scene().step(dt).ms), 1e6);
         }
         return seconds_since(begin);
     };
     run(settling_steps, ", settling");
     pile.stir();
     run(stirring_steps, ", before it is timed");
+    ns = {};
     PileCost cost;
     cost.bodies = bodies;
     cost.steps = bodies > 100000 ? 30 : 60;
@@ -90,6 +98,7 @@ PileCost pile_cost(int bodies, const RunOptions& options)
     cost.pairs = pile.scene().report().pairs;
     cost.ms_per_step = 1e3 * seconds / cost.steps;
     cost.ns_per_body = 1e9 * seconds / cost.steps / bodies;
+    add(cost.stages, ns, 1.0 / cost.steps / bodies);
     cost.bytes_per_body = static_cast<double>(heap_bytes() - before) / bodies;
     return cost;
 }

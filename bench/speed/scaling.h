@@ -18,6 +18,7 @@ struct PileCost
     int steps = 0; ///< that were timed
     double ms_per_step = 0;
     double ns_per_body = 0; ///< and step
+    Stages stages{};        ///< of these
     double bytes_per_body = 0;
 };
 

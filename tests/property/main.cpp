@@ -21,7 +21,7 @@ using namespace carom::shots;
 
 namespace {
 
-constexpr int usual_divisor = carom::test::slow_build ? 5 : 1;
+constexpr int usual_divisor = carom::test::slow_build ? 8 : 1;
 
 int divisor()
 {
