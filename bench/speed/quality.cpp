@@ -21,7 +21,8 @@ truth::Vec world_point(const truth::State& state, carom::Vec2 local)
 double kinetic_energy(const carom::ConstBody& body, const truth::State& state)
 {
     const double speed = length(state.velocity);
-    return 0.5 * (static_cast<double>(body.mass()) * speed * speed + static_cast<double>(body.inertia()) * state.spin * state.spin);
+    return 0.5 *
+           (static_cast<double>(body.mass()) * speed * speed + static_cast<double>(body.inertia()) * state.spin * state.spin);
 }
 
 std::vector<truth::Vec> positions(const std::vector<truth::State>& states)

@@ -139,7 +139,7 @@ TEST(Quality, MeasuresJointsDriftSpeedAndEnergy)
     EXPECT_NEAR(quality.drift.worst, std::hypot(0.1, 0.2), 1e-9);
     EXPECT_NEAR(quality.speed.mean, 0.25, 1e-9);
     EXPECT_NEAR(quality.energy, 0.5 * (0.25 + 9.0 / 6), 1e-6); // 1 kg, 1/6 kg m²
-    EXPECT_EQ(quality.near_pairs, 0); // they are joined
+    EXPECT_EQ(quality.near_pairs, 0);                          // they are joined
 }
 
 TEST(Run, EveryEngineTakesTheJunkyardsPusherWithIt)
