@@ -42,6 +42,12 @@ Stages stages_of(const carom::StageTimes& ms)
     return {ms.sweep, ms.pairs, ms.contacts, ms.units, ms.solve, ms.commit, ms.events};
 }
 
+void add(Stages& sum, const Stages& more)
+{
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += more[i];
+}
+
 std::unique_ptr<Contestant> enter_carom(const SceneMaker& build, const carom::SceneDef& def)
 {
     return std::make_unique<CaromContestant>(build, def);

@@ -18,6 +18,7 @@ namespace speed {
 inline constexpr std::array stage_names{"sweep", "pairs", "contacts", "units", "solve", "commit", "events"};
 using Stages = std::array<double, stage_names.size()>;
 [[nodiscard]] Stages stages_of(const carom::StageTimes& ms);
+void add(Stages& sum, const Stages& more);
 
 class Contestant
 {

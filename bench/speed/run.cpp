@@ -52,9 +52,7 @@ public:
             return;
         ms += took.count();
         cpu_ms += processor_took;
-        const Stages now = m_contestant.stages();
-        for (std::size_t i = 0; i < now.size(); ++i)
-            stages[i] += now[i];
+        add(stages, m_contestant.stages());
     }
 
     double ms = 0;

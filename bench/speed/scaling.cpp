@@ -25,11 +25,11 @@ constexpr int stirring_steps = 30; // until the bars are in the pile
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-void add(Stages& sum, const Stages& more, double factor)
+struct Timed
 {
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += factor * more[i];
-}
+    double seconds = 0;
+    Stages ms{};
+};
 
 // Bars lie over the pile, flat, until it is stirred.
 class Pile
@@ -76,29 +76,29 @@ PileCost pile_cost(int bodies, const RunOptions& options)
     const std::size_t before = heap_bytes();
     Pile pile(bodies, pool.hooks());
     const std::string what = std::to_string(bodies) + " bodies, step ";
-    Stages ns{};
     const auto run = [&](int steps, const char* doing)
     {
+        Timed timed;
         const auto begin = Clock::now();
         for (int i = 0; i < steps; ++i)
         {
             options.progress(what + std::to_string(i) + " of " + std::to_string(steps) + doing);
-            add(ns, stages_of(pile.scene().step(dt).ms), 1e6);
+            add(timed.ms, stages_of(pile.scene().step(dt).ms));
         }
-        return seconds_since(begin);
+        timed.seconds = seconds_since(begin);
+        return timed;
     };
     run(settling_steps, ", settling");
     pile.stir();
     run(stirring_steps, ", before it is timed");
-    ns = {};
     PileCost cost;
     cost.bodies = bodies;
     cost.steps = bodies > 100000 ? 30 : 60;
-    const double seconds = run(cost.steps, ", stirred");
+    const auto [seconds, ms] = run(cost.steps, ", stirred");
     cost.pairs = pile.scene().report().pairs;
     cost.ms_per_step = 1e3 * seconds / cost.steps;
     cost.ns_per_body = 1e9 * seconds / cost.steps / bodies;
-    add(cost.stages, ns, 1.0 / cost.steps / bodies);
+    std::ranges::transform(ms, cost.stages.begin(), [&](double of_stage) { return 1e6 * of_stage / cost.steps / bodies; });
     cost.bytes_per_body = static_cast<double>(heap_bytes() - before) / bodies;
     return cost;
 }
