@@ -51,9 +51,11 @@ bool is_sound(const StepContext& ctx, Vec2 acceleration, float angular_accelerat
     return ctx.dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y) + std::fabs(angular_acceleration)) < 1e15f;
 }
 
+// A law that clamps its load to what it has promised may be off by its rounding; greatest_shift_of_law() has room for far more.
 bool exceeds(const ForceLaw& law, const Load& load)
 {
-    return dot(load.force, load.force) > law.greatest_force * law.greatest_force || std::fabs(load.torque) > law.greatest_torque;
+    constexpr float rounding = 1.0001f;
+    return length(load.force) > rounding * law.greatest_force || std::fabs(load.torque) > rounding * law.greatest_torque;
 }
 
 void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOutput& output)
