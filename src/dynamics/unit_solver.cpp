@@ -130,6 +130,11 @@ private:
     {
         apply_force_laws(m_ctx, m_unit, k, m_output);
         raise_fast(m_ctx, m_unit, k, m_output);
+        if (is_airborne())
+        {
+            fly_alone(k);
+            return;
+        }
         note_approaches();
         if (m_watches_energy)
             m_energy.begin(m_view, m_ctx, m_joints, m_unit);
@@ -155,12 +160,40 @@ private:
             relax(); // they must not meet what overlap is pushed out with
         fly(k);
         relax();
+        bounce_and_restore(k);
+        finish_substep(k);
+    }
+
+    // The solver has nothing of it: hinges fly with their bodies.
+    [[nodiscard]] bool is_airborne() const
+    {
+        return m_unit.flier_count == m_unit.dynamic_count && m_unit.state_count == m_unit.dynamic_count + 1 && m_rows.empty() &&
+               m_output.late_rows.empty() && m_unit.wide_count == 0 && m_unit.wide_joint_count == 0 &&
+               std::ranges::none_of(fliers_of(m_scratch, m_unit), &Flier::landed);
+    }
+
+    // What lands on the way is the solver's from there on.
+    void fly_alone(int k)
+    {
+        m_output.stopped_joints.clear();
+        advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
+        if (!is_airborne())
+        {
+            if (m_watches_energy)
+                m_energy.begin(m_view, m_ctx, m_joints, m_unit);
+            relax();
+            bounce_and_restore(k);
+        }
+        finish_substep(k);
+    }
+
+    void bounce_and_restore(int k)
+    {
         if (m_watches_energy)
             m_energy.note_load(m_rows, late_rows());
         const bool kicked = bounce(k);
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
-        finish_substep(k);
     }
 
     // Nothing comes between solving and relaxing, and nothing but lanes is solved.
