@@ -110,7 +110,7 @@ public:
         bound_motion(sight, t, r, v);
         if (!surface)
         {
-            sight.distance = std::max(plain_distance(m_leaf, in_leaf.x, in_leaf.y) - m_probe.radius,
+            sight.distance = std::max(distance_to_line(m_leaf, in_leaf.x, in_leaf.y) - m_probe.radius,
                                       way_to_where_it_answers(m_leaf, in_leaf.x, in_leaf.y));
             return sight;
         }
@@ -284,29 +284,6 @@ private:
             return start_may_answer(leaf, tangent) ? std::max(0.0, std::min(-along, behind_corner)) : -along;
         }
         return leaf.has_next ? std::max(0.0, along - static_cast<double>(length(leaf.p1 - leaf.p0))) : 0;
-    }
-
-    // To a segment's or arc's line, whichever side answers.
-    static double plain_distance(const LeafView& view, double px, double py)
-    {
-        const Leaf& leaf = *view.leaf;
-        const auto to_point = [&](Vec2 v)
-        { return size({px - static_cast<double>(v.x), py - static_cast<double>(v.y)}) - static_cast<double>(leaf.r0); };
-        const double ends = std::min(to_point(start_point(view)), to_point(end_point(view)));
-        if (leaf.type == LeafType::Segment)
-        {
-            const Vector e = {static_cast<double>(leaf.p1.x) - static_cast<double>(leaf.p0.x),
-                              static_cast<double>(leaf.p1.y) - static_cast<double>(leaf.p0.y)};
-            const Vector d = {px - static_cast<double>(leaf.p0.x), py - static_cast<double>(leaf.p0.y)};
-            const double along = dot(e, d);
-            return along > 0 && along < dot(e, e) ? std::fabs(e.x * d.y - e.y * d.x) / size(e) - static_cast<double>(leaf.r0)
-                                                  : ends;
-        }
-        const Vector d = {px - static_cast<double>(leaf.p0.x), py - static_cast<double>(leaf.p0.y)};
-        const double l = size(d);
-        const bool ahead = d.x * static_cast<double>(leaf.p1.x) + d.y * static_cast<double>(leaf.p1.y) >=
-                           l * static_cast<double>(view.span->cos_half_sweep);
-        return ahead ? std::fabs(l - static_cast<double>(leaf.arc_radius)) - static_cast<double>(leaf.r0) : ends;
     }
 
     Probe m_probe;

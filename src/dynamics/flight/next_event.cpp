@@ -5,6 +5,7 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/material.h"
+#include "geometry/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -182,7 +183,7 @@ private:
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
         const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
-        if (was_found_apart(contact, body, other) || is_out_of_reach(body))
+        if (was_found_apart(contact, body, other) || is_out_of_reach(body) || is_wall_out_of_reach(shape, body))
             return;
         // Before its last change the other's path is not this one; until then the two have not met.
         const double start = other != nullptr ? std::max(m_flier.time, other->time) : m_flier.time;
@@ -247,6 +248,24 @@ private:
     [[nodiscard]] bool is_out_of_reach(int body)
     {
         return m_span.state_in_unit(body) != none && are_apart(own_way().reach, reach_of(m_span, body));
+    }
+
+    // Most pieces of a wall that lie in the box of a path.
+    [[nodiscard]] bool is_wall_out_of_reach(int shape, int body)
+    {
+        const SceneState& state = m_span.state;
+        const LeafType type = state.shapes[shape].leaf.type;
+        if (state.bodies[body].type != BodyType::Static || (type != LeafType::Segment && type != LeafType::Arc))
+            return false;
+        constexpr double margin = 1.001; // what touches next to nothing is looked at
+        const Reach& own = own_way().reach;
+        const BodySim& sim = m_span.sim_of(body);
+        const double x = own.x - sim.center.x;
+        const double y = own.y - sim.center.y;
+        const auto c = static_cast<double>(sim.rotation.c);
+        const auto s = static_cast<double>(sim.rotation.s);
+        return distance_to_line(leaf_view(state, shape), c * x + s * y + static_cast<double>(sim.local_center.x),
+                                c * y - s * x + static_cast<double>(sim.local_center.y)) > margin * own.radius;
     }
 
     const FlightSpan& m_span;

@@ -145,6 +145,33 @@ template <class R>
     return surface_of_end<R>(v, end_tangent(v), px, py);
 }
 
+/// To a segment's or arc's line, whichever side answers.
+[[nodiscard]] inline double distance_to_line(const LeafView& view, double px, double py)
+{
+    const Leaf& leaf = *view.leaf;
+    const auto size = [](double x, double y) { return std::sqrt(x * x + y * y); };
+    const auto to_ends = [&]
+    {
+        const auto to_point = [&](Vec2 v) { return size(px - static_cast<double>(v.x), py - static_cast<double>(v.y)); };
+        return std::min(to_point(start_point(view)), to_point(end_point(view))) - static_cast<double>(leaf.r0);
+    };
+    const double x = px - static_cast<double>(leaf.p0.x);
+    const double y = py - static_cast<double>(leaf.p0.y);
+    if (leaf.type == LeafType::Segment)
+    {
+        const double ex = static_cast<double>(leaf.p1.x) - static_cast<double>(leaf.p0.x);
+        const double ey = static_cast<double>(leaf.p1.y) - static_cast<double>(leaf.p0.y);
+        const double along = ex * x + ey * y;
+        const double square = ex * ex + ey * ey;
+        return along > 0 && along < square ? std::fabs(ex * y - ey * x) / std::sqrt(square) - static_cast<double>(leaf.r0)
+                                           : to_ends();
+    }
+    const double l = size(x, y);
+    const bool ahead = x * static_cast<double>(leaf.p1.x) + y * static_cast<double>(leaf.p1.y) >=
+                       l * static_cast<double>(view.span->cos_half_sweep);
+    return ahead ? std::fabs(l - static_cast<double>(leaf.arc_radius)) - static_cast<double>(leaf.r0) : to_ends();
+}
+
 /// The convex hull of the circles (point i, radius i): polygons with round corners and capsules, tapered ones included. Edge i touches the
 /// circles i and i + 1; its outward normal is given. The point is outside the edge with the greatest separation, or nearest to it.
 template <class R>
