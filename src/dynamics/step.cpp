@@ -73,20 +73,18 @@ StepContext sliced(const StepContext& ctx, int slices)
 const StepReport& step(SceneData& scene, float dt)
 {
     StageTimes ms;
-    timed(ms.total,
-          [&]
-          {
-              StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness once
-              timed(ms.sweep, [&] { sweep_paths(ctx); });
-              timed(ms.pairs, [&] { find_pairs(ctx); });
-              timed(ms.contacts, [&] { update_contacts(ctx); });
-              timed(ms.units, [&] { build_units(ctx); });
-              timed(ms.solve, [&] { solve_units(ctx); });
-              timed(ms.commit, [&] { commit(ctx); });
-              timed(ms.events, [&] { publish_events(ctx); });
-              end_step(ctx);
-              tidy(ctx);
-          });
+    Stopwatch watch;
+    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness once
+    watch.time(ms.sweep, [&] { sweep_paths(ctx); });
+    watch.time(ms.pairs, [&] { find_pairs(ctx); });
+    watch.time(ms.contacts, [&] { update_contacts(ctx); });
+    watch.time(ms.units, [&] { build_units(ctx); });
+    watch.time(ms.solve, [&] { solve_units(ctx); });
+    watch.time(ms.commit, [&] { commit(ctx); });
+    watch.time(ms.events, [&] { publish_events(ctx); });
+    end_step(ctx);
+    tidy(ctx);
+    ms.total = watch.total();
     scene.report.ms = ms;
     return scene.report;
 }

@@ -88,7 +88,7 @@ const StepReport& Scene::step(float h)
         return m_data->report;
     const InStep in_step(m_data->stepping);
     internal::step(*m_data, h);
-    timed(m_data->report.ms.events, [&] { run_callbacks(*m_data, *this); });
+    Stopwatch().time(m_data->report.ms.events, [&] { run_callbacks(*m_data, *this); });
     return m_data->report;
 }
 

@@ -6,13 +6,33 @@
 
 namespace carom::internal {
 
-/// Runs a stage and adds its wall time in ms.
-template <class Stage>
-void timed(float& elapsed_ms, const Stage& stage)
+/// One look at the clock to a stage: in a step of microseconds looks count.
+class Stopwatch
 {
-    const auto start = std::chrono::steady_clock::now();
-    stage();
-    elapsed_ms += std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
+public:
+    /// Runs a stage and adds the wall time since the stage before has ended, ms.
+    template <class Stage>
+    void time(float& elapsed_ms, const Stage& stage)
+    {
+        stage();
+        const Clock::time_point before = m_now;
+        m_now = Clock::now();
+        elapsed_ms += ms_between(before, m_now);
+    }
+
+    /// ms since the beginning.
+    [[nodiscard]] float total() const { return ms_between(m_start, Clock::now()); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    [[nodiscard]] static float ms_between(Clock::time_point from, Clock::time_point to)
+    {
+        return std::chrono::duration<float, std::milli>(to - from).count();
+    }
+
+    Clock::time_point m_start = Clock::now();
+    Clock::time_point m_now = m_start;
+};
 
 } // namespace carom::internal
