@@ -26,7 +26,8 @@ Index plunger_of(const Table& table)
 struct Session
 {
     Session(const Table& table, const Options& options)
-        : field(table, options.seed), rules(table, options.ball_save, options.kickback), auto_plunger(table.physics.step)
+        : field(table, options.seed), rules(table, options.ball_save, options.kickback, options.balls_at_once),
+          auto_plunger(table.physics.step)
     {}
 
     Playfield field;

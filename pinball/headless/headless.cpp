@@ -80,7 +80,7 @@ int run_headless(const HeadlessOptions& options)
         return 1;
     interrupted = 0;
     const auto before = std::signal(SIGINT, on_interrupt);
-    HeadlessRun run(*table, options.seed);
+    HeadlessRun run(*table, options.seed, options.balls_at_once);
     play(run, options.balls);
     run.finish();
     std::signal(SIGINT, before);
@@ -98,6 +98,7 @@ int headless_command(int argc, char** argv)
     app.add_option("--ai", options.ai, "who plays")->check(CLI::IsMember({"reflex"}));
     app.add_option("--seed", options.seed, "of the game and the player");
     app.add_option("--balls", options.balls, "to serve, saved ones included")->check(CLI::Range(1, 10'000'000));
+    app.add_option("--balls-at-once", options.balls_at_once, "kept in play, whatever the table's rules")->check(CLI::Range(1, 8));
     app.add_option("--stats", options.stats, "JSON file for the numbers");
     app.add_option("--table", options.table, "table file")->check(CLI::ExistingFile);
     CLI11_PARSE(app, argc, argv);

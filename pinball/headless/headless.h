@@ -13,8 +13,9 @@ struct HeadlessOptions
     std::string table{}; ///< file; empty: the table that comes with the program
     std::string ai = "reflex";
     std::uint64_t seed = 1;
-    int balls = 100;     ///< served ones, saved ones included
-    std::string stats{}; ///< file for the numbers; empty: the standard output
+    int balls = 100;       ///< served ones, saved ones included
+    int balls_at_once = 1; ///< kept in play
+    std::string stats{};   ///< file for the numbers; empty: the standard output
 };
 
 /// Plays and writes the numbers; interrupted, it writes those of the finished balls. The exit code of a program: 0, 1 where

@@ -1,5 +1,6 @@
 #include "pinball/headless/run.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace carom::pinball {
@@ -30,13 +31,17 @@ double microseconds_of(auto&& work)
 
 } // namespace
 
-HeadlessRun::HeadlessRun(const Table& table, std::uint64_t seed) : m_table(table), m_seed(seed), m_stats(table) { new_session(); }
+HeadlessRun::HeadlessRun(const Table& table, std::uint64_t seed, int balls_at_once)
+    : m_table(table), m_seed(seed), m_balls_at_once(balls_at_once), m_stats(table)
+{
+    new_session();
+}
 
 // A lost ball is not repaired: the game it was lost in is given up, and the next one has its own seed.
 void HeadlessRun::new_session()
 {
     Random seeds(m_seed + static_cast<std::uint64_t>(m_sessions++));
-    m_game.emplace(m_table, Options{.seed = seeds.bits()});
+    m_game.emplace(m_table, Options{.seed = seeds.bits(), .balls_at_once = m_balls_at_once});
     m_player.emplace(m_table, seeds.bits());
     m_judge.emplace(m_table);
     m_stats.new_session();
@@ -48,7 +53,9 @@ void HeadlessRun::new_session()
 void HeadlessRun::step()
 {
     const Input input = m_player->play(*m_game);
-    m_stats.note_step(microseconds_of([&] { m_game->step(input); }));
+    const double microseconds = microseconds_of([&] { m_game->step(input); });
+    const auto moves = [](const BallState& ball) { return !ball.captive && !ball.held; };
+    m_stats.note_step(microseconds, static_cast<int>(std::ranges::count_if(m_game->balls(), moves)));
     hear();
     watch();
 }

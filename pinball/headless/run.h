@@ -15,7 +15,7 @@ class HeadlessRun
 {
 public:
     /// The table must outlive the run.
-    HeadlessRun(const Table& table, std::uint64_t seed);
+    explicit HeadlessRun(const Table& table, std::uint64_t seed, int balls_at_once = 1);
 
     /// One step of the game.
     void step();
@@ -33,6 +33,7 @@ private:
 
     const Table& m_table;
     std::uint64_t m_seed;
+    int m_balls_at_once;
     int m_sessions = 0;
     Stats m_stats;
     std::optional<Game> m_game{};

@@ -63,10 +63,13 @@ Stats::Stats(const Table& table)
     : m_table(&table), m_step(table.physics.step), m_hits(table.elements.size()), m_speeds(speed_bins)
 {}
 
-void Stats::note_step(double microseconds)
+void Stats::note_step(double microseconds, int free_balls)
 {
-    ++m_steps;
-    m_microseconds += microseconds;
+    for (StepTimes* times : {&m_step_times, &m_times_by_balls[free_balls]})
+    {
+        ++times->steps;
+        times->microseconds += microseconds;
+    }
     m_longest_step = std::max(m_longest_step, microseconds);
 }
 
@@ -112,8 +115,6 @@ int Stats::lost(std::string_view how) const
 
 double Stats::mean_ball_time() const { return mean(m_times); }
 
-double Stats::mean_step_us() const { return m_steps == 0 ? 0.0 : m_microseconds / static_cast<double>(m_steps); }
-
 double Stats::speed_below(double share) const
 {
     const double wanted = share * static_cast<double>(m_speed_count);
@@ -144,9 +145,11 @@ std::string Stats::to_json(const std::string& table, std::uint64_t seed) const
     json["mean_speed_mps"] = m_speed_count == 0 ? 0.0 : m_speed_sum / static_cast<double>(m_speed_count);
     json["p99_speed_mps"] = speed_below(0.99);
     json["max_speed_mps"] = static_cast<double>(m_max_speed);
-    json["steps"] = m_steps;
+    json["steps"] = m_step_times.steps;
     json["mean_step_us"] = mean_step_us();
     json["longest_step_us"] = m_longest_step;
+    for (const auto& [balls, times] : m_times_by_balls)
+        json["step_us_by_free_balls"][std::to_string(balls)] = {{"steps", times.steps}, {"mean_us", times.mean()}};
     json["games"] = m_scores.size();
     json["mean_score"] = mean(m_scores);
     json["hits"] = nlohmann::ordered_json::object();

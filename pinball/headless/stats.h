@@ -22,12 +22,19 @@ struct LostBall
     Vec2 velocity{};
 };
 
+struct StepTimes
+{
+    std::int64_t steps = 0;
+    double microseconds = 0;
+    [[nodiscard]] double mean() const { return steps == 0 ? 0.0 : microseconds / static_cast<double>(steps); }
+};
+
 class Stats
 {
 public:
     explicit Stats(const Table& table);
 
-    void note_step(double microseconds);
+    void note_step(double microseconds, int free_balls);
     void note_speed(float speed); ///< of a free ball in play
     void note_event(const GameEvent& event);
     void note_launch(int serial, std::int64_t step);
@@ -41,7 +48,7 @@ public:
     [[nodiscard]] int escaped() const { return lost("escaped"); }
     [[nodiscard]] int stuck() const { return lost("stuck"); }
     [[nodiscard]] double mean_ball_time() const;
-    [[nodiscard]] double mean_step_us() const;
+    [[nodiscard]] double mean_step_us() const { return m_step_times.mean(); }
     /// JSON, keys in a fixed order.
     [[nodiscard]] std::string to_json(const std::string& table, std::uint64_t seed) const;
 
@@ -51,9 +58,9 @@ private:
 
     const Table* m_table;
     float m_step;
-    std::int64_t m_steps = 0;
-    double m_microseconds = 0;
+    StepTimes m_step_times{};
     double m_longest_step = 0;
+    std::map<int, StepTimes> m_times_by_balls{};
     std::map<int, std::int64_t> m_launched{};
     std::vector<double> m_times{}; ///< s from launch to drain
     std::vector<LostBall> m_lost{};

@@ -36,6 +36,7 @@ RulePtr make_skill_shot(const SkillShotRule&);
 RulePtr make_combo(const ComboRule&);
 RulePtr make_multiball(const MultiballRule&);
 RulePtr make_kickback(const Table&, bool on);
+RulePtr make_more_balls(int balls);
 RulePtr make_ball_save(const BallSaveRule&);
 
 } // namespace carom::pinball

@@ -12,7 +12,7 @@ constexpr int count_pieces = 15;        // so that no bonus takes longer than a 
 } // namespace
 
 // The ball save comes last: it judges a drain after all the others have seen it.
-RuleBook::RuleBook(const Table& table, bool ball_save, bool kickback) : m_desk(table)
+RuleBook::RuleBook(const Table& table, bool ball_save, bool kickback, int balls_at_once) : m_desk(table)
 {
     const Rules& rules = table.rules;
     m_rules.push_back(make_groups(table));
@@ -28,6 +28,8 @@ RuleBook::RuleBook(const Table& table, bool ball_save, bool kickback) : m_desk(t
     if (rules.multiball)
         m_rules.push_back(make_multiball(*rules.multiball));
     m_rules.push_back(make_kickback(table, kickback));
+    if (balls_at_once > 1)
+        m_rules.push_back(make_more_balls(balls_at_once));
     if (rules.ball_save && ball_save)
         m_rules.push_back(make_ball_save(*rules.ball_save));
     m_desk.order_all(Command::Disable);

@@ -22,7 +22,7 @@ class RuleBook
 {
 public:
     /// The table must outlive the rules.
-    RuleBook(const Table& table, bool ball_save, bool kickback);
+    RuleBook(const Table& table, bool ball_save, bool kickback, int balls_at_once = 1);
 
     /// Hears what happened in a step. The orders to the table are left on the desk.
     void step(std::int64_t step, const Presses& presses, std::span<const GameEvent> events, int balls_in_play);

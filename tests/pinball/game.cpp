@@ -85,6 +85,21 @@ Table at_rate(int rate)
     return table;
 }
 
+TEST(Game, KeepsAsManyBallsInPlayAsAskedFor)
+{
+    HeadlessRun run(momentum(), 3, 4);
+    int steps_of_four = 0;
+    constexpr int steps = 30'000;
+    for (int i = 0; i < steps; ++i)
+    {
+        run.step();
+        const auto in_play = std::ranges::count(run.game().balls(), false, &BallState::captive);
+        steps_of_four += in_play >= 4 ? 1 : 0;
+    }
+    EXPECT_GT(run.stats().balls(), 3) << "some have been lost";
+    EXPECT_GT(steps_of_four, steps * 3 / 4);
+}
+
 TEST(Game, OneInputIsAChangeAtTheStartOfTheStep)
 {
     Game by_input(momentum(), {.seed = 3});
