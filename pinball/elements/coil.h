@@ -5,7 +5,7 @@
 
 #include "pinball/elements/hash.h"
 
-#include <cstdint>
+#include <cmath>
 
 namespace carom::pinball {
 
@@ -15,19 +15,19 @@ public:
     /// `rise` is the time from no torque to all of it, s; 0: at once.
     Coil(float torque, float rise) : m_rate(rise > 0 ? torque / rise : 0) {}
 
-    /// The mean torque from `begin` to `begin + h`, exactly. `target(time)` gives what is wanted at a whole millisecond; times
-    /// only go forward.
+    /// The mean torque from `begin` to `begin + h`, exactly. `target(time)` gives what is wanted at a whole millisecond. Times only go forward;
+    /// in those left out nothing has changed.
     template <class Target>
     [[nodiscard]] float mean_torque(double begin, double h, Target&& target)
     {
         double now = begin;
         double sum = 0;
-        for (; next_tick() < begin + h - rounding; ++m_ticks)
+        for (double ticks = std::ceil((begin - rounding) / tick); ticks * tick < begin + h - rounding; ++ticks)
         {
-            if (next_tick() > now)
+            if (ticks * tick > now)
             {
-                sum += follow(next_tick() - now);
-                now = next_tick();
+                sum += follow(ticks * tick - now);
+                now = ticks * tick;
             }
             m_target = target(now);
         }
@@ -41,7 +41,6 @@ private:
     static constexpr double tick = 0.001;    // s
     static constexpr double rounding = 1e-6; // s: a tick at the very end belongs to what comes next
 
-    [[nodiscard]] double next_tick() const { return static_cast<double>(m_ticks) * tick; }
     /// Moves the torque on; gives its integral over that time.
     double follow(double time);
     /// What a torque that rises by r N m/s gives is not only r h²/2 of speed but r h³/6 of way; the even torque of that mean gives
@@ -53,7 +52,6 @@ private:
     double m_slope = 0;  ///< of the torque now, N m/s
     double m_behind = 0; ///< what was taken off the impulse, N m s
     float m_target = 0;
-    std::int64_t m_ticks = 0; ///< looked at so far
 };
 
 } // namespace carom::pinball

@@ -24,10 +24,8 @@ public:
           m_enabled(field.table().elements[index].enabled)
     {
         Scene& scene = field.scene();
-        state.body = scene.create_body({.type = BodyType::Dynamic,
-                                        .position = def.pivot,
-                                        .locks = {.linear_x = true, .linear_y = true},
-                                        .can_sleep = false});
+        state.body =
+            scene.create_body({.type = BodyType::Dynamic, .position = def.pivot, .locks = {.linear_x = true, .linear_y = true}});
         // The body's angle is 0 at rest, so that no stroke comes near the seam at pi.
         const Vec2 tip = rotate(Rotation::from_angle(def.rest), {def.length, 0});
         scene.create_shape(state.body, Capsule{{}, tip, def.base_radius, def.tip_radius}, field.moving_surface(index));
@@ -85,10 +83,13 @@ private:
         return m_enabled && (m_def.input == Side::Left ? buttons.left : buttons.right);
     }
 
+    // A bat that sleeps at its stop is not asked for its torque: whatever changes that wakes it.
     void press(Playfield& field, bool on)
     {
-        if (on != state.down)
-            field.emit({.kind = EventKind::FlipperCoil, .element = index(), .point = m_def.pivot, .value = on ? 1 : 0});
+        if (on == state.down)
+            return;
+        field.scene().body(state.body).set_awake(true);
+        field.emit({.kind = EventKind::FlipperCoil, .element = index(), .point = m_def.pivot, .value = on ? 1 : 0});
         state.down = on;
     }
 

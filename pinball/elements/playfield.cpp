@@ -293,8 +293,7 @@ void Playfield::watch_lane()
 Ball& Playfield::add_ball(Vec2 position, Index captive_element)
 {
     const BallDef& def = m_table.ball;
-    const BodyId body =
-        m_scene.create_body({.type = BodyType::Dynamic, .position = position, .can_sleep = false, .user_data = ball_tag});
+    const BodyId body = m_scene.create_body({.type = BodyType::Dynamic, .position = position, .user_data = ball_tag});
     ShapeDef shape;
     if (def.material != none)
     {

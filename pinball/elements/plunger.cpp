@@ -24,8 +24,7 @@ public:
     PlungerDevice(Playfield& field, Index index, const Plunger& def) : Device(index), m_field(field), m_def(def)
     {
         Scene& scene = field.scene();
-        state.body =
-            scene.create_body({.type = BodyType::Dynamic, .position = def.pos, .locks = {.angular = true}, .can_sleep = false});
+        state.body = scene.create_body({.type = BodyType::Dynamic, .position = def.pos, .locks = {.angular = true}});
         scene.create_shape(state.body, box(def.half.x, def.half.y), field.moving_surface(index));
         scene.body(state.body).set_mass({.mass = def.mass, .center = {}, .inertia = 0});
         m_slider = scene.create_joint(PrismaticDef{.body_b = state.body,
@@ -66,6 +65,7 @@ private:
         if (pull == state.down)
             return;
         state.down = pull;
+        field.scene().body(state.body).set_awake(true);
         const float travel = std::clamp(state.travel + static_cast<float>(change.time) * state.speed, 0.0f, m_def.stroke);
         if (pull)
             field.emit({.kind = EventKind::PlungerPulled, .element = index(), .point = m_def.pos});

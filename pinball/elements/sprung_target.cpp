@@ -20,8 +20,7 @@ public:
         state.body = scene.create_body({.type = BodyType::Dynamic,
                                         .position = def.pos,
                                         .locks = {.angular = true},
-                                        .enabled = field.table().elements[index].enabled,
-                                        .can_sleep = false});
+                                        .enabled = field.table().elements[index].enabled});
         scene.create_shape(state.body, box(def.half.x, def.half.y), field.moving_surface(index));
         scene.body(state.body).set_mass({.mass = def.mass, .center = {}, .inertia = 0});
         scene.create_joint(PrismaticDef{.body_b = state.body,

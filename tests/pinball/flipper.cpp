@@ -43,12 +43,12 @@ struct Stroke
     float end_speed = 0;
 };
 
-Stroke stroke(const Flipper& def, const Buttons& buttons)
+Stroke stroke(const Flipper& def, const Buttons& buttons, int steps_before = 50)
 {
     Table table = bare_table();
     const Index index = add(table, def);
     Playfield field(table, 1);
-    run(field, 50);
+    run(field, steps_before);
     for (int i = 1; i < 1000; ++i)
     {
         field.step(buttons);
@@ -72,6 +72,32 @@ TEST(Flipper, StrokeWithoutRiseTakesTheTimeOfTheFormula)
         EXPECT_LE(s.end_speed, speed * 1.001f);
         EXPECT_GE(s.end_speed, speed - 0.001f * def.coil_torque / def.inertia - 0.1f) << "one step before the stop";
     }
+}
+
+TEST(Flipper, SleepsAtItsStopsAndStrikesFromSleepAsFromRest)
+{
+    Flipper def = plain_flipper();
+    def.coil_rise = 0.015f;
+    Table table = bare_table();
+    const Index index = add(table, def);
+    Playfield field(table, 1);
+    const auto sleeps = [&] { return !field.scene().body(field.state(index).body).is_awake(); };
+    run(field, 2000);
+    EXPECT_TRUE(sleeps()) << "at the lower stop";
+    run(field, 1, both);
+    EXPECT_FALSE(sleeps()) << "the button";
+    run(field, 2000, both);
+    EXPECT_TRUE(sleeps()) << "held up";
+    EXPECT_NEAR(field.state(index).angle, def.up, 1e-3f);
+    run(field, 1);
+    EXPECT_FALSE(sleeps()) << "let go";
+    run(field, 500);
+    EXPECT_NEAR(field.state(index).angle, def.rest, 1e-3f);
+
+    const Stroke from_rest = stroke(def, both, 50);
+    const Stroke from_sleep = stroke(def, both, 5000);
+    EXPECT_EQ(from_rest.steps, from_sleep.steps);
+    EXPECT_NEAR(from_rest.end_speed, from_sleep.end_speed, 1e-4f * from_rest.end_speed);
 }
 
 TEST(Flipper, SpeedFollowsTheTorqueAllTheWayUp)

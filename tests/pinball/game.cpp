@@ -85,6 +85,23 @@ Table at_rate(int rate)
     return table;
 }
 
+TEST(Game, WhatRestsSleepsUntilAButtonIsPressed)
+{
+    Game game(momentum());
+    game.step({.start = true});
+    for (int i = 0; i < 3000; ++i)
+        game.step({});
+    ASSERT_EQ(game.phase(), Phase::Ready);
+    EXPECT_EQ(game.scene().report().awake_bodies, 0) << "devices, captive balls and the one that waits";
+    game.step({.left = true});
+    EXPECT_EQ(game.scene().report().awake_bodies, 1);
+    for (int i = 0; i < 700; ++i)
+        game.step({.plunger = true});
+    for (int i = 0; i < 3000 && game.phase() == Phase::Ready; ++i)
+        game.step({});
+    EXPECT_EQ(game.phase(), Phase::InPlay);
+}
+
 TEST(Game, KeepsAsManyBallsInPlayAsAskedFor)
 {
     HeadlessRun run(momentum(), 3, 4);
