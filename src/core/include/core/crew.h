@@ -67,6 +67,30 @@ public:
         }
     }
 
+    /// Calls work(piece, member) for each of 0 ... pieces. A member begins with its own slice of them, from either end, and then takes what
+    /// others have left of theirs.
+    template <class Work>
+    void in_pieces(int pieces, bool backwards, const Work& work)
+    {
+        if (pieces == 0)
+            return;
+        std::atomic<int> next[most_members];
+        for (int m = 0; m < m_members; ++m)
+            next[m].store(bound(pieces, m, m_members), std::memory_order_relaxed);
+        in_parts(
+            [&](int member, int members)
+            {
+                for (int i = 0; i < members; ++i)
+                {
+                    const int owner = (member + i) % members;
+                    const int first = bound(pieces, owner, members);
+                    const int last = bound(pieces, owner + 1, members);
+                    for (int piece; (piece = next[owner].fetch_add(1, std::memory_order_relaxed)) < last;)
+                        work(backwards ? first + last - 1 - piece : piece, member);
+                }
+            });
+    }
+
     /// Calls work(first, last) for a slice of 0 ... count to each part, where there is enough to share.
     template <class Work>
     void share(int count, int enough, const Work& work)

@@ -49,16 +49,7 @@ public:
     void in_parts(Crew& crew, const Work& work)
     {
         m_backwards = !m_backwards;
-        if (m_parts == 0)
-            return;
-        crew.in_parts(
-            [&](int member, int members)
-            {
-                const int first = Crew::bound(m_parts, member, members);
-                const int last = Crew::bound(m_parts, member + 1, members);
-                for (int i = first; i < last; ++i)
-                    work(m_backwards ? first + last - 1 - i : i);
-            });
+        crew.in_pieces(m_parts, m_backwards, [&](int part, int) { work(part); });
     }
 
     /// Calls pass(first, last) for groups in any order, each by the member that solves it.
@@ -77,23 +68,25 @@ public:
             those(0, start(end));
             return;
         }
-        const auto share_of = [&](int member, int members)
-        { return start(crossing) + Crew::bound(start(end) - start(crossing), member, members); };
-        crew.in_parts(
-            [&](int member, int members)
-            {
-                those(start(bound(member, members)), start(bound(member + 1, members)));
-                those(share_of(member, members), share_of(member + 1, members));
-            });
+        if (m_parts == 0)
+        {
+            crew.share(start(end), enough_groups, those);
+            return;
+        }
+        const auto share_of = [&](int part) { return start(crossing) + Crew::bound(start(end) - start(crossing), part, m_parts); };
+        crew.in_pieces(m_parts, false,
+                       [&](int part, int)
+                       {
+                           those(start(part * m_bins), start((part + 1) * m_bins));
+                           those(share_of(part), share_of(part + 1));
+                       });
     }
 
     /// Calls work(first, last, member) for the groups of each member's parts, side by side. Returns where what crosses begins.
     template <class Work>
     int by_part(Crew& crew, const Work& work) const
     {
-        if (m_parts > 0)
-            crew.in_parts([&](int member, int members)
-                          { work(start(bound(member, members)), start(bound(member + 1, members)), member); });
+        crew.in_pieces(m_parts, false, [&](int part, int member) { work(start(part * m_bins), start((part + 1) * m_bins), member); });
         return start(m_parts * m_bins);
     }
 
@@ -124,8 +117,6 @@ private:
                    });
     }
 
-    // Where the bins of a member's parts begin.
-    [[nodiscard]] int bound(int member, int members) const { return Crew::bound(m_parts, member, members) * m_bins; }
     [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
 
     const std::int32_t* m_starts; ///< and where the last ends
