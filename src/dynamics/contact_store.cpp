@@ -81,40 +81,30 @@ void mix_materials(const SceneData& scene, Contact& contact)
     contact.surface_speed = a.surface_speed + b.surface_speed;
 }
 
-namespace {
-
-void link_contact(SceneState& state, int index)
+void link_side(SceneState& state, int index, int side)
 {
     Contact& contact = state.contacts[index];
-    for (int side = 0; side < 2; ++side)
-    {
-        BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
-        contact.next[side] = body.first_contact;
-        contact.previous[side] = none;
-        if (body.first_contact != none)
-            state.contacts[body.first_contact >> 1].previous[body.first_contact & 1] = index * 2 + side;
-        body.first_contact = index * 2 + side;
-    }
+    BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
+    contact.next[side] = body.first_contact;
+    contact.previous[side] = none;
+    if (body.first_contact != none)
+        state.contacts[body.first_contact >> 1].previous[body.first_contact & 1] = index * 2 + side;
+    body.first_contact = index * 2 + side;
 }
 
-void unlink_contact(SceneState& state, int index)
+void unlink_side(SceneState& state, int index, int side)
 {
     Contact& contact = state.contacts[index];
-    for (int side = 0; side < 2; ++side)
-    {
-        BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
-        const int next = contact.next[side];
-        const int previous = contact.previous[side];
-        if (next != none)
-            state.contacts[next >> 1].previous[next & 1] = previous;
-        if (previous != none)
-            state.contacts[previous >> 1].next[previous & 1] = next;
-        else
-            body.first_contact = next;
-    }
+    BodyRecord& body = state.bodies[side == 0 ? contact.body_a : contact.body_b];
+    const int next = contact.next[side];
+    const int previous = contact.previous[side];
+    if (next != none)
+        state.contacts[next >> 1].previous[next & 1] = previous;
+    if (previous != none)
+        state.contacts[previous >> 1].next[previous & 1] = next;
+    else
+        body.first_contact = next;
 }
-
-} // namespace
 
 void add_awake_contact(SceneState& state, int index)
 {
@@ -175,9 +165,9 @@ bool is_plain(const Leaf& leaf) { return leaf.type != LeafType::Arc && !is_of_ch
 
 } // namespace
 
-void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
+Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
 {
-    SceneState& state = scene.state;
+    const SceneState& state = scene.state;
     // The first shape is the trigger, or the one whose type comes first in the table: then every pair is computed one way.
     const ShapeRecord* a = &state.shapes[shape_a];
     const ShapeRecord* b = &state.shapes[shape_b];
@@ -201,16 +191,29 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
         contact.flags |= contact_flag::one_way;
     contact.pair = pair;
     note_sleeper(state, contact);
-    const int index = state.contacts.create(contact);
+    mix_materials(scene, contact);
+    return contact;
+}
+
+void make_room_beside_contacts(SceneState& state)
+{
     const auto capacity = static_cast<std::size_t>(state.contacts.capacity());
     grow<Growth::Third>(state.kept_manifolds, capacity);
     grow<Growth::Third>(state.impulses, capacity);
-    impulses_of(state, index) = {};
     grow<Growth::Third>(state.lane_marks, capacity);
+}
+
+void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
+{
+    SceneState& state = scene.state;
+    const Contact contact = new_contact(scene, shape_a, shape_b, pair);
+    const int index = state.contacts.create(contact);
+    make_room_beside_contacts(state);
+    impulses_of(state, index) = {};
     state.box_pairs[static_cast<std::size_t>(pair)].contact = index;
-    link_contact(state, index);
-    mix_materials(scene, state.contacts[index]);
-    if (trigger)
+    link_side(state, index, 0);
+    link_side(state, index, 1);
+    if ((contact.flags & contact_flag::trigger) != 0)
     {
         state.contacts[index].awake_index = static_cast<std::int32_t>(state.trigger_contacts.size());
         state.trigger_contacts.push_back(index);
@@ -270,7 +273,8 @@ void destroy_contact(SceneData& scene, int index, Events& events, float time)
     end_touch(scene, index, events, time);
     remove_awake_contact(state, index);
     leave_color(state, state.contacts[index]);
-    unlink_contact(state, index);
+    unlink_side(state, index, 0);
+    unlink_side(state, index, 1);
     const Contact& contact = state.contacts[index];
     if (contact.pair != none)
         state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = none;

@@ -5,6 +5,7 @@
 #include "core/index.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
+#include "dynamics/contact_batch.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/stages.h"
@@ -132,21 +133,38 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
         add(i, fate_of(ctx, pairs[i]));
 }
 
-// Contacts are made and destroyed by one thread, in the order of their pairs. What that touches lies all over memory.
+// What is to be done, in the order of pairs.
 class Fates
 {
 public:
-    explicit Fates(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state), m_going(ctx.scratch.order) { m_going.clear(); }
+    explicit Fates(StepContext& ctx)
+        : m_ctx(ctx), m_state(ctx.state), m_batch(ctx), m_of_triggers(ctx.scratch.pairs_of_triggers), m_going(ctx.scratch.order)
+    {
+        m_of_triggers.clear();
+        m_going.clear();
+    }
 
     void fulfil(std::span<const PairFate> fates)
     {
         for (std::size_t i = 0; i < fates.size(); ++i)
         {
             if (i + 2 * turns_ahead < fates.size())
-                prefetch_pair(m_state, m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
+                __builtin_prefetch(&m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
             if (i + turns_ahead < fates.size())
-                prefetch_neighbours(m_state.box_pairs[as_index(fates[i + turns_ahead].pair)], fates[i + turns_ahead].what);
+                prefetch_contact(m_state.box_pairs[as_index(fates[i + turns_ahead].pair)]);
             fulfil(fates[i]);
+        }
+    }
+
+    // Triggers' pairs may be found twice, see find_deflected_pairs.
+    void finish_contacts()
+    {
+        m_batch.finish();
+        for (const std::int32_t index : m_of_triggers)
+        {
+            const BoxPair pair = m_state.box_pairs[as_index(index)];
+            if (!has_contact(m_state, pair.a, pair.b))
+                create_contact(m_ctx.scene, pair.a, pair.b, index);
         }
     }
 
@@ -158,45 +176,26 @@ public:
     }
 
 private:
-    [[gnu::always_inline]] void prefetch_neighbours(const BoxPair& pair, std::uint8_t what) const
+    // One that may go: its place among the awake ones.
+    [[gnu::always_inline]] void prefetch_contact(const BoxPair& pair) const
     {
-        if (pair.contact != none)
-        {
-            const Contact& contact = m_state.contacts[pair.contact];
-            prefetch(m_state.bodies[contact.body_a]);
-            prefetch(m_state.bodies[contact.body_b]);
-            __builtin_prefetch(&m_state.contacts.generation(pair.contact));
-            for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
-            {
-                if (edge != none)
-                    __builtin_prefetch(&m_state.contacts[edge >> 1]);
-            }
-        }
-        else if ((what & fate::gets_contact) != 0)
-        {
-            prefetch(m_state.bodies[m_state.shapes[pair.a].body]);
-            prefetch(m_state.bodies[m_state.shapes[pair.b].body]);
-        }
+        if (pair.contact == none)
+            return;
+        __builtin_prefetch(&m_state.contacts[pair.contact]);
+        __builtin_prefetch(&m_state.contacts.generation(pair.contact));
     }
 
     void fulfil(const PairFate& fate)
     {
-        const BoxPair pair = m_state.box_pairs[as_index(fate.pair)];
+        const BoxPair& pair = m_state.box_pairs[as_index(fate.pair)];
         if ((fate.what & fate::parted) != 0)
             append(m_state.parted_pairs, pair_key(pair.a, pair.b));
         if ((fate.what & fate::gets_contact) != 0)
-            give_contact(pair, fate.pair);
+            is_trigger(m_state.broad_phase, pair) ? append(m_of_triggers, fate.pair) : m_batch.make(fate.pair);
         if ((fate.what & fate::loses_contact) != 0)
-            destroy_contact(m_ctx.scene, pair.contact, m_ctx.scene.events, 0);
+            m_batch.destroy(pair.contact);
         if ((fate.what & fate::goes) != 0)
             append(m_going, fate.pair);
-    }
-
-    // Triggers' pairs may be found twice, see find_deflected_pairs.
-    void give_contact(const BoxPair& pair, std::int32_t index)
-    {
-        if (!is_trigger(m_state.broad_phase, pair) || !has_contact(m_state, pair.a, pair.b))
-            create_contact(m_ctx.scene, pair.a, pair.b, index);
     }
 
     void take_out(std::size_t index)
@@ -218,6 +217,8 @@ private:
 
     StepContext& m_ctx;
     SceneState& m_state;
+    ContactBatch m_batch;
+    std::vector<std::int32_t>& m_of_triggers;
     std::vector<std::int32_t>& m_going;
 };
 
@@ -233,6 +234,7 @@ void follow_pairs(StepContext& ctx)
     Fates fates(ctx);
     for (const std::vector<PairFate>& some : parts)
         fates.fulfil(some);
+    fates.finish_contacts();
     fates.take_out_going();
     std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
 }

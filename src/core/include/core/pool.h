@@ -20,18 +20,25 @@ class Pool
 public:
     int create(const T& value)
     {
+        const int slot = take();
+        m_items[static_cast<std::size_t>(slot)] = value;
+        return slot;
+    }
+
+    /// A slot in which still stands what it last held.
+    int take()
+    {
         int slot;
         if (m_free.empty())
         {
             slot = static_cast<int>(m_items.size());
-            append<growth>(m_items, value);
+            append<growth>(m_items, T());
             append<growth>(m_generations, 1);
         }
         else
         {
             slot = m_free.back();
             m_free.pop_back();
-            m_items[static_cast<std::size_t>(slot)] = value;
             ++m_generations[static_cast<std::size_t>(slot)];
         }
         ++m_count;

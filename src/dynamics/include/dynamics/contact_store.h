@@ -18,6 +18,16 @@ namespace carom::internal {
 /// Of a pair in SceneState::box_pairs, whose shapes must be allowed to collide and have no contact yet.
 void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
 
+/// Such a contact as it begins, in no list yet.
+[[nodiscard]] Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
+
+/// What is kept of contacts in arrays of their own: room for as many as there are slots.
+void make_room_beside_contacts(SceneState& state);
+
+/// Into and out of the list of one of its bodies: side 0 is that of body_a.
+void link_side(SceneState& state, int contact, int side);
+void unlink_side(SceneState& state, int contact, int side);
+
 /// Ends what has begun: the event goes to `events` at `time`. Wakes nothing.
 void destroy_contact(SceneData& scene, int contact, Events& events, float time);
 

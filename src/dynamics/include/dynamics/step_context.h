@@ -389,6 +389,10 @@ struct Scratch
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
     std::vector<std::vector<PairFate>> fates_of_task;
+    std::vector<std::int32_t> made_contacts; ///< see ContactBatch
+    std::vector<std::int32_t> pairs_of_made;
+    std::vector<std::int32_t> destroyed_contacts;
+    std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
     std::vector<std::int32_t> places;   ///< by body slot, as in Link
     std::vector<std::int32_t> placed;   ///< bodies that have one
     std::vector<float> swings;          ///< of joint_links, see UnitTally::swing

@@ -1,0 +1,127 @@
+#include "dynamics/contact_batch.h"
+
+#include "core/grow.h"
+#include "core/index.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/contact_colors.h"
+#include "dynamics/contact_store.h"
+
+#include <span>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t enough = 128; // contacts to share
+constexpr std::size_t contacts_per_fill = 128;
+
+// Its bodies, and who stands beside it in their lists.
+[[gnu::always_inline]] inline void prefetch_neighbours(const SceneState& state, const Contact& contact)
+{
+    prefetch(state.bodies[contact.body_a]);
+    prefetch(state.bodies[contact.body_b]);
+    for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
+    {
+        if (edge != none)
+            __builtin_prefetch(&state.contacts[edge >> 1]);
+    }
+}
+
+} // namespace
+
+ContactBatch::ContactBatch(StepContext& ctx)
+    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.made_contacts), m_pairs(ctx.scratch.pairs_of_made),
+      m_destroyed(ctx.scratch.destroyed_contacts)
+{
+    m_made.clear();
+    m_pairs.clear();
+    m_destroyed.clear();
+}
+
+void ContactBatch::make(std::int32_t pair)
+{
+    const int contact = m_state.contacts.take();
+    m_state.box_pairs[as_index(pair)].contact = contact;
+    m_state.contacts[contact].awake_index = static_cast<std::int32_t>(m_state.awake_contacts.size());
+    append(m_state.awake_contacts, contact);
+    append(m_made, contact);
+    append(m_pairs, pair);
+}
+
+void ContactBatch::destroy(std::int32_t contact)
+{
+    const Contact& c = m_state.contacts[contact];
+    if (c.pair != none)
+        m_state.box_pairs[as_index(c.pair)].contact = none;
+    remove_awake_contact(m_state, contact);
+    m_state.contacts.destroy(contact);
+    append(m_destroyed, contact);
+}
+
+void ContactBatch::finish()
+{
+    unlink_destroyed(); // before their slots are filled anew
+    fill_made();
+    link_made();
+}
+
+// Each side by the task that has its body.
+template <class Visit>
+void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const Visit& visit) const
+{
+    const TaskHooks& hooks = m_scene.def.tasks;
+    const int tasks = contacts.size() < enough ? 1 : hooks.worker_count;
+    const auto bound = [&](int task) { return std::int64_t{m_state.bodies.capacity()} * task / tasks; };
+    run_tasks(hooks, tasks,
+              [&](int task)
+              {
+                  const std::int64_t first = bound(task);
+                  const std::int64_t last = bound(task + 1);
+                  for (std::size_t i = 0; i < contacts.size(); ++i)
+                  {
+                      if (i + 2 * turns_ahead < contacts.size())
+                          __builtin_prefetch(&m_state.contacts[contacts[i + 2 * turns_ahead]]);
+                      if (i + turns_ahead < contacts.size())
+                          prefetch_neighbours(m_state, m_state.contacts[contacts[i + turns_ahead]]);
+                      const Contact& contact = m_state.contacts[contacts[i]];
+                      if (contact.body_a >= first && contact.body_a < last)
+                          visit(contacts[i], 0);
+                      if (contact.body_b >= first && contact.body_b < last)
+                          visit(contacts[i], 1);
+                  }
+              });
+}
+
+void ContactBatch::unlink_destroyed()
+{
+    for_each_side(m_destroyed,
+                  [&](std::int32_t contact, int side)
+                  {
+                      if (side == 0)
+                          leave_color(m_state, m_state.contacts[contact]);
+                      unlink_side(m_state, contact, side);
+                  });
+}
+
+void ContactBatch::fill_made()
+{
+    make_room_beside_contacts(m_state);
+    for_each_in_parts(m_scene.def.tasks, m_made.size(), contacts_per_fill,
+                      [&](std::size_t i)
+                      {
+                          const BoxPair& pair = m_state.box_pairs[as_index(m_pairs[i])];
+                          Contact& contact = m_state.contacts[m_made[i]];
+                          const std::int32_t awake_index = contact.awake_index;
+                          contact = new_contact(m_scene, pair.a, pair.b, m_pairs[i]);
+                          contact.awake_index = awake_index;
+                          impulses_of(m_state, m_made[i]) = {};
+                      });
+}
+
+void ContactBatch::link_made()
+{
+    for_each_side(m_made, [&](std::int32_t contact, int side) { link_side(m_state, contact, side); });
+}
+
+} // namespace carom::internal
