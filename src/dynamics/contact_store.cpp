@@ -189,6 +189,8 @@ Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32
         contact.flags |= contact_flag::plain;
     if (rare_traits_of(state, *a).one_way != Vec2{} || rare_traits_of(state, *b).one_way != Vec2{})
         contact.flags |= contact_flag::one_way;
+    if (a->owner != shape_a || b->owner != shape_b)
+        contact.flags |= contact_flag::piece;
     contact.pair = pair;
     note_sleeper(state, contact);
     mix_materials(scene, contact);
@@ -227,10 +229,10 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
 bool touches_elsewhere(const SceneState& state, int index)
 {
     const Contact& contact = state.contacts[index];
+    if ((contact.flags & contact_flag::piece) == 0)
+        return false;
     const int owner_a = state.shapes[contact.shape_a].owner;
     const int owner_b = state.shapes[contact.shape_b].owner;
-    if (owner_a == contact.shape_a && owner_b == contact.shape_b)
-        return false;
     // Lines come before what touches them in the table, arcs after it.
     const auto is_same = [&](const Contact& other)
     {

@@ -12,6 +12,7 @@
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
 
+#include <atomic>
 #include <span>
 #include <utility>
 
@@ -140,6 +141,12 @@ void inherit_load(StepContext& ctx, int index)
                      });
 }
 
+ContactBeginEvent begin_event(const SceneState& state, const Contact& contact)
+{
+    const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
+    return event_of<ContactBeginEvent>(state, contact, point, contact.manifold.normal);
+}
+
 void begin_touch(StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
@@ -149,11 +156,19 @@ void begin_touch(StepContext& ctx, int index)
     inherit_load(ctx, index);
     wake_body(ctx.scene, contact.body_a);
     wake_body(ctx.scene, contact.body_b);
-    if (touches_elsewhere(state, index))
-        return;
-    const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
-    append(ctx.scene.events.begins,
-           event_between<ContactBeginEvent>(state, contact.shape_a, contact.shape_b, point, contact.manifold.normal));
+    if (!touches_elsewhere(state, index))
+        append(ctx.scene.events.begins, begin_event(state, contact));
+}
+
+// It wakes nobody, and no other contact speaks for the same two shapes: the rest may be done by any thread.
+bool concerns_no_other(const Contact& contact) { return (contact.flags & (contact_flag::piece | contact_flag::sleeper)) == 0; }
+
+// As wake_body for one that is awake. Threads may do so side by side.
+void keep_awake(const StepContext& ctx, int body)
+{
+    const std::atomic_ref sleep_time(ctx.state.sims[static_cast<std::size_t>(body)].sleep_time);
+    if (sleep_time.load(std::memory_order_relaxed) != 0)
+        sleep_time.store(0, std::memory_order_relaxed);
 }
 
 // Something fast that may hit a sleeper in this step wakes it before the units are built.
@@ -209,7 +224,7 @@ public:
         : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_scene(followed_scene(ctx))
     {}
 
-    void run(std::vector<ContactNews>& news)
+    void run(SomeNews& some)
     {
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
@@ -222,11 +237,13 @@ public:
                 put_off(w.places[i]);
         }
         update_the_others();
-        news.clear();
+        some.begins.clear();
+        some.ends.clear();
+        some.others.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
             if (m_news[i] != News::Nothing)
-                news.push_back({m_contacts[i], m_news[i]});
+                tell(m_contacts[i], m_news[i], some);
         }
     }
 
@@ -243,6 +260,27 @@ private:
         prefetch(state.kept_manifolds[static_cast<std::size_t>(index)]);
         for (const std::int32_t body : {state.contacts[index].body_a, state.contacts[index].body_b})
             __builtin_prefetch(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
+    }
+
+    void tell(std::int32_t index, News what, SomeNews& some) const
+    {
+        Contact& contact = m_ctx.state.contacts[index];
+        if (!concerns_no_other(contact))
+        {
+            append(some.others, {index, what});
+        }
+        else if (what == News::Begins)
+        {
+            contact.flags |= contact_flag::touching;
+            keep_awake(m_ctx, contact.body_a);
+            keep_awake(m_ctx, contact.body_b);
+            append(some.begins, begin_event(m_ctx.state, contact));
+        }
+        else if (what == News::Ends)
+        {
+            contact.flags &= ~contact_flag::touching;
+            append(some.ends, event_of<ContactEndEvent>(m_ctx.state, contact, 0.0f));
+        }
     }
 
     void update(std::size_t i)
@@ -360,14 +398,18 @@ void update_contacts(StepContext& ctx)
         return;
     }
     SceneState& state = ctx.state;
-    using Some = std::vector<ContactNews>;
-    const std::span<Some> parts =
+    const std::span<SomeNews> parts =
         find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_at_once, ctx.scratch.news_of_task,
-                      [&](std::size_t first, std::size_t last, Some& some) { ContactUpdate(ctx, first, last).run(some); });
+                      [&](std::size_t first, std::size_t last, SomeNews& some) { ContactUpdate(ctx, first, last).run(some); });
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
-    for (const Some& some : parts)
-        append_all(news, some);
+    for (const SomeNews& some : parts)
+    {
+        append_all(ctx.scene.events.begins, some.begins);
+        append_all(ctx.scene.events.ends, some.ends);
+        append_all(news, some.others);
+        state.graph_dirty |= !some.begins.empty() || !some.ends.empty();
+    }
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)

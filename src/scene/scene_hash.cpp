@@ -112,8 +112,8 @@ void add_contact(Hasher& h, const SceneState& state, int index)
     const Contact& c = state.contacts[index];
     h.add(c.shape_a);
     h.add(c.shape_b);
-    h.add(static_cast<int>(c.flags &
-                           ~(contact_flag::followed | contact_flag::sleeper))); // where the rest of it is, and what bodies say
+    // But for where the rest of it is, and what bodies and shapes say.
+    h.add(static_cast<int>(c.flags & ~(contact_flag::followed | contact_flag::sleeper | contact_flag::piece)));
     h.add(c.manifold.count);
     h.add(c.manifold.rolling_impulse);
     for (int i = 0; i < c.manifold.count; ++i)

@@ -98,4 +98,14 @@ template <class Event, class... Rest>
             body_id(state, state.shapes[shape_b].body), rest...};
 }
 
+/// The same of a contact, without a look at shapes that are the user's own.
+template <class Event, class... Rest>
+[[nodiscard]] Event event_of(const SceneState& state, const Contact& c, const Rest&... rest)
+{
+    if ((c.flags & contact_flag::piece) != 0)
+        return event_between<Event>(state, c.shape_a, c.shape_b, rest...);
+    const auto id = [&](int shape) { return ShapeId{static_cast<std::uint32_t>(shape) + 1, state.shapes.generation(shape)}; };
+    return {id(c.shape_a), id(c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), rest...};
+}
+
 } // namespace carom::internal

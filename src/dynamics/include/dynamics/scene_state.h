@@ -163,6 +163,7 @@ inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to t
 inline constexpr std::uint32_t edge_of_b = 2048; ///< what is kept is seen from b
 inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
 inline constexpr std::uint32_t sleeper = 8192;   ///< one of the bodies sleeps, or both
+inline constexpr std::uint32_t piece = 16384; ///< of a chain or the like: others may touch for the same two shapes of the user's
 inline constexpr std::uint32_t all_kept = kept | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
     1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold

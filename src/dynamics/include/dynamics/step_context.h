@@ -81,6 +81,14 @@ struct ContactNews
     News what;
 };
 
+/// Of a task's contacts: events of those whose news concern nobody else, and the news of the others.
+struct SomeNews
+{
+    std::vector<ContactBeginEvent> begins{};
+    std::vector<ContactEndEvent> ends{};
+    std::vector<ContactNews> others{};
+};
+
 /// What becomes of a pair of boxes, see pair_fates.cpp.
 namespace fate {
 inline constexpr std::uint8_t gets_contact = 1;
@@ -393,14 +401,14 @@ struct Scratch
     std::vector<std::int32_t> pairs_of_made;
     std::vector<std::int32_t> destroyed_contacts;
     std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
-    std::vector<std::int32_t> places;   ///< by body slot, as in Link
-    std::vector<std::int32_t> placed;   ///< bodies that have one
-    std::vector<float> swings;          ///< of joint_links, see UnitTally::swing
-    UnionFind sets;                     ///< of what hangs together, by place in awake_bodies
-    std::vector<std::int32_t> unit_of;  ///< by place in awake_bodies
-    std::vector<std::int32_t> state_of; ///< by place in awake_bodies; dynamic bodies only
+    std::vector<std::int32_t> places;            ///< by body slot, as in Link
+    std::vector<std::int32_t> placed;            ///< bodies that have one
+    std::vector<float> swings;                   ///< of joint_links, see UnitTally::swing
+    UnionFind sets;                              ///< of what hangs together, by place in awake_bodies
+    std::vector<std::int32_t> unit_of;           ///< by place in awake_bodies
+    std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
-    std::vector<std::vector<ContactNews>> news_of_task;
+    std::vector<SomeNews> news_of_task;
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something

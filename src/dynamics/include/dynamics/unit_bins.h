@@ -73,7 +73,8 @@ public:
             crew.share(start(end), enough_groups, those);
             return;
         }
-        const auto share_of = [&](int part) { return start(crossing) + Crew::bound(start(end) - start(crossing), part, m_parts); };
+        const auto share_of = [&](int part)
+        { return start(crossing) + Crew::bound(start(end) - start(crossing), part, m_parts); };
         crew.in_pieces(m_parts, false,
                        [&](int part, int)
                        {
@@ -86,7 +87,8 @@ public:
     template <class Work>
     int by_part(Crew& crew, const Work& work) const
     {
-        crew.in_pieces(m_parts, false, [&](int part, int member) { work(start(part * m_bins), start((part + 1) * m_bins), member); });
+        crew.in_pieces(m_parts, false,
+                       [&](int part, int member) { work(start(part * m_bins), start((part + 1) * m_bins), member); });
         return start(m_parts * m_bins);
     }
 
