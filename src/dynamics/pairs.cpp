@@ -222,8 +222,12 @@ void leave_out_doubles(Pairs& pairs)
 
 void add_pairs(StepContext& ctx)
 {
-    for (const std::uint64_t key : ctx.scratch.new_pairs)
-        append(ctx.state.box_pairs, {static_cast<std::int32_t>(key & 0xffffffffu), static_cast<std::int32_t>(key >> 32), none});
+    const Pairs& keys = ctx.scratch.new_pairs;
+    std::vector<BoxPair>& pairs = ctx.state.box_pairs;
+    const std::size_t known = pairs.size();
+    grow(pairs, known + keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        pairs[known + i] = {static_cast<std::int32_t>(keys[i] & 0xffffffffu), static_cast<std::int32_t>(keys[i] >> 32), none};
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 
 #include "core/grow.h"
 #include "core/index.h"
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/scene_data.h"
@@ -147,9 +148,10 @@ private:
     {
         for (SomePlaces& some : tasks)
         {
-            for (const std::int32_t i : some.uncolored)
+            for (std::size_t u = 0; u < some.uncolored.size(); ++u)
             {
-                Link& l = links()[as_index(i)];
+                prefetch_uncolored(some.uncolored, u);
+                Link& l = links()[as_index(some.uncolored[u])];
                 Contact& contact = m_state.contacts[l.contact];
                 take_color(m_state, contact);
                 l.about = about_link(l.about & link_flag::all, l.points(), contact.color);
@@ -158,6 +160,19 @@ private:
                 count(l, some);
             }
         }
+    }
+
+    // First the contact, then its bodies.
+    [[gnu::always_inline]] void prefetch_uncolored(std::span<const std::int32_t> uncolored, std::size_t u) const
+    {
+        const auto contact_of = [&](std::size_t i) -> const Contact&
+        { return m_state.contacts[links()[as_index(uncolored[i])].contact]; };
+        if (u + 2 * turns_ahead < uncolored.size())
+            __builtin_prefetch(&contact_of(u + 2 * turns_ahead));
+        if (u + turns_ahead >= uncolored.size())
+            return;
+        for (const std::int32_t body : {contact_of(u + turns_ahead).body_a, contact_of(u + turns_ahead).body_b})
+            prefetch(m_state.bodies[body]);
     }
 
     void count(Link& l, SomePlaces& some) const
