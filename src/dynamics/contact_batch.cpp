@@ -31,11 +31,9 @@ constexpr std::size_t contacts_per_fill = 128;
 } // namespace
 
 ContactBatch::ContactBatch(StepContext& ctx)
-    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.made_contacts), m_pairs(ctx.scratch.pairs_of_made),
-      m_destroyed(ctx.scratch.destroyed_contacts)
+    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.made_contacts), m_destroyed(ctx.scratch.destroyed_contacts)
 {
     m_made.clear();
-    m_pairs.clear();
     m_destroyed.clear();
 }
 
@@ -43,10 +41,10 @@ void ContactBatch::make(std::int32_t pair)
 {
     const int contact = m_state.contacts.take();
     m_state.box_pairs[as_index(pair)].contact = contact;
+    m_state.contacts[contact].pair = pair;
     m_state.contacts[contact].awake_index = static_cast<std::int32_t>(m_state.awake_contacts.size());
     append(m_state.awake_contacts, contact);
     append(m_made, contact);
-    append(m_pairs, pair);
 }
 
 void ContactBatch::destroy(std::int32_t contact)
@@ -110,10 +108,11 @@ void ContactBatch::fill_made()
     for_each_in_parts(m_scene.def.tasks, m_made.size(), contacts_per_fill,
                       [&](std::size_t i)
                       {
-                          const BoxPair& pair = m_state.box_pairs[as_index(m_pairs[i])];
                           Contact& contact = m_state.contacts[m_made[i]];
+                          const std::int32_t index = contact.pair;
                           const std::int32_t awake_index = contact.awake_index;
-                          contact = new_contact(m_scene, pair.a, pair.b, m_pairs[i]);
+                          const BoxPair& pair = m_state.box_pairs[as_index(index)];
+                          contact = new_contact(m_scene, pair.a, pair.b, index);
                           contact.awake_index = awake_index;
                           impulses_of(m_state, m_made[i]) = {};
                       });

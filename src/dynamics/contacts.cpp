@@ -262,6 +262,7 @@ private:
             __builtin_prefetch(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
     }
 
+    // Events are written when all is known, see tell_all.
     void tell(std::int32_t index, News what, SomeNews& some) const
     {
         Contact& contact = m_ctx.state.contacts[index];
@@ -274,12 +275,12 @@ private:
             contact.flags |= contact_flag::touching;
             keep_awake(m_ctx, contact.body_a);
             keep_awake(m_ctx, contact.body_b);
-            append(some.begins, begin_event(m_ctx.state, contact));
+            append(some.begins, index);
         }
         else if (what == News::Ends)
         {
             contact.flags &= ~contact_flag::touching;
-            append(some.ends, event_of<ContactEndEvent>(m_ctx.state, contact, 0.0f));
+            append(some.ends, index);
         }
     }
 
@@ -387,6 +388,22 @@ private:
     const WideKernels& m_kernels = wide_kernels();
 };
 
+// Of all tasks in their order, each written by some thread.
+template <class Event, class MakeEvent>
+void tell_all(StepContext& ctx, std::span<const SomeNews> parts, std::vector<std::int32_t> SomeNews::* which,
+              std::vector<Event>& events, const MakeEvent& make_event)
+{
+    std::vector<std::int32_t>& contacts = ctx.scratch.order;
+    contacts.clear();
+    for (const SomeNews& some : parts)
+        append_all(contacts, some.*which);
+    const std::size_t first = events.size();
+    set_size(events, first + contacts.size());
+    for_each_in_parts(ctx.scene.def.tasks, contacts.size(), contacts_at_once,
+                      [&](std::size_t i) { events[first + i] = make_event(ctx.state, ctx.state.contacts[contacts[i]]); });
+    ctx.state.graph_dirty |= !contacts.empty();
+}
+
 } // namespace
 
 void update_contacts(StepContext& ctx)
@@ -404,12 +421,10 @@ void update_contacts(StepContext& ctx)
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
     for (const SomeNews& some : parts)
-    {
-        append_all(ctx.scene.events.begins, some.begins);
-        append_all(ctx.scene.events.ends, some.ends);
         append_all(news, some.others);
-        state.graph_dirty |= !some.begins.empty() || !some.ends.empty();
-    }
+    tell_all(ctx, parts, &SomeNews::begins, ctx.scene.events.begins, begin_event);
+    tell_all(ctx, parts, &SomeNews::ends, ctx.scene.events.ends,
+             [](const SceneState& s, const Contact& contact) { return event_of<ContactEndEvent>(s, contact, 0.0f); });
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactNews& n : news)

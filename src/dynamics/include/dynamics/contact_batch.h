@@ -17,7 +17,7 @@ public:
     void make(std::int32_t pair);
     /// Of two that do not touch, and none is a trigger.
     void destroy(std::int32_t contact);
-    /// Until then lists hold those that are destroyed, and what is made is but a slot.
+    /// Until then lists hold those that are destroyed, and of what is made there is a slot with its pair and its place among the awake.
     void finish();
 
 private:
@@ -30,7 +30,6 @@ private:
     SceneData& m_scene;
     SceneState& m_state;
     std::vector<std::int32_t>& m_made;
-    std::vector<std::int32_t>& m_pairs; ///< of those made
     std::vector<std::int32_t>& m_destroyed;
 };
 

@@ -81,11 +81,11 @@ struct ContactNews
     News what;
 };
 
-/// Of a task's contacts: events of those whose news concern nobody else, and the news of the others.
+/// Of a task's contacts: of those whose news concern nobody else, who has begun or ended to touch; and the news of the others.
 struct SomeNews
 {
-    std::vector<ContactBeginEvent> begins{};
-    std::vector<ContactEndEvent> ends{};
+    std::vector<std::int32_t> begins{};
+    std::vector<std::int32_t> ends{};
     std::vector<ContactNews> others{};
 };
 
@@ -398,7 +398,6 @@ struct Scratch
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
     std::vector<std::vector<PairFate>> fates_of_task;
     std::vector<std::int32_t> made_contacts; ///< see ContactBatch
-    std::vector<std::int32_t> pairs_of_made;
     std::vector<std::int32_t> destroyed_contacts;
     std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
     std::vector<std::int32_t> places;            ///< by body slot, as in Link
