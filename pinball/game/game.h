@@ -42,7 +42,7 @@ struct Options
     std::uint64_t seed = 1;
     bool ball_save = true;
     bool kickback = true;
-    int balls_at_once = 1; ///< kept in play whatever the table's rules, 1 to 8; with several a ball does not end
+    int balls_at_once = 1; ///< kept in play whatever the table's rules; with more than one no ball is the last
 };
 
 class Game

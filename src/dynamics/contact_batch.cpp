@@ -16,12 +16,11 @@ namespace {
 constexpr std::size_t enough = 128; // contacts to share
 constexpr std::size_t contacts_per_fill = 128;
 
-// Its bodies, and who stands beside it in their lists.
-[[gnu::always_inline]] inline void prefetch_neighbours(const SceneState& state, const Contact& contact)
+// Of one side: its body, and who stands beside it in that one's list.
+[[gnu::always_inline]] inline void prefetch_side(const SceneState& state, const Contact& contact, int side)
 {
-    prefetch(state.bodies[contact.body_a]);
-    prefetch(state.bodies[contact.body_b]);
-    for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
+    prefetch(state.bodies[side == 0 ? contact.body_a : contact.body_b]);
+    for (const std::int32_t edge : {contact.next[side], contact.previous[side]})
     {
         if (edge != none)
             __builtin_prefetch(&state.contacts[edge >> 1]);
@@ -64,7 +63,7 @@ void ContactBatch::finish()
     link_made();
 }
 
-// Each side by the task that has its body.
+// Each side by the task that has its body. What stands of the other side is somebody else's to read and write.
 template <class Visit>
 void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const Visit& visit) const
 {
@@ -74,19 +73,22 @@ void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const V
     run_tasks(hooks, tasks,
               [&](int task)
               {
-                  const std::int64_t first = bound(task);
-                  const std::int64_t last = bound(task + 1);
+                  const auto for_own_sides = [&, first = bound(task), last = bound(task + 1)](std::size_t i, const auto& work)
+                  {
+                      const Contact& contact = m_state.contacts[contacts[i]];
+                      if (contact.body_a >= first && contact.body_a < last)
+                          work(contact, 0);
+                      if (contact.body_b >= first && contact.body_b < last)
+                          work(contact, 1);
+                  };
                   for (std::size_t i = 0; i < contacts.size(); ++i)
                   {
                       if (i + 2 * turns_ahead < contacts.size())
                           __builtin_prefetch(&m_state.contacts[contacts[i + 2 * turns_ahead]]);
                       if (i + turns_ahead < contacts.size())
-                          prefetch_neighbours(m_state, m_state.contacts[contacts[i + turns_ahead]]);
-                      const Contact& contact = m_state.contacts[contacts[i]];
-                      if (contact.body_a >= first && contact.body_a < last)
-                          visit(contacts[i], 0);
-                      if (contact.body_b >= first && contact.body_b < last)
-                          visit(contacts[i], 1);
+                          for_own_sides(i + turns_ahead,
+                                        [&](const Contact& contact, int side) { prefetch_side(m_state, contact, side); });
+                      for_own_sides(i, [&](const Contact&, int side) { visit(contacts[i], side); });
                   }
               });
 }
