@@ -67,8 +67,8 @@ public:
         }
     }
 
-    /// Calls work(piece, member) for each of 0 ... pieces. A member begins with its own slice of them, from either end, and then takes what
-    /// others have left of theirs.
+    /// Calls work(piece) for each of 0 ... pieces. A member begins with its own slice of them, from either end, and then takes what others have
+    /// left of theirs: who does which is chance.
     template <class Work>
     void in_pieces(int pieces, bool backwards, const Work& work)
     {
@@ -86,7 +86,7 @@ public:
                     const int first = bound(pieces, owner, members);
                     const int last = bound(pieces, owner + 1, members);
                     for (int piece; (piece = next[owner].fetch_add(1, std::memory_order_relaxed)) < last;)
-                        work(backwards ? first + last - 1 - piece : piece, member);
+                        work(backwards ? first + last - 1 - piece : piece);
                 }
             });
     }

@@ -49,10 +49,10 @@ public:
     void in_parts(Crew& crew, const Work& work)
     {
         m_backwards = !m_backwards;
-        crew.in_pieces(m_parts, m_backwards, [&](int part, int) { work(part); });
+        crew.in_pieces(m_parts, m_backwards, work);
     }
 
-    /// Calls pass(first, last) for groups in any order, each by the member that solves it.
+    /// Calls pass(first, last) for groups in any order, mostly by the member that solves them.
     template <class Pass>
     void all(Crew& crew, const Pass& pass) const
     {
@@ -63,12 +63,7 @@ public:
         };
         const int crossing = m_parts * m_bins;
         const int end = crossing + m_bins;
-        if (start(end) < enough_groups)
-        {
-            those(0, start(end));
-            return;
-        }
-        if (m_parts == 0)
+        if (m_parts == 0 || start(end) < enough_groups)
         {
             crew.share(start(end), enough_groups, those);
             return;
@@ -76,23 +71,25 @@ public:
         const auto share_of = [&](int part)
         { return start(crossing) + Crew::bound(start(end) - start(crossing), part, m_parts); };
         crew.in_pieces(m_parts, false,
-                       [&](int part, int)
+                       [&](int part)
                        {
                            those(start(part * m_bins), start((part + 1) * m_bins));
                            those(share_of(part), share_of(part + 1));
                        });
     }
 
-    /// Calls work(first, last, member) for the groups of each member's parts, side by side. Returns where what crosses begins.
+    /// Calls work(first, last, member) for the groups of each member's parts, side by side: what members tell one after the other stands in the
+    /// order of parts. Returns where what crosses begins.
     template <class Work>
     int by_part(Crew& crew, const Work& work) const
     {
-        crew.in_pieces(m_parts, false,
-                       [&](int part, int member) { work(start(part * m_bins), start((part + 1) * m_bins), member); });
+        if (m_parts > 0)
+            crew.in_parts([&](int member, int members)
+                          { work(start(bound(member, members)), start(bound(member + 1, members)), member); });
         return start(m_parts * m_bins);
     }
 
-    /// Calls visit(group), each by the member that solves it.
+    /// Calls visit(group), mostly by the member that solves it.
     template <class Visit>
     void for_each(Crew& crew, const Visit& visit) const
     {
@@ -119,6 +116,8 @@ private:
                    });
     }
 
+    // Where the bins of a member's parts begin.
+    [[nodiscard]] int bound(int member, int members) const { return Crew::bound(m_parts, member, members) * m_bins; }
     [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
 
     const std::int32_t* m_starts; ///< and where the last ends
