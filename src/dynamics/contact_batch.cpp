@@ -48,11 +48,7 @@ void ContactBatch::make(std::int32_t pair)
 
 void ContactBatch::destroy(std::int32_t contact)
 {
-    const Contact& c = m_state.contacts[contact];
-    if (c.pair != none)
-        m_state.box_pairs[as_index(c.pair)].contact = none;
-    remove_awake_contact(m_state, contact);
-    m_state.contacts.destroy(contact);
+    give_up_slot(m_state, contact);
     append(m_destroyed, contact);
 }
 

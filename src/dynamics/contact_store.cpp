@@ -14,12 +14,16 @@ BodyId body_id(const SceneState& state, int slot)
     return {static_cast<std::uint32_t>(slot) + 1, state.bodies.generation(slot)};
 }
 
+ShapeId user_shape_id(const SceneState& state, int slot)
+{
+    return {static_cast<std::uint32_t>(slot) + 1, state.shapes.generation(slot)};
+}
+
 ShapeId shape_id(const SceneState& state, int slot)
 {
     if (slot < 0)
         return {};
-    const int owner = state.shapes[slot].owner;
-    return {static_cast<std::uint32_t>(owner) + 1, state.shapes.generation(owner)};
+    return user_shape_id(state, state.shapes[slot].owner);
 }
 
 JointId joint_id(const SceneState& state, int slot)
@@ -269,18 +273,23 @@ void end_touch(SceneData& scene, int index, Events& events, float time)
         append(events.ends, event_between<ContactEndEvent>(state, contact.shape_a, contact.shape_b, time));
 }
 
-void destroy_contact(SceneData& scene, int index, Events& events, float time)
+void give_up_slot(SceneState& state, int index)
 {
-    SceneState& state = scene.state;
-    end_touch(scene, index, events, time);
     remove_awake_contact(state, index);
-    leave_color(state, state.contacts[index]);
-    unlink_side(state, index, 0);
-    unlink_side(state, index, 1);
     const Contact& contact = state.contacts[index];
     if (contact.pair != none)
         state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = none;
     state.contacts.destroy(index);
+}
+
+void destroy_contact(SceneData& scene, int index, Events& events, float time)
+{
+    SceneState& state = scene.state;
+    end_touch(scene, index, events, time);
+    leave_color(state, state.contacts[index]);
+    unlink_side(state, index, 0);
+    unlink_side(state, index, 1);
+    give_up_slot(state, index);
 }
 
 namespace {

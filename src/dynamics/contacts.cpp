@@ -118,11 +118,11 @@ void inherit_load(StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
     Contact& contact = state.contacts[index];
+    if ((contact.flags & contact_flag::piece) == 0 || (contact.flags & contact_flag::loaded) != 0)
+        return;
     const bool piece_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
     const int piece = piece_is_a ? contact.shape_a : contact.shape_b;
     const int visitor = piece_is_a ? contact.shape_b : contact.shape_a;
-    if (state.shapes[piece].owner == piece || (contact.flags & contact_flag::loaded) != 0)
-        return;
     for_each_contact(state, state.shapes[visitor].body,
                      [&](int other_index)
                      {

@@ -209,7 +209,7 @@ private:
             told.kicked_shapes.push_back(contact.shape_a);
         if (kick.b_fired)
             told.kicked_shapes.push_back(contact.shape_b);
-        auto event = event_between<ImpactEvent>(m_ctx.state, contact.shape_a, contact.shape_b);
+        auto event = event_of<ImpactEvent>(m_ctx.state, contact);
         const ContactRow before = row;
         bounce_points(row, e, kick.speed);
         for (int i = 0; i < row.count; ++i)

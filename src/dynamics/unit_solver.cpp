@@ -175,7 +175,6 @@ private:
     // What lands on the way is the solver's from there on.
     void fly_alone(int k)
     {
-        m_output.stopped_joints.clear();
         advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
         if (!is_airborne())
         {
@@ -581,11 +580,11 @@ private:
         const SceneState& state = m_ctx.state;
         Facing best{row.contact, manifold_of(row.contact, row, ahead)};
         const Contact& contact = state.contacts[row.contact];
+        if (best.manifold.count == 1 || (contact.flags & contact_flag::piece) == 0)
+            return best;
         const bool chain_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
         const int piece = chain_is_a ? contact.shape_a : contact.shape_b;
         const int visitor = chain_is_a ? contact.shape_b : contact.shape_a;
-        if (best.manifold.count == 1 || state.shapes[piece].owner == piece)
-            return best;
         for (int edge = state.bodies[state.shapes[visitor].body].first_contact; edge != none;
              edge = state.contacts[edge >> 1].next[edge & 1])
         {

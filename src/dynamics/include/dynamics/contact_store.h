@@ -28,6 +28,9 @@ void make_room_beside_contacts(SceneState& state);
 void link_side(SceneState& state, int contact, int side);
 void unlink_side(SceneState& state, int contact, int side);
 
+/// Takes it from its pair and from the list of awake ones. Bodies' lists and colours are the caller's.
+void give_up_slot(SceneState& state, int contact);
+
 /// Ends what has begun: the event goes to `events` at `time`. Wakes nothing.
 void destroy_contact(SceneData& scene, int contact, Events& events, float time);
 
@@ -80,7 +83,8 @@ void end_touch(SceneData& scene, int contact, Events& events, float time);
 
 /// Public ids of slots.
 [[nodiscard]] BodyId body_id(const SceneState& state, int slot);
-[[nodiscard]] ShapeId shape_id(const SceneState& state, int slot); ///< of the owner, for pieces of chains
+[[nodiscard]] ShapeId user_shape_id(const SceneState& state, int slot); ///< of one that is no piece
+[[nodiscard]] ShapeId shape_id(const SceneState& state, int slot);      ///< of the owner, for pieces of chains
 [[nodiscard]] JointId joint_id(const SceneState& state, int slot);
 
 /// Back; -1: null.
@@ -104,8 +108,8 @@ template <class Event, class... Rest>
 {
     if ((c.flags & contact_flag::piece) != 0)
         return event_between<Event>(state, c.shape_a, c.shape_b, rest...);
-    const auto id = [&](int shape) { return ShapeId{static_cast<std::uint32_t>(shape) + 1, state.shapes.generation(shape)}; };
-    return {id(c.shape_a), id(c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b), rest...};
+    return {user_shape_id(state, c.shape_a), user_shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b),
+            rest...};
 }
 
 } // namespace carom::internal
