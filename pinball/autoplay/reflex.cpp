@@ -50,7 +50,7 @@ bool FlipperReflex::step(const std::vector<BallState>& balls, Random& random)
         return false;
     }
     for (const BallState& ball : balls)
-        if (!ball.captive && !ball.held && wants_to_flip(ball))
+        if (ball.is_free() && wants_to_flip(ball))
         {
             m_delay = steps(random.between(0, longest_delay), m_step);
             m_hold = steps(press_time, m_step);

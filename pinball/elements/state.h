@@ -32,6 +32,7 @@ struct BallState
     int serial = 0; ///< balls are numbered as they come
     bool captive = false;
     bool held = false; ///< by a saucer: it takes no part
+    [[nodiscard]] bool is_free() const { return !captive && !held; }
     Position position{};
     Vec2 velocity{}; ///< m/s
     Vec2 rolling{};  ///< velocity at which it would roll without sliding: spin about the table's axes times radius, m/s

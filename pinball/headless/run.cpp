@@ -54,8 +54,7 @@ void HeadlessRun::step()
 {
     const Input input = m_player->play(*m_game);
     const double microseconds = microseconds_of([&] { m_game->step(input); });
-    const auto moves = [](const BallState& ball) { return !ball.captive && !ball.held; };
-    m_stats.note_step(microseconds, static_cast<int>(std::ranges::count_if(m_game->balls(), moves)));
+    m_stats.note_step(microseconds, static_cast<int>(std::ranges::count_if(m_game->balls(), &BallState::is_free)));
     hear();
     watch();
 }
@@ -88,7 +87,7 @@ void HeadlessRun::watch()
             lose(fault, ball);
             return; // and with it the game that we were looking at
         }
-        if (!ball.captive && !ball.held && !m_judge->in_lane(ball.position))
+        if (ball.is_free() && !m_judge->in_lane(ball.position))
             m_stats.note_speed(length(ball.velocity));
     }
 }

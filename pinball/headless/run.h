@@ -15,7 +15,7 @@ class HeadlessRun
 {
 public:
     /// The table must outlive the run.
-    explicit HeadlessRun(const Table& table, std::uint64_t seed, int balls_at_once = 1);
+    HeadlessRun(const Table& table, std::uint64_t seed, int balls_at_once = 1);
 
     /// One step of the game.
     void step();

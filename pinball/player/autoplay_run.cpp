@@ -27,7 +27,7 @@ bool is_worth_a_picture(const Game& game)
                                            [&](const BallState& b)
                                            {
                                                const Vec2 at = to_vec2(b.position);
-                                               return !b.captive && !b.held && at.y > 0.3f * size.y && at.y < 0.85f * size.y &&
+                                               return b.is_free() && at.y > 0.3f * size.y && at.y < 0.85f * size.y &&
                                                       at.x < 0.88f * size.x && length(b.velocity) > 0.5f;
                                            });
     const auto fired = [&](Index i)

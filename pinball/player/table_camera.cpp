@@ -12,7 +12,7 @@ double watched_height(const Game& game)
 {
     double y = -1;
     for (const BallState& ball : game.balls())
-        if (!ball.captive && !ball.held && (y < 0 || ball.position.y < y))
+        if (ball.is_free() && (y < 0 || ball.position.y < y))
             y = ball.position.y;
     return y < 0 ? 0.3 * static_cast<double>(game.table().size.y) : y;
 }
