@@ -93,19 +93,6 @@ void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew
     commit_unit(ctx, unit, crew);
 }
 
-// All threads on one after the other.
-void solve_large(StepContext& ctx)
-{
-    Scratch& scratch = ctx.scratch;
-    for (std::size_t u = 0; u < scratch.units.size(); ++u)
-    {
-        if (!is_large(scratch.units[u]))
-            continue;
-        UnitEnergy energy;
-        Crew::run(ctx.scene.def.tasks, [&](Crew& crew) { solve(ctx, u, energy, crew); });
-    }
-}
-
 // Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
 constexpr int batch_bodies = 64;
 
@@ -157,25 +144,31 @@ void form_batches(Scratch& scratch)
     set_size(scratch.struck, scratch.wide_rows.size());
 }
 
-void solve_small(StepContext& ctx)
+// All threads on one after the other.
+void solve_large(const StepContext& ctx, Crew& crew)
 {
-    Scratch& scratch = ctx.scratch;
-    const std::vector<std::int32_t>& starts = scratch.order;
-    run_tasks(ctx.scene.def.tasks, static_cast<int>(starts.size()) - 1,
-              [&](int task)
-              {
-                  UnitEnergy energy;
-                  Crew alone;
-                  for (auto u = static_cast<std::size_t>(starts[static_cast<std::size_t>(task)]);
-                       u < static_cast<std::size_t>(starts[static_cast<std::size_t>(task) + 1]); ++u)
-                  {
-                      const Unit& unit = scratch.units[u];
-                      if (unit.alone)
-                          fall(ctx, unit);
-                      else if (!is_large(unit))
-                          solve(ctx, u, energy, alone);
-                  }
-              });
+    UnitEnergy energy;
+    for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
+    {
+        if (is_large(ctx.scratch.units[u]))
+            solve(ctx, u, energy, crew);
+    }
+}
+
+void solve_batch(const StepContext& ctx, int batch)
+{
+    const Scratch& scratch = ctx.scratch;
+    UnitEnergy energy;
+    Crew alone;
+    const auto b = static_cast<std::size_t>(batch);
+    for (auto u = static_cast<std::size_t>(scratch.order[b]); u < static_cast<std::size_t>(scratch.order[b + 1]); ++u)
+    {
+        const Unit& unit = scratch.units[u];
+        if (unit.alone)
+            fall(ctx, unit);
+        else if (!is_large(unit))
+            solve(ctx, u, energy, alone);
+    }
 }
 
 } // namespace
@@ -193,8 +186,13 @@ void solve_units(StepContext& ctx)
     set_size(scratch.unpushed, scratch.states.size());
     set_size(scratch.speeds, scratch.states.size());
     form_batches(scratch);
-    solve_large(ctx);
-    solve_small(ctx);
+    const TaskHooks& tasks = ctx.scene.def.tasks;
+    const int batches = static_cast<int>(scratch.order.size()) - 1;
+    const auto solve_some = [&](int batch) { solve_batch(ctx, batch); };
+    if (std::ranges::any_of(scratch.units, is_large))
+        Crew::run(tasks, [&](Crew& crew) { solve_large(ctx, crew); }, batches, solve_some);
+    else
+        run_tasks(tasks, batches, solve_some);
     ctx.state.rows_stamp = ++scratch.kept_units.stamp;
 }
 

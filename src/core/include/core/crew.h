@@ -20,24 +20,41 @@ public:
     template <class Lead>
     static void run(const TaskHooks& hooks, const Lead& lead)
     {
+        run(hooks, lead, 0, [](int) {});
+    }
+
+    /// The same, and aside(i) for each of 0 ... count: by members that the leader has had
+    /// nothing for in a while, and by all when it is done.
+    template <class Lead, class Aside>
+    static void run(const TaskHooks& hooks, const Lead& lead, int count, const Aside& aside)
+    {
         Crew crew;
-        if (hooks.run == nullptr || hooks.worker_count <= 1)
+        std::atomic<int> next{0};
+        const auto take_aside = [&]
         {
-            lead(crew);
-            return;
-        }
-        crew.m_members = std::min(hooks.worker_count, most_members);
-        run_tasks(hooks, crew.m_members,
+            const int i = next.load(std::memory_order_relaxed) < count ? next.fetch_add(1, std::memory_order_relaxed) : count;
+            if (i < count)
+                aside(i);
+            return i < count;
+        };
+        const bool alone = hooks.run == nullptr || hooks.worker_count <= 1;
+        crew.m_members = alone ? 1 : std::min(hooks.worker_count, most_members);
+        run_tasks(hooks, alone ? 1 : hooks.worker_count,
                   [&](int)
                   {
                       const int member = crew.m_arrived++;
-                      if (member > 0)
+                      if (member == 0)
                       {
-                          crew.serve(member);
-                          return;
+                          lead(crew);
+                          crew.m_over.store(true, std::memory_order_release);
                       }
-                      lead(crew);
-                      crew.m_over.store(true, std::memory_order_release);
+                      else if (member < crew.m_members)
+                      {
+                          crew.serve(member, take_aside);
+                      }
+                      while (take_aside())
+                      {
+                      }
                   });
     }
 
@@ -112,7 +129,8 @@ public:
 
 private:
     static constexpr int most_members = 16;
-    static constexpr int looks_at_own = 64; // before a member looks for parts of others
+    static constexpr int looks_at_own = 64;   // before a member looks for parts of others
+    static constexpr int looks_at_all = 1024; // before it takes what is to be done aside: some microseconds
 
     using Call = void (*)(const void*, int, int);
 
@@ -136,14 +154,16 @@ private:
         return true;
     }
 
-    void serve(int member)
+    template <class TakeAside>
+    void serve(int member, const TakeAside& take_aside)
     {
         for (int look = 1; !m_over.load(std::memory_order_acquire); ++look)
         {
-            if (take(member) || look % looks_at_own != 0)
-                continue;
-            for (int p = 1; p < m_members; ++p)
-                take(p);
+            bool took = take(member);
+            for (int p = 1; !took && look % looks_at_own == 0 && p < m_members; ++p)
+                took = take(p);
+            if (took || (look % looks_at_all == 0 && take_aside()))
+                look = 0;
         }
     }
 
