@@ -62,15 +62,17 @@ void note_reach(const FlightSpan& span, std::int32_t state)
             reach_of(span, span.scratch.fliers[static_cast<std::size_t>(f)].body);
 }
 
-// Others near a struck body of the solver's may now meet it sooner: of two bodies of one shape, in their contact.
-void reconsider_neighbours(const FlightSpan& span, std::int32_t struck)
+// Others near a struck body of the solver's may now meet it sooner: of two bodies of one shape, in their contact. What has changed as well looks for
+// itself.
+void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::span<const std::int32_t> changed)
 {
     const int body = span.scratch.state_bodies[static_cast<std::size_t>(struck)];
     const SceneState& state = span.state;
     const auto has_one_shape = [&](int b) { return state.bodies[b].first_shape == state.bodies[b].last_shape; };
     for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
     {
-        if (Flier* f = span.flier_at(span.state_in_unit(other_body(state.contacts[edge >> 1], body))))
+        Flier* f = span.flier_at(span.state_in_unit(other_body(state.contacts[edge >> 1], body)));
+        if (f != nullptr && std::ranges::find(changed, f->state) == changed.end())
             has_one_shape(body) && has_one_shape(f->body) ? reconsider(span, *f, struck, edge >> 1) : find_next_event(span, *f);
     }
 }
@@ -106,7 +108,7 @@ void process(const FlightSpan& span, Flier& f)
         if (Flier* flier = span.flier_at(s))
             is_capped(span, *flier) ? reconsider_those_near(span, *flier) : find_next_event(span, *flier);
         else
-            reconsider_neighbours(span, s);
+            reconsider_neighbours(span, s, changed);
     }
 }
 
