@@ -31,6 +31,8 @@ constexpr std::size_t fliers_per_task = 256;
 constexpr std::size_t reaches_per_task = 16; // blocks of eight
 constexpr float calm_swing = 0.1f;           // rad, in a step
 constexpr int enough_bodies = 256;           // in a unit of heaps, or of bodies that are alone
+constexpr std::size_t enough_joints = 8;     // in a heap
+constexpr int most_sets = 4;                 // that are linked side by side
 
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
@@ -39,19 +41,19 @@ bool gets_rows(const SceneState& state, const Contact& contact)
     return is_solved(contact) && (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
 }
 
-// Calls visit(first, last, unit) where items that follow each other are of one unit, not none. Neighbours mostly are.
+// Calls visit(run) where items first ... last that follow each other are of one unit, not none. Neighbours mostly are.
 template <class UnitOf, class Visit>
-void for_each_run(std::size_t count, const UnitOf& unit_of, const Visit& visit)
+void for_each_run(std::size_t first, std::size_t last, const UnitOf& unit_of, const Visit& visit)
 {
-    for (std::size_t first = 0; first < count;)
+    while (first < last)
     {
         const std::int32_t unit = unit_of(first);
-        std::size_t last = first + 1;
-        while (last < count && unit_of(last) == unit)
-            ++last;
+        std::size_t end = first + 1;
+        while (end < last && unit_of(end) == unit)
+            ++end;
         if (unit != none)
-            visit(first, last, unit);
-        first = last;
+            visit(UnitRun{unit, static_cast<std::int32_t>(first), static_cast<std::int32_t>(end - first)});
+        first = end;
     }
 }
 
@@ -62,29 +64,37 @@ class UnitGraph
 public:
     explicit UnitGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
+    // On all threads, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
     void link_units()
     {
-        const bool shared = ctx.scene.def.tasks.worker_count > 1;
-        const auto guess = [&](std::int32_t a, std::int32_t b) { scratch.sets.guess(a, b); };
-        const auto link = [&](std::int32_t a, std::int32_t b) { scratch.sets.link(a, b, shared); };
-        scratch.sets.reset(state.awake_bodies.size());
-        for_both_ends(scratch.links, guess);
-        for_both_ends(scratch.joint_links, guess);
-        scratch.sets.flatten();
-        for_both_ends(scratch.links, link);
-        for_both_ends(scratch.joint_links, link);
+        const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, most_sets);
+        if (scratch.more_sets.size() + 1 < static_cast<std::size_t>(parts))
+            scratch.more_sets.resize(static_cast<std::size_t>(parts) - 1);
+        const auto sets_of = [&](int part) -> UnionFind&
+        { return part == 0 ? scratch.sets : scratch.more_sets[static_cast<std::size_t>(part) - 1]; };
+        run_tasks(ctx.scene.def.tasks, parts, [&](int part) { link_part(part, parts, sets_of(part)); });
+        for (int part = 1; part < parts; ++part)
+            scratch.sets.link_all(sets_of(part));
     }
 
-    // Of all links, on all threads. What is not dynamic has no place: it is negative.
-    template <class AnyLink, class Visit>
-    void for_both_ends(const std::vector<AnyLink>& links, const Visit& visit) const
+    void link_part(int part, int parts, UnionFind& sets)
     {
-        run_parts(ctx.scene.def.tasks, links.size(), links_per_task,
-                  [&](std::size_t first, std::size_t last)
-                  {
-                      for (const AnyLink& l : std::span(links).subspan(first, last - first))
-                          visit(l.a, l.b);
-                  });
+        const auto over_both_ends = [&](const auto& links, const auto& visit)
+        {
+            const auto bound = [&](int p)
+            { return links.size() * static_cast<std::size_t>(p) / static_cast<std::size_t>(parts); };
+            for (const auto& l : std::span(links).subspan(bound(part), bound(part + 1) - bound(part)))
+                visit(l.a, l.b); // what is not dynamic has no place: it is negative
+        };
+        const auto guess = [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); };
+        const auto link = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
+        sets.reset(state.awake_bodies.size());
+        over_both_ends(scratch.links, guess);
+        over_both_ends(scratch.joint_links, guess);
+        sets.flatten();
+        over_both_ends(scratch.links, link);
+        over_both_ends(scratch.joint_links, link);
+        sets.flatten();
     }
 
     // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
@@ -125,7 +135,7 @@ public:
     // Who bears matters to heaps.
     void count_contacts()
     {
-        if (state.joints.count() == 0)
+        if (scratch.joint_links.size() < enough_joints)
             return;
         for (const Link& l : scratch.links)
         {
@@ -243,8 +253,12 @@ public:
         ctx.report.units = static_cast<int>(scratch.tallies.size());
         if (scratch.units.size() == scratch.tallies.size())
             return;
-        for (std::int32_t& u : scratch.unit_of)
-            u = u == none ? none : unit_of_group[static_cast<std::size_t>(u)];
+        for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+                          [&](std::size_t place)
+                          {
+                              std::int32_t& u = scratch.unit_of[place];
+                              u = u == none ? none : unit_of_group[static_cast<std::size_t>(u)];
+                          });
     }
 
     struct Batch
@@ -300,7 +314,8 @@ public:
         const bool calm = t.slices == 1;
         const bool lies = 4 * t.bearing >= t.joints && calm;
         const bool wearies = t.damped == t.joints && (t.contacts == 0 || (calm && ctx.dt * t.swing < calm_swing));
-        return t.joints >= 8 && t.bodies <= UnitEnergy::most_bodies && !t.hangs && t.fliers == 0 && (lies || wearies);
+        return static_cast<std::size_t>(t.joints) >= enough_joints && t.bodies <= UnitEnergy::most_bodies && !t.hangs &&
+               t.fliers == 0 && (lies || wearies);
     }
 
     // How fast a joint's arms turn, in rad/s.
@@ -474,8 +489,8 @@ public:
             }
         }
         for_each_run(
-            n, [&](std::size_t i) { return scratch.unit_of[i]; }, [&](std::size_t first, std::size_t last, std::int32_t unit)
-            { tally(unit).bodies += static_cast<std::int32_t>(last - first); });
+            0, n, [&](std::size_t i) { return scratch.unit_of[i]; },
+            [&](const UnitRun& run) { tally(run.unit).bodies += run.count; });
     }
 
     // Bodies in flight meet things at their own time; a row would stop them early.
@@ -514,7 +529,7 @@ public:
     void sort_links()
     {
         sort_by_unit(
-            scratch.links, scratch.solved_links, scratch.unit_starts[0], [&](std::size_t i) { return scratch.unit_of_link[i]; },
+            scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
             [](Unit& unit, int first, int count)
             {
                 unit.first_link = first;
@@ -525,7 +540,7 @@ public:
     void sort_joints()
     {
         sort_by_unit(
-            scratch.joint_links, scratch.solved_joints, scratch.unit_starts[1],
+            scratch.joint_links, scratch.solved_joints, joints_per_task,
             [&](std::size_t i) { return unit_of_link(scratch.joint_links[i]); },
             [](Unit& unit, int first, int count)
             {
@@ -538,7 +553,7 @@ public:
     void sort_bodies()
     {
         sort_by_unit(
-            scratch.in_plane, scratch.solved_bodies, scratch.unit_starts[1],
+            scratch.in_plane, scratch.solved_bodies, bodies_per_task,
             [&](std::size_t i) { return scratch.unit_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
             [](Unit& unit, int first, int count)
             {
@@ -573,29 +588,46 @@ private:
         return none;
     }
 
-    // A stable counting sort of items by unit_of(index): fills `sorted` and calls set_range(unit, first, count). Where unit_of says none, the item is
-    // left out.
+    // A stable counting sort of items by unit_of(index), a run of one unit after the other: fills `sorted` and calls set_range(unit, first, count). Where
+    // unit_of says none, the item is left out.
     template <class Item, class UnitOf, class SetRange>
-    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, std::vector<std::int32_t>& starts,
+    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, std::size_t items_per_task,
                       const UnitOf& unit_of, const SetRange& set_range)
     {
+        using Runs = std::vector<UnitRun>;
+        const TaskHooks& tasks = ctx.scene.def.tasks;
+        const std::span<Runs> parts =
+            find_in_parts(tasks, items.size(), items_per_task, scratch.runs_of_task,
+                          [&](std::size_t first, std::size_t last, Runs& runs)
+                          {
+                              runs.clear();
+                              for_each_run(first, last, unit_of, [&](const UnitRun& run) { runs.push_back(run); });
+                          });
+        std::vector<std::int32_t>& starts = scratch.unit_starts;
         starts.assign(scratch.units.size() + 1, 0);
-        for_each_run(items.size(), unit_of, [&](std::size_t first, std::size_t last, std::int32_t unit)
-                     { starts[static_cast<std::size_t>(unit) + 1] += static_cast<std::int32_t>(last - first); });
+        for (const Runs& runs : parts)
+        {
+            for (const UnitRun& run : runs)
+                starts[static_cast<std::size_t>(run.unit) + 1] += run.count;
+        }
         for (std::size_t u = 0; u < scratch.units.size(); ++u)
         {
             set_range(scratch.units[u], starts[u], starts[u + 1]);
             starts[u + 1] += starts[u];
         }
-        set_size(sorted, static_cast<std::size_t>(starts.back()));
-        for_each_run(items.size(), unit_of,
-                     [&](std::size_t first, std::size_t last, std::int32_t unit)
-                     {
-                         std::int32_t& start = starts[static_cast<std::size_t>(unit)];
-                         for (std::size_t i = first; i < last; ++i)
-                             sorted[static_cast<std::size_t>(start) + i - first] = items[i];
-                         start += static_cast<std::int32_t>(last - first);
-                     });
+        for (Runs& runs : parts)
+        {
+            for (UnitRun& run : runs)
+                run.sorted_first = std::exchange(starts[static_cast<std::size_t>(run.unit)],
+                                                 starts[static_cast<std::size_t>(run.unit)] + run.count);
+        }
+        set_size(sorted, static_cast<std::size_t>(starts[scratch.units.empty() ? 0 : scratch.units.size() - 1]));
+        run_tasks(tasks, static_cast<int>(parts.size()),
+                  [&](int task)
+                  {
+                      for (const UnitRun& run : parts[static_cast<std::size_t>(task)])
+                          std::ranges::copy(run.of(items), sorted.begin() + run.sorted_first);
+                  });
     }
 
     StepContext& ctx;
@@ -608,9 +640,8 @@ private:
 void build_unit_graph(StepContext& ctx)
 {
     UnitGraph graph(ctx);
-    const TaskHooks& tasks = ctx.scene.def.tasks;
     graph.link_units();
-    run_both(tasks, [&] { graph.number_units(); }, [&] { graph.sort_by_cell(); });
+    run_both(ctx.scene.def.tasks, [&] { graph.number_units(); }, [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
     if (graph.link_deflected())
     {
@@ -621,13 +652,9 @@ void build_unit_graph(StepContext& ctx)
     graph.choose_slices();
     graph.form_units();
     graph.find_units_of_links();
-    run_both(
-        tasks, [&] { graph.sort_links(); },
-        [&]
-        {
-            graph.sort_joints();
-            graph.sort_bodies();
-        });
+    graph.sort_links();
+    graph.sort_joints();
+    graph.sort_bodies();
     ctx.state.graph_dirty = false;
 }
 

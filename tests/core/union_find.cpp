@@ -106,17 +106,31 @@ TEST(CoreUnionFind, ThreadsSideBySideFindTheSameRoots)
 TEST(CoreUnionFind, GuessesLeaveLessToLinkAndChangeNoRoot)
 {
     const Links links = random_links(11, 1500);
-    for (int run = 0; run < 20; ++run)
+    UnionFind sets;
+    sets.reset(size);
+    for (const auto& [a, b] : links)
+        sets.guess(a, b);
+    sets.flatten();
+    std::atomic<int> joined = 0;
+    on_four_threads(links, [&](std::int32_t a, std::int32_t b) { joined += sets.link(a, b, true) ? 1 : 0; });
+    EXPECT_EQ(roots(sets), spread(links));
+    EXPECT_LT(joined, 700);
+}
+
+TEST(CoreUnionFind, WhatOthersHaveLinkedIsTakenOver)
+{
+    const Links links = random_links(13, 1500);
+    UnionFind sets[3];
+    for (std::size_t part = 0; part < 3; ++part)
     {
-        UnionFind sets;
-        sets.reset(size);
-        on_four_threads(links, [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); });
-        sets.flatten();
-        std::atomic<int> joined = 0;
-        on_four_threads(links, [&](std::int32_t a, std::int32_t b) { joined += sets.link(a, b, true) ? 1 : 0; });
-        EXPECT_EQ(roots(sets), spread(links));
-        EXPECT_LT(joined, 700);
+        sets[part].reset(size);
+        for (std::size_t i = part; i < links.size(); i += 3)
+            sets[part].link(links[i].first, links[i].second, false);
+        sets[part].flatten();
     }
+    sets[0].link_all(sets[1]);
+    sets[0].link_all(sets[2]);
+    EXPECT_EQ(roots(sets[0]), spread(links));
 }
 
 TEST(CoreUnionFind, WhoIsLinkedToNobodyStaysAlone)

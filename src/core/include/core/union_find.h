@@ -22,16 +22,15 @@ public:
     }
 
     /// Before anything is linked: the later one hangs under the other, whatever it hung under until now. So most links are known by a store each, and
-    /// where neighbours have near numbers few sets are left to be linked. Negative: nobody. Threads may do so side by side.
+    /// where neighbours have near numbers few sets are left to be linked. Negative: nobody.
     void guess(std::int32_t a, std::int32_t b)
     {
         const std::int32_t under = std::min(a, b);
         const auto nobody = static_cast<std::int32_t>(m_parents.size()) - 1;
-        parent(under >= 0 ? std::max(a, b) : nobody)
-            .store(under, std::memory_order_relaxed); // no branch: it would be guessed wrong
+        m_parents[static_cast<std::size_t>(under >= 0 ? std::max(a, b) : nobody)] = under; // no branch: it would be guessed wrong
     }
 
-    /// After guessing: everyone hangs right under a root.
+    /// Everyone hangs right under a root.
     void flatten()
     {
         for (std::size_t i = 0; i + 1 < m_parents.size(); ++i)
@@ -44,6 +43,16 @@ public:
         a = a >= 0 ? a : b;
         b = b >= 0 ? b : a;
         return above(above(a)) != above(above(b)) && join(a, b, shared); // most hang together already
+    }
+
+    /// Whoever hangs together in `other`, which is as large; both have been flattened.
+    void link_all(const UnionFind& other)
+    {
+        for (std::size_t i = 0; i + 1 < other.m_parents.size(); ++i)
+        {
+            if (m_parents[i] != other.m_parents[i])
+                link(static_cast<std::int32_t>(i), other.m_parents[i], false);
+        }
     }
 
     [[nodiscard]] std::int32_t root(std::int32_t i)

@@ -198,6 +198,21 @@ struct UnitTally
     std::int32_t slices = 1;  ///< of each sub-step
 };
 
+/// Neighbours in a list that are of one unit.
+struct UnitRun
+{
+    std::int32_t unit;
+    std::int32_t first;
+    std::int32_t count;
+    std::int32_t sorted_first = 0; ///< where they go when the list is sorted by unit
+
+    template <class Item>
+    [[nodiscard]] std::span<const Item> of(const std::vector<Item>& items) const
+    {
+        return std::span(items).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+    }
+};
+
 inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
 
 /// Joint of a dynamic body, or of two, that takes part in a step.
@@ -404,6 +419,7 @@ struct Scratch
     std::vector<std::int32_t> placed;            ///< bodies that have one
     std::vector<float> swings;                   ///< of joint_links, see UnitTally::swing
     UnionFind sets;                              ///< of what hangs together, by place in awake_bodies
+    std::vector<UnionFind> more_sets;            ///< of parts of the links
     std::vector<std::int32_t> unit_of;           ///< by place in awake_bodies
     std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
@@ -425,10 +441,11 @@ struct Scratch
     std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
     std::vector<UnitTally> tallies;
-    std::vector<std::int32_t> unit_starts[2]; ///< for two that sort by unit side by side
-    std::vector<std::int32_t> unit_of_link;   ///< none: it gets no row
-    std::vector<std::int32_t> in_plane;       ///< places in awake_bodies, in the order of the plane
-    std::vector<Link> solved_links;           ///< those that get rows, by unit
+    std::vector<std::int32_t> unit_starts;
+    std::vector<std::vector<UnitRun>> runs_of_task;
+    std::vector<std::int32_t> unit_of_link; ///< none: it gets no row
+    std::vector<std::int32_t> in_plane;     ///< places in awake_bodies, in the order of the plane
+    std::vector<Link> solved_links;         ///< those that get rows, by unit
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
