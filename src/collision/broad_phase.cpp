@@ -3,12 +3,14 @@
 #include "core/grow.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t items_per_task = 2048;
+constexpr std::size_t items_per_task = 1024;
 
 } // namespace
 
@@ -127,7 +129,7 @@ void BroadPhase::fit_moving(const TaskHooks& tasks)
     if (++m_fits < fits_per_sort && forest.trees.size() == 1 && forest.recent.empty())
         forest.trees[0].refit(tasks, [&](std::int32_t item) { return box(item); });
     else
-        rebuild(forest, 0);
+        rebuild(tasks, forest, 0);
     set_size(m_past, static_cast<std::size_t>(block_count()));
 }
 
@@ -192,7 +194,7 @@ void BroadPhase::take_out(int item)
     tree.remove(leaf.index);
     leaf = {};
     if (tree.live_count() * 2 < tree.leaf_count())
-        rebuild(forest, t);
+        rebuild({}, forest, t);
 }
 
 // Takes along every tree that is not at least twice as large as all that is merged after it.
@@ -202,37 +204,37 @@ void BroadPhase::merge_recent(Forest& forest)
     std::size_t size = forest.recent.size();
     while (from > 0 && static_cast<std::size_t>(forest.trees[from - 1].live_count()) < 2 * size)
         size += static_cast<std::size_t>(forest.trees[--from].live_count());
-    rebuild(forest, from);
+    rebuild({}, forest, from);
 }
 
-void BroadPhase::rebuild(Forest& forest, std::size_t from_tree)
+// The trees from from_tree on, and what is in none yet, become one.
+void BroadPhase::rebuild(const TaskHooks& tasks, Forest& forest, std::size_t from_tree)
 {
-    const auto leaf_of = [&](std::int32_t item) { return TreeLeaf{box(item), item, m_filters[static_cast<std::size_t>(item)]}; };
-    std::vector<TreeLeaf> leaves;
+    std::vector<std::int32_t> items;
     for (std::size_t t = from_tree; t < forest.trees.size(); ++t)
-    {
-        const BoxTree& tree = forest.trees[t];
-        for (int i = 0; i < tree.leaf_count(); ++i)
-        {
-            if (const std::int32_t item = tree.item(i); item >= 0)
-                leaves.push_back(leaf_of(item));
-        }
-    }
-    for (const std::int32_t item : forest.recent)
-        leaves.push_back(leaf_of(item));
+        std::ranges::copy_if(forest.trees[t].items(), std::back_inserter(items), [](std::int32_t item) { return item >= 0; });
+    append_all(items, forest.recent);
     forest.recent.clear();
-    forest.trees.resize(from_tree);
     if (&forest == &m_forests[0])
         m_fits = 0;
-    if (leaves.empty())
+    forest.trees.resize(items.empty() ? from_tree : from_tree + 1);
+    if (items.empty())
         return;
-    forest.trees.emplace_back();
+    std::vector<TreeLeaf> leaves(items.size());
+    for_each_in_parts(tasks, items.size(), items_per_task,
+                      [&](std::size_t i)
+                      {
+                          const std::int32_t item = items[i];
+                          leaves[i] = {box(item), item, m_filters[static_cast<std::size_t>(item)]};
+                      });
     BoxTree& tree = forest.trees.back();
-    tree.build(leaves);
-    for (int i = 0; i < tree.leaf_count(); ++i)
-    {
-        m_leaves[static_cast<std::size_t>(tree.item(i))] = {static_cast<std::int32_t>(from_tree), i};
-    }
+    tree.build(tasks, leaves);
+    for_each_in_parts(tasks, leaves.size(), items_per_task,
+                      [&](std::size_t i)
+                      {
+                          const int leaf = static_cast<int>(i);
+                          m_leaves[static_cast<std::size_t>(tree.item(leaf))] = {static_cast<std::int32_t>(from_tree), leaf};
+                      });
 }
 
 } // namespace carom::internal

@@ -40,7 +40,7 @@ void part_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     HilbertOrder& order = ctx.scratch.plane_order;
-    order.sort(state.awake_bodies.size(),
+    order.sort(ctx.scene.def.tasks, state.awake_bodies.size(),
                [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
     const std::span<const HilbertOrder::Key> keys = order.keys();
     const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * plane_cells / keys.size()); };

@@ -363,7 +363,7 @@ public:
         scratch.may_be_struck = scratch.is_deflected;
         if (scratch.reaches.empty())
             return false;
-        scratch.reach_tree.build(scratch.reaches);
+        scratch.reach_tree.build(ctx.scene.def.tasks, scratch.reaches);
         using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
         const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
         const std::span<Meetings> parts =

@@ -31,7 +31,7 @@ TEST(CollisionBoxTree, QueriesAgreeWithBruteForce)
         for (int i = 0; i < n; ++i)
             leaves.push_back({random_box(random, 20), i});
         BoxTree tree;
-        tree.build(leaves);
+        tree.build({}, leaves);
         EXPECT_EQ(tree.live_count(), n);
         for (int q = 0; q < 300; ++q)
         {
@@ -68,7 +68,7 @@ TEST(CollisionBoxTree, AQueryLooksAtFewNodes)
                 {{static_cast<float>(x), static_cast<float>(y), static_cast<float>(x + 0.5), static_cast<float>(y + 0.5)}, i});
         }
         BoxTree tree;
-        tree.build(leaves);
+        tree.build({}, leaves);
         long tests = 0;
         for (const TreeLeaf& leaf : leaves)
             tree.descend(

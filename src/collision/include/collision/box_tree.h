@@ -86,7 +86,7 @@ public:
     static constexpr std::size_t blocks_per_task = 64;
     static constexpr int max_levels = 12; // 8^11 leaves
 
-    void build(std::span<const TreeLeaf> leaves);
+    void build(const TaskHooks& tasks, std::span<const TreeLeaf> leaves);
     /// New boxes for all leaves, in the order in which they are: box_of(item).
     template <class BoxOf>
     void refit(const TaskHooks& tasks, const BoxOf& box_of)
@@ -113,6 +113,8 @@ public:
 
     [[nodiscard]] int leaf_count() const { return static_cast<int>(m_items.size()); }
     [[nodiscard]] int live_count() const { return m_live; }
+    /// Of the leaves.
+    [[nodiscard]] std::span<const std::int32_t> items() const { return m_items; }
     /// -1 where it was removed.
     [[nodiscard]] std::int32_t item(int leaf) const { return m_items[static_cast<std::size_t>(leaf)]; }
     [[nodiscard]] FloatBox box(int leaf) const { return block(leaf / arity).box(leaf % arity); }

@@ -281,7 +281,7 @@ private:
     void add_recent(int item, Layer layer);
     void take_out(int item);
     void merge_recent(Forest& forest);
-    void rebuild(Forest& forest, std::size_t from_tree);
+    void rebuild(const TaskHooks& tasks, Forest& forest, std::size_t from_tree);
 
     std::vector<BoxPlace> m_places;
     std::vector<Leaf> m_leaves;        ///< by item, as the places

@@ -3,12 +3,14 @@
 // Points of the plane along a Hilbert curve: what is near in the order is near in the plane, and mostly the other way round.
 
 #include "core/grow.h"
+#include "core/task_pool.h"
 #include "geometry/bounds.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace carom::internal {
@@ -24,23 +26,19 @@ public:
 
     /// Sorts 0 ... count by where the points at(i) lie in their bounding square, 65536 cells a side; of those in one cell the least comes first.
     template <class At>
-    void sort(std::size_t count, const At& at)
+    void sort(const TaskHooks& tasks, std::size_t count, const At& at)
     {
-        FloatBox around;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            const Vec2 p = at(i);
-            around = unite(around, {p.x, p.y, p.x, p.y});
-        }
+        const FloatBox around = bounds_of(tasks, count, at);
         const float width = std::fmax(around.ux - around.lx, around.uy - around.ly);
         const float scale = width > 0 ? 65535 / width : 0;
         set_size(m_keys, count);
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            const Vec2 p = at(i);
-            const std::uint32_t code = along_curve(cell(p.x, around.lx, scale), cell(p.y, around.ly, scale));
-            m_keys[i] = {code, static_cast<std::uint32_t>(i)};
-        }
+        for_each_in_parts(tasks, count, points_per_task,
+                          [&](std::size_t i)
+                          {
+                              const Vec2 p = at(i);
+                              const std::uint32_t code = along_curve(cell(p.x, around.lx, scale), cell(p.y, around.ly, scale));
+                              m_keys[i] = {code, static_cast<std::uint32_t>(i)};
+                          });
         radix_sort();
     }
 
@@ -108,23 +106,53 @@ private:
         return g > 0 ? static_cast<std::uint32_t>(g < 65535 ? g : 65535) : 0;
     }
 
-    // Least significant digit first, 8 bits a pass; stable, so that equal codes keep the order they came in.
+    template <class At>
+    FloatBox bounds_of(const TaskHooks& tasks, std::size_t count, const At& at)
+    {
+        FloatBox all;
+        for (const FloatBox& some : find_in_parts(tasks, count, points_per_task, m_bounds,
+                                                  [&](std::size_t first, std::size_t last, FloatBox& around)
+                                                  {
+                                                      around = {};
+                                                      for (std::size_t i = first; i < last; ++i)
+                                                      {
+                                                          const Vec2 p = at(i);
+                                                          around = unite(around, {p.x, p.y, p.x, p.y});
+                                                      }
+                                                  }))
+            all = unite(all, some);
+        return all;
+    }
+
+    // Least significant digit first; stable, so that equal codes keep the order they came in.
     void radix_sort()
     {
-        set_size(m_other, m_keys.size());
-        for (int shift = 0; shift < 32; shift += 8)
+        std::uint32_t counts[digits][digit_values] = {};
+        for (const Key& k : m_keys)
         {
-            std::uint32_t counts[257] = {};
+            for (int d = 0; d < digits; ++d)
+                ++counts[d][digit(k, d)];
+        }
+        set_size(m_other, m_keys.size());
+        for (int d = 0; d < digits; ++d)
+        {
+            std::uint32_t start = 0;
+            for (std::uint32_t& count : counts[d])
+                start += std::exchange(count, start);
             for (const Key& k : m_keys)
-                ++counts[((k.code >> shift) & 255u) + 1];
-            for (int i = 0; i < 256; ++i)
-                counts[i + 1] += counts[i];
-            for (const Key& k : m_keys)
-                m_other[counts[(k.code >> shift) & 255u]++] = k;
+                m_other[counts[d][digit(k, d)]++] = k;
             m_keys.swap(m_other);
         }
     }
 
+    static std::uint32_t digit(const Key& k, int d) { return k.code >> (d * digit_bits) & (digit_values - 1); }
+
+    static constexpr int digit_bits = 11;
+    static constexpr int digits = 3;
+    static constexpr std::uint32_t digit_values = 1u << digit_bits;
+    static constexpr std::size_t points_per_task = 1024;
+
+    std::vector<FloatBox> m_bounds; ///< of parts
     std::vector<Key> m_keys;
     std::vector<Key> m_other;
 };
