@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <utility>
 
 namespace carom::internal {
 
@@ -123,6 +124,7 @@ bool follow_rows(StepContext& ctx)
     Scratch& scratch = ctx.scratch;
     KeptUnits& kept = scratch.kept_units;
     kept.rows_stay = false;
+    const std::uint64_t stayed_for = std::exchange(kept.rows_stayed_for, 0);
     scratch.is_looked_at.clear();
     const bool are_of_this_state = ctx.state.rows_stamp != 0 && kept.stamp == ctx.state.rows_stamp;
     ctx.state.rows_stamp = 0; // until they have been solved
@@ -132,9 +134,11 @@ bool follow_rows(StepContext& ctx)
     scratch.borne.assign(scratch.state_bodies.size(), 0);
     scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
     kept.rows_stay = are_in_place(ctx) && loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
-    if (kept.rows_stay)
-        scratch.is_looked_at.clear();
-    return kept.rows_stay;
+    if (!kept.rows_stay)
+        return false;
+    scratch.is_looked_at.clear();
+    kept.rows_stayed_for = stayed_for + 1;
+    return true;
 }
 
 void keep_rows(StepContext& ctx)

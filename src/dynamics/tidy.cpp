@@ -59,14 +59,14 @@ class ContactOrder
 public:
     explicit ContactOrder(StepContext& ctx)
         : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order), m_sorted(ctx.scratch.sorted_contacts),
-          m_moved_to(ctx.scratch.moved_to), m_tasks(ctx.scene.def.tasks)
+          m_bodies(ctx.scratch.moved_to), m_moved_to(ctx.scratch.moved_to), m_tasks(ctx.scene.def.tasks)
     {}
 
     void find()
     {
+        find_bodies();
         m_order.clear();
         make_room(m_order, m_state.awake_contacts.size());
-        m_scratch.order.assign(m_state.awake_contacts.size(), 0); // placed already
         for (const Unit& unit : m_scratch.units)
         {
             const auto lanes = std::span(m_scratch.lane_links);
@@ -109,6 +109,20 @@ public:
     }
 
 private:
+    // Places in awake_bodies, by contact; negative: it is not awake.
+    void find_bodies()
+    {
+        m_bodies.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
+        for_each_in_parts(m_tasks, m_state.awake_contacts.size(), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t contact = m_state.awake_contacts[i];
+                              const Contact& c = m_state.contacts[contact];
+                              const std::int32_t body = is_moving_dynamic(m_state, c.body_a) ? c.body_a : c.body_b;
+                              m_bodies[as_index(contact)] = std::max(m_state.bodies[body].awake_index, 0);
+                          });
+    }
+
     // Of links that are solved one colour after the other.
     void place(std::span<const std::int32_t> links)
     {
@@ -130,19 +144,17 @@ private:
 
     void place(std::int32_t contact)
     {
-        const Contact& c = m_state.contacts[contact];
-        if (!m_state.contacts.is_live(contact) || c.awake_index == none || (c.flags & contact_flag::trigger) != 0 ||
-            std::exchange(m_scratch.order[static_cast<std::size_t>(c.awake_index)], 1) != 0)
+        std::int32_t& body = m_bodies[as_index(contact)];
+        if (body < 0)
             return;
+        body = ~body; // it has been placed
         m_order.push_back({m_color, contact});
     }
 
-    // Place in awake_bodies.
+    // Of what has been placed.
     [[nodiscard]] std::uint32_t body_of(const ContactPlace& p) const
     {
-        const Contact& c = m_state.contacts[p.contact];
-        const std::int32_t body = m_state.bodies[is_moving_dynamic(m_state, c.body_a) ? c.body_a : c.body_b].awake_index;
-        return static_cast<std::uint32_t>(std::max(body, 0));
+        return static_cast<std::uint32_t>(~m_bodies[as_index(p.contact)]);
     }
 
     // By counting; those with the same key stay in order.
@@ -289,7 +301,8 @@ private:
     Scratch& m_scratch;
     std::vector<ContactPlace>& m_order;
     std::vector<ContactPlace>& m_sorted;
-    std::vector<std::int32_t>& m_moved_to;
+    std::vector<std::int32_t>& m_bodies;   ///< by contact slot, while the order is found
+    std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, once it is
     const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
     Link m_last; ///< placed among those of one unit
@@ -303,6 +316,8 @@ void tidy(StepContext& ctx)
         return;
     sort_bodies(ctx.state);
     part_bodies(ctx);
+    if (ctx.scratch.kept_units.rows_stayed_for >= steps_between)
+        return; // in the order that they were left in
     ContactOrder order(ctx);
     order.find();
     if (order.is_kept_already())

@@ -250,6 +250,7 @@ struct KeptUnits
     bool has_hung = false;              ///< as Scratch::has_hung when links of joints were gathered
     bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
     bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
+    std::uint64_t rows_stayed_for = 0;  ///< so many steps, this one among them
     std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
     std::vector<std::int32_t> contacts; ///< the awake ones, when the rows were filled
     std::vector<std::int32_t> loose;    ///< of these, those without a lane
