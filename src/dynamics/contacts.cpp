@@ -127,10 +127,11 @@ void inherit_load(StepContext& ctx, int index)
                      [&](int other_index)
                      {
                          Contact& other = state.contacts[other_index];
+                         if ((other.flags & contact_flag::loaded) == 0 || other.manifold.count > 0)
+                             return;
                          const int other_piece = piece_is_a ? other.shape_a : other.shape_b;
                          const int other_visitor = piece_is_a ? other.shape_b : other.shape_a;
-                         if (other_visitor != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner ||
-                             (other.flags & contact_flag::loaded) == 0 || other.manifold.count > 0)
+                         if (other_visitor != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner)
                              return;
                          contact.flags |= contact_flag::loaded;
                          other.flags &= ~contact_flag::loaded;
