@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t blocks_per_task = 32;
 constexpr std::size_t boxes_per_task = 2048;
+constexpr std::size_t fresh_per_task = 16;
 
 using Pairs = std::vector<std::uint64_t>;
 
@@ -53,23 +54,23 @@ void offer_changed(const StepContext& ctx, int shape, int other, Pairs& pairs)
         offer_pair(ctx, shape, other, pairs);
 }
 
-void look_at_half_spaces(StepContext& ctx, int shape, const FloatBox& box)
+void look_at_half_spaces(const StepContext& ctx, int shape, const FloatBox& box, Pairs& pairs)
 {
     for (const std::int32_t half_space : ctx.state.broad_phase.unbounded())
     {
         if (reaches_half_space(ctx.state, half_space, box, 0))
-            offer_pair(ctx, shape, half_space, ctx.scratch.new_pairs);
+            offer_pair(ctx, shape, half_space, pairs);
     }
 }
 
 // All pairs of a shape, known or not.
-void look_around(StepContext& ctx, int shape, const FloatBox& box)
+void look_around(const StepContext& ctx, int shape, const FloatBox& box, Pairs& pairs)
 {
     const SceneState& state = ctx.state;
     const BroadPhase& broad_phase = state.broad_phase;
     const auto offer = [&](int other)
     {
-        offer_pair(ctx, shape, other, ctx.scratch.new_pairs);
+        offer_pair(ctx, shape, other, pairs);
         return true;
     };
     if (state.shapes[shape].leaf.type == LeafType::HalfSpace)
@@ -81,7 +82,7 @@ void look_around(StepContext& ctx, int shape, const FloatBox& box)
     }
     broad_phase.query(Layer::Moving, box, offer);
     broad_phase.query(Layer::Resting, box, offer);
-    look_at_half_spaces(ctx, shape, box);
+    look_at_half_spaces(ctx, shape, box, pairs);
 }
 
 // What tasks find stands in their order, whoever does them.
@@ -172,31 +173,62 @@ void look_around_moved(StepContext& ctx)
 }
 
 // Their pairs are found again, but for those that have a contact.
-void forget_pairs_of_fresh(SceneState& state)
+void forget_pairs_of_fresh(StepContext& ctx)
 {
+    SceneState& state = ctx.state;
+    std::vector<BoxPair>& pairs = state.box_pairs;
+    using Places = std::vector<std::int32_t>;
+    const std::span<Places> parts =
+        find_in_parts(ctx.scene.def.tasks, pairs.size(), boxes_per_task, ctx.scratch.forgotten_of_task,
+                      [&](std::size_t first, std::size_t last, Places& forgotten)
+                      {
+                          forgotten.clear();
+                          for (std::size_t i = first; i < last; ++i)
+                          {
+                              if (pairs[i].contact == none && (is_fresh(state, pairs[i].a) || is_fresh(state, pairs[i].b)))
+                                  forgotten.push_back(static_cast<std::int32_t>(i));
+                          }
+                      });
     std::size_t kept = 0;
-    for (const BoxPair& pair : state.box_pairs)
+    std::size_t next = 0;
+    const auto keep_until = [&](std::size_t end)
     {
-        if (pair.contact == none && (is_fresh(state, pair.a) || is_fresh(state, pair.b)))
-            continue;
-        if (pair.contact != none)
-            state.contacts[pair.contact].pair = static_cast<std::int32_t>(kept);
-        state.box_pairs[kept++] = pair;
+        if (kept == next)
+            kept = next = end; // they stay where they are
+        for (; next < end; ++next)
+        {
+            if (pairs[next].contact != none)
+                state.contacts[pairs[next].contact].pair = static_cast<std::int32_t>(kept);
+            pairs[kept++] = pairs[next];
+        }
+    };
+    for (const Places& forgotten : parts)
+    {
+        for (const std::int32_t place : forgotten)
+        {
+            keep_until(static_cast<std::size_t>(place));
+            ++next;
+        }
     }
-    state.box_pairs.resize(kept);
+    keep_until(pairs.size());
+    pairs.resize(kept);
 }
 
 void look_around_fresh(StepContext& ctx)
 {
-    SceneState& state = ctx.state;
+    const SceneState& state = ctx.state;
     if (state.fresh_shapes.empty())
         return;
-    forget_pairs_of_fresh(state);
-    for (const std::int32_t shape : state.fresh_shapes)
-    {
-        if (state.shapes.is_live(shape) && state.broad_phase.has(shape))
-            look_around(ctx, shape, state.broad_phase.box(shape));
-    }
+    forget_pairs_of_fresh(ctx);
+    look_on_all_threads(ctx, state.fresh_shapes.size(), fresh_per_task,
+                        [&](std::size_t first, std::size_t last, Pairs& pairs)
+                        {
+                            for (const std::int32_t shape : std::span(state.fresh_shapes).subspan(first, last - first))
+                            {
+                                if (state.shapes.is_live(shape) && state.broad_phase.has(shape))
+                                    look_around(ctx, shape, state.broad_phase.box(shape), pairs);
+                            }
+                        });
 }
 
 void settle(StepContext& ctx)
@@ -260,7 +292,7 @@ void find_deflected_pairs(StepContext& ctx)
                       [&](int shape)
                       {
                           if (!contains(state.broad_phase.box(shape), way))
-                              look_around(ctx, shape, way);
+                              look_around(ctx, shape, way, pairs);
                       });
     }
     const auto is_trigger = [&](std::uint64_t key)

@@ -45,6 +45,8 @@ public:
             place_states_of(unit);
         set_size(m_scratch.states, m_scratch.state_bodies.size());
         set_size(m_scratch.constants, m_scratch.state_bodies.size());
+        set_size(m_scratch.flier_of_state, m_scratch.state_bodies.size());
+        set_size(m_scratch.versions, m_scratch.state_bodies.size());
     }
 
     void fill_states()
@@ -73,9 +75,7 @@ public:
     void add_fliers()
     {
         set_size(m_scratch.fliers, m_scratch.flier_seeds.size());
-        m_scratch.event_times.assign(m_scratch.fliers.size(), 1e300);
-        m_scratch.flier_of_state.assign(m_scratch.state_bodies.size(), none);
-        m_scratch.versions.assign(m_scratch.state_bodies.size(), 0);
+        set_size(m_scratch.event_times, m_scratch.fliers.size());
         const auto count = static_cast<std::int32_t>(m_scratch.fliers.size());
         run_tasks(m_ctx.scene.def.tasks, tasks_for(count),
                   [&](int task)
@@ -291,6 +291,8 @@ private:
         const int body = m_scratch.state_bodies[as_index(i)];
         BodyState& s = m_scratch.states[as_index(i)];
         StateConstants& c = m_scratch.constants[as_index(i)];
+        m_scratch.flier_of_state[as_index(i)] = none;
+        m_scratch.versions[as_index(i)] = 0;
         if (body == none)
             s = {};
         else
@@ -312,6 +314,7 @@ private:
         Flier& flier = m_scratch.fliers[as_index(i)];
         flier = make_flier(unit_ctx, seed.state, seed.body, seed.kind);
         flier.landed = seed.landed;
+        m_scratch.event_times[as_index(i)] = 1e300;
         m_scratch.flier_of_state[as_index(seed.state)] = i;
         if (!seed.landed)
             m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
