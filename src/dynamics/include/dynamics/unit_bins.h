@@ -102,7 +102,7 @@ public:
     }
 
 private:
-    static constexpr int enough_groups = 12; // to share
+    static constexpr int enough_groups = 24; // to share
 
     // All members take some of one bin's groups.
     template <class Pass>
