@@ -352,9 +352,16 @@ void relax_bin(WideRow* rows, std::int32_t count, BodyState* states, WideSoftnes
         struck[i] = struck_lanes<points>(rows[i], before, s.rest_speed);
 }
 
+// The first walk over rows that no near cache holds: those of the next turns are asked for. Beyond the last there is nothing, which does no harm.
 void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
 {
-    for_each_group(count, [&](int i, auto lanes) { warm_start_group<decltype(lanes)>(rows[i], states); });
+    for_each_group(count,
+                   [&](int i, auto lanes)
+                   {
+                       prefetch(rows[i + 4]);
+                       prefetch(rows[i + 5]);
+                       warm_start_group<decltype(lanes)>(rows[i], states);
+                   });
 }
 
 void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s)

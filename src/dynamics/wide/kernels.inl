@@ -2,6 +2,7 @@
 
 #include "collision/broad_phase.h"
 #include "core/lane_math.h"
+#include "core/prefetch.h"
 #include "dynamics/scene_state.h"
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_kernels.h"
