@@ -5,6 +5,7 @@
 #include "dynamics/kept_rows.h"
 
 #include "core/index.h"
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
@@ -74,9 +75,13 @@ bool rows_stay(const StepContext& ctx)
     const auto follow = [&](const Unit& unit, int first, int last)
     {
         RowFollower follower(ctx);
+        WideRow* const rows = ctx.scratch.wide_rows.data() + unit.wide_store;
+        const bool asks_ahead = !is_large(unit); // a thread has much of a large one in its cache still
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
-            WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
+            WideRow& row = rows[g];
+            if (asks_ahead)
+                prefetch(rows[g + 2]); // beyond the last there is nothing, which does no harm
             const FollowNews news = are_marked(ctx.state, row) ? follower.follow(row) : FollowNews{.gone = filled_lanes(row)};
             if ((news.gone | news.told) != 0)
                 stay.store(false, std::memory_order_relaxed);
