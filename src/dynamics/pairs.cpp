@@ -87,9 +87,9 @@ void look_around(const StepContext& ctx, int shape, const FloatBox& box, Pairs& 
 
 // What tasks find stands in their order, whoever does them.
 template <class Look>
-void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, const Look& look)
+void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, std::vector<Pairs>& found, const Look& look)
 {
-    const std::span<Pairs> parts = find_in_parts(ctx.scene.def.tasks, count, part, ctx.scratch.pairs_of_task,
+    const std::span<Pairs> parts = find_in_parts(ctx.scene.def.tasks, count, part, found,
                                                  [&](std::size_t first, std::size_t last, Pairs& pairs)
                                                  {
                                                      pairs.clear();
@@ -143,7 +143,7 @@ void look_around_moved(StepContext& ctx)
         for_each_in_parts(ctx.scene.def.tasks, blocks, blocks_per_task,
                           [&](std::size_t k) { boxes.note_changes(static_cast<int>(k)); });
         const MovingBlocks moving = boxes.moving_blocks();
-        look_on_all_threads(ctx, blocks, blocks_per_task,
+        look_on_all_threads(ctx, blocks, blocks_per_task, ctx.scratch.pairs_of_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
                                 for (std::size_t k = first; k < last; ++k)
@@ -152,7 +152,7 @@ void look_around_moved(StepContext& ctx)
     }
     else
     {
-        look_on_all_threads(ctx, ctx.scratch.moved.items.size(), 8 * blocks_per_task,
+        look_on_all_threads(ctx, ctx.scratch.moved.items.size(), 8 * blocks_per_task, ctx.scratch.pairs_of_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
                                 for (std::size_t i = first; i < last; ++i)
@@ -178,8 +178,9 @@ void forget_pairs_of_fresh(StepContext& ctx)
     SceneState& state = ctx.state;
     std::vector<BoxPair>& pairs = state.box_pairs;
     using Places = std::vector<std::int32_t>;
+    std::vector<Places> found;
     const std::span<Places> parts =
-        find_in_parts(ctx.scene.def.tasks, pairs.size(), boxes_per_task, ctx.scratch.forgotten_of_task,
+        find_in_parts(ctx.scene.def.tasks, pairs.size(), boxes_per_task, found,
                       [&](std::size_t first, std::size_t last, Places& forgotten)
                       {
                           forgotten.clear();
@@ -220,7 +221,8 @@ void look_around_fresh(StepContext& ctx)
     if (state.fresh_shapes.empty())
         return;
     forget_pairs_of_fresh(ctx);
-    look_on_all_threads(ctx, state.fresh_shapes.size(), fresh_per_task,
+    std::vector<Pairs> found; // of many once, of few mostly: not kept
+    look_on_all_threads(ctx, state.fresh_shapes.size(), fresh_per_task, found,
                         [&](std::size_t first, std::size_t last, Pairs& pairs)
                         {
                             for (const std::int32_t shape : std::span(state.fresh_shapes).subspan(first, last - first))

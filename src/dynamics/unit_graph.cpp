@@ -64,10 +64,11 @@ class UnitGraph
 public:
     explicit UnitGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
-    // On all threads, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
+    // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
     void link_units()
     {
-        const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, most_sets);
+        const int worth = 1 + static_cast<int>((scratch.links.size() + scratch.joint_links.size()) / links_per_task);
+        const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, std::min(worth, most_sets));
         if (scratch.more_sets.size() + 1 < static_cast<std::size_t>(parts))
             scratch.more_sets.resize(static_cast<std::size_t>(parts) - 1);
         const auto sets_of = [&](int part) -> UnionFind&
@@ -601,7 +602,7 @@ private:
                           [&](std::size_t first, std::size_t last, Runs& runs)
                           {
                               runs.clear();
-                              for_each_run(first, last, unit_of, [&](const UnitRun& run) { runs.push_back(run); });
+                              for_each_run(first, last, unit_of, [&](const UnitRun& run) { append(runs, run); });
                           });
         std::vector<std::int32_t>& starts = scratch.unit_starts;
         starts.assign(scratch.units.size() + 1, 0);

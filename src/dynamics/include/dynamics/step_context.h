@@ -412,7 +412,6 @@ struct Scratch
     bool all_fitted = false; ///< the moving layer, in this step
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
-    std::vector<std::vector<std::int32_t>> forgotten_of_task; ///< places of pairs
     std::vector<std::vector<PairFate>> fates_of_task;
     std::vector<std::int32_t> made_contacts; ///< see ContactBatch
     std::vector<std::int32_t> destroyed_contacts;
