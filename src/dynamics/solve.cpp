@@ -1,5 +1,5 @@
-// Stage 5, solve: large units one after the other on all threads, small ones side by side, a batch of them to a task. A unit's rows are filled just
-// before it is solved (unit_solver.cpp) and committed right after.
+// Stage 5, solve: large units one after the other on all threads, small ones side by side, a batch of them to a task, or by threads that a large one has
+// nothing for. A unit's rows are filled just before it is solved (unit_solver.cpp) and committed right after.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
