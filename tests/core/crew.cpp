@@ -26,7 +26,7 @@ void run_backwards(void*, int count, void (*task)(void*, int), void* context)
 
 void expect_all_is_done_once(const TaskHooks& hooks, int aside)
 {
-    std::vector<std::atomic<int>> done(aside);
+    std::vector<std::atomic<int>> done(static_cast<std::size_t>(aside));
     int leads = 0;
     Crew::run(
         hooks,
