@@ -23,8 +23,7 @@ public:
         run(hooks, lead, 0, [](int) {});
     }
 
-    /// The same, and aside(i) for each of 0 ... count: by members that the leader has had
-    /// nothing for in a while, and by all when it is done.
+    /// The same, and aside(i) for each of 0 ... count: by members that the leader has had nothing for in a while, and by all when it is done.
     template <class Lead, class Aside>
     static void run(const TaskHooks& hooks, const Lead& lead, int count, const Aside& aside)
     {
@@ -37,9 +36,8 @@ public:
                 aside(i);
             return i < count;
         };
-        const bool alone = hooks.run == nullptr || hooks.worker_count <= 1;
-        crew.m_members = alone ? 1 : std::min(hooks.worker_count, most_members);
-        run_tasks(hooks, alone ? 1 : hooks.worker_count,
+        crew.m_members = hooks.run == nullptr ? 1 : std::min(hooks.worker_count, most_members);
+        run_tasks(hooks, hooks.worker_count,
                   [&](int)
                   {
                       const int member = crew.m_arrived++;
