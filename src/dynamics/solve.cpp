@@ -5,7 +5,6 @@
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/flight.h"
-#include "dynamics/joint_direct.h"
 #include "dynamics/prepare.h"
 #include "dynamics/rows.h"
 #include "dynamics/stages.h"
@@ -17,37 +16,6 @@
 #include <utility>
 
 namespace carom::internal {
-
-Told::Told() = default;
-Told::~Told() = default;
-Told::Told(Told&&) noexcept = default;
-Told& Told::operator=(Told&&) noexcept = default;
-
-UnitOutput::UnitOutput() = default;
-UnitOutput::~UnitOutput() = default;
-UnitOutput::UnitOutput(UnitOutput&&) noexcept = default;
-UnitOutput& UnitOutput::operator=(UnitOutput&&) noexcept = default;
-
-void UnitOutput::clear()
-{
-    impacts.clear();
-    told_impacts = 0;
-    begins.clear();
-    late_rows.clear();
-    deferred.clear();
-    stopped_joints.clear();
-    kicked_shapes.clear();
-    deflected.clear();
-    reaches.clear();
-    hold_sets.clear();
-    path.clear();
-    last_piece.clear();
-    poses.clear();
-    flight_impacts = 0;
-    bulk_impacts = 0;
-    capped = false;
-    disturbed = false;
-}
 
 namespace {
 

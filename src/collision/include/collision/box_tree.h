@@ -114,7 +114,7 @@ public:
     [[nodiscard]] int leaf_count() const { return static_cast<int>(m_items.size()); }
     [[nodiscard]] int live_count() const { return m_live; }
     /// Of the leaves.
-    [[nodiscard]] std::span<const std::int32_t> items() const { return m_items; }
+    [[nodiscard]] std::span<const std::int32_t> items() const { return {m_items.data(), m_items.size()}; }
     /// -1 where it was removed.
     [[nodiscard]] std::int32_t item(int leaf) const { return m_items[static_cast<std::size_t>(leaf)]; }
     [[nodiscard]] FloatBox box(int leaf) const { return block(leaf / arity).box(leaf % arity); }

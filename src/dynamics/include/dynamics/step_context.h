@@ -209,7 +209,7 @@ struct UnitRun
     template <class Item>
     [[nodiscard]] std::span<const Item> of(const std::vector<Item>& items) const
     {
-        return std::span(items).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+        return {items.data() + first, static_cast<std::size_t>(count)};
     }
 };
 
@@ -499,19 +499,23 @@ struct Scratch
     std::vector<std::int32_t> moved_to;    ///< by contact slot
     std::vector<std::int32_t> move_cycles; ///< see tidy.cpp
     HilbertOrder plane_order;              ///< of the awake bodies
+
+    Scratch();
+    ~Scratch();
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
 };
 
 /// Those of a unit, in flight or landed.
 [[nodiscard]] inline std::span<Flier> fliers_of(Scratch& scratch, const Unit& unit)
 {
-    return std::span(scratch.fliers)
-        .subspan(static_cast<std::size_t>(unit.first_flier), static_cast<std::size_t>(unit.flier_count));
+    return {scratch.fliers.data() + unit.first_flier, static_cast<std::size_t>(unit.flier_count)};
 }
 
 /// Those of a unit that are in no lane; what has come since the step began is in UnitOutput::late_rows.
 [[nodiscard]] inline std::span<ContactRow> rows_of(Scratch& scratch, const Unit& unit)
 {
-    return std::span(scratch.rows).subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count));
+    return {scratch.rows.data() + unit.first_row, static_cast<std::size_t>(unit.row_count)};
 }
 
 struct StepContext

@@ -1,0 +1,43 @@
+// What a step keeps in lists is made and let go here alone: every file that includes the lists would compile it once more.
+
+#include "dynamics/step_context.h"
+
+#include "dynamics/joint_direct.h"
+
+namespace carom::internal {
+
+Scratch::Scratch() = default;
+Scratch::~Scratch() = default;
+
+Told::Told() = default;
+Told::~Told() = default;
+Told::Told(Told&&) noexcept = default;
+Told& Told::operator=(Told&&) noexcept = default;
+
+UnitOutput::UnitOutput() = default;
+UnitOutput::~UnitOutput() = default;
+UnitOutput::UnitOutput(UnitOutput&&) noexcept = default;
+UnitOutput& UnitOutput::operator=(UnitOutput&&) noexcept = default;
+
+void UnitOutput::clear()
+{
+    impacts.clear();
+    told_impacts = 0;
+    begins.clear();
+    late_rows.clear();
+    deferred.clear();
+    stopped_joints.clear();
+    kicked_shapes.clear();
+    deflected.clear();
+    reaches.clear();
+    hold_sets.clear();
+    path.clear();
+    last_piece.clear();
+    poses.clear();
+    flight_impacts = 0;
+    bulk_impacts = 0;
+    capped = false;
+    disturbed = false;
+}
+
+} // namespace carom::internal
