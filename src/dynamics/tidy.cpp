@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -97,13 +96,20 @@ public:
     void apply()
     {
         std::vector<std::int32_t>& slots = m_scratch.order;
-        slots = m_state.awake_contacts;
-        std::sort(slots.begin(), slots.end());
+        slots.clear();
+        make_room(slots, m_order.size());
+        m_moved_to.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
+        for (const ContactPlace& p : m_order)
+            m_moved_to[as_index(p.contact)] = p.contact;
+        for (std::size_t slot = 0; slot < m_moved_to.size(); ++slot)
+        {
+            if (m_moved_to[slot] != none)
+                slots.push_back(static_cast<std::int32_t>(slot));
+            m_moved_to[slot] = static_cast<std::int32_t>(slot);
+        }
         m_state.awake_contacts = slots;
-        set_size(m_moved_to, static_cast<std::size_t>(m_state.contacts.capacity()));
-        std::iota(m_moved_to.begin(), m_moved_to.end(), 0);
         for (std::size_t i = 0; i < m_order.size(); ++i)
-            m_moved_to[static_cast<std::size_t>(m_order[i].contact)] = slots[i];
+            m_moved_to[as_index(m_order[i].contact)] = slots[i];
         move_contacts(slots);
         rename_others();
     }
