@@ -494,6 +494,36 @@ public:
             [&](const UnitRun& run) { tally(run.unit).bodies += run.count; });
     }
 
+    // After units have become one: those that are left keep their order.
+    void renumber_units()
+    {
+        std::vector<std::int32_t>& numbers = scratch.order;
+        set_size(numbers, scratch.tallies.size());
+        std::int32_t count = 0;
+        for (std::size_t u = 0; u < scratch.tallies.size(); ++u)
+        {
+            const UnitTally old{.first = scratch.tallies[u].first, .bodies = scratch.tallies[u].bodies};
+            const std::int32_t before = scratch.sets.before(static_cast<std::size_t>(old.first));
+            if (before == old.first)
+            {
+                numbers[u] = count;
+                tally(count++) = old;
+            }
+            else
+            {
+                numbers[u] = numbers[static_cast<std::size_t>(scratch.unit_of[static_cast<std::size_t>(before)])];
+                tally(numbers[u]).bodies += old.bodies;
+            }
+        }
+        scratch.tallies.resize(static_cast<std::size_t>(count));
+        for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+                          [&](std::size_t place)
+                          {
+                              std::int32_t& unit = scratch.unit_of[place]; // kinematic bodies have none
+                              unit = unit == none ? none : numbers[static_cast<std::size_t>(unit)];
+                          });
+    }
+
     // Bodies in flight meet things at their own time; a row would stop them early.
     [[nodiscard]] bool gets_row(const Link& l) const { return l.has(link_flag::solved) && !in_flight(l.a) && !in_flight(l.b); }
     [[nodiscard]] bool in_flight(std::int32_t place) const
@@ -646,7 +676,7 @@ void build_unit_graph(StepContext& ctx)
     graph.ground_crowds();
     if (graph.link_deflected())
     {
-        graph.number_units();
+        graph.renumber_units();
         graph.ground_crowds();
     }
     graph.count_contacts();
