@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace carom::internal {
@@ -171,23 +172,41 @@ void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
     sim.angular_velocity += sim.inverse_inertia * cross(d.arm, d.impulse);
 }
 
+constexpr std::size_t touches_per_task = 64;
+
+// Who has touched within the step, and when it ends neither bears a load nor touches. On all threads; by places in the list.
+std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const RawTouch> begins)
+{
+    const SceneState& state = ctx.state;
+    std::vector<std::uint8_t>& bounced = ctx.scratch.bounced;
+    set_size(bounced, begins.size());
+    for_each_in_parts(ctx.scene.def.tasks, begins.size(), touches_per_task,
+                      [&](std::size_t i)
+                      {
+                          bounced[i] = 0;
+                          if (begins[i].contact == none)
+                              return;
+                          const Contact& contact = state.contacts[begins[i].contact];
+                          if ((contact.flags & contact_flag::loaded) == 0)
+                              bounced[i] = world_manifold(state, contact, pose_at_start(state, contact.body_a),
+                                                          pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop)
+                                                       .count == 0
+                                               ? 1
+                                               : 0;
+                      });
+    return bounced;
+}
+
 // A bounce within the step: touching at neither end, it begins and ends in it.
 void end_bounces(StepContext& ctx, const UnitOutput& output)
 {
-    for (const RawTouch& touch : output.begins)
+    const std::span<const std::uint8_t> bounced = find_bounces(ctx, output.begins);
+    for (std::size_t i = 0; i < bounced.size(); ++i)
     {
-        const SceneState& state = ctx.state;
+        const RawTouch& touch = output.begins[i];
         if (touch.contact == none)
-        {
-            append(ctx.scene.events.ends, event_between<ContactEndEvent>(state, touch.shape_a, touch.shape_b, touch.time));
-            continue;
-        }
-        const Contact& contact = ctx.state.contacts[touch.contact];
-        if ((contact.flags & contact_flag::loaded) != 0)
-            continue; // it bears something in the end
-        const Manifold m = world_manifold(state, contact, pose_at_start(state, contact.body_a),
-                                          pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop);
-        if (m.count > 0)
+            append(ctx.scene.events.ends, event_between<ContactEndEvent>(ctx.state, touch.shape_a, touch.shape_b, touch.time));
+        if (bounced[i] == 0)
             continue;
         end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
         leave_lane(ctx.state, touch.contact); // which takes it for told

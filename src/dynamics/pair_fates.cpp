@@ -235,8 +235,7 @@ void follow_pairs(StepContext& ctx)
     for (const std::vector<PairFate>& some : parts)
         fates.fulfil(some);
     fates.finish_contacts();
-    fates.take_out_going();
-    std::sort(state.parted_pairs.begin(), state.parted_pairs.end());
+    run_both(ctx.scene.def.tasks, [&] { fates.take_out_going(); }, [&] { std::ranges::sort(state.parted_pairs); });
 }
 
 } // namespace carom::internal
