@@ -33,6 +33,13 @@ function(carom_target target)
     endif()
 endfunction()
 
+# carom_fuzzed(<target>): fuzz targets see which ways their inputs take through it.
+function(carom_fuzzed target)
+    if(CAROM_BUILD_FUZZ)
+        target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+    endif()
+endfunction()
+
 # carom_kernels(<folder>): the kernels in it are one source, compiled for what the machine may have; the choice falls at run time
 # (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only.
 function(carom_kernels folder)
