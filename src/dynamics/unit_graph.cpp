@@ -9,6 +9,7 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/force_laws.h"
+#include "dynamics/sort_by_unit.h"
 #include "dynamics/task_sizes.h"
 #include "dynamics/unit_energy.h"
 #include "dynamics/unit_links.h"
@@ -39,22 +40,6 @@ constexpr int most_sets = 4;                 // that are linked side by side
 bool gets_rows(const SceneState& state, const Contact& contact)
 {
     return is_solved(contact) && (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
-}
-
-// Calls visit(run) where items first ... last that follow each other are of one unit, not none. Neighbours mostly are.
-template <class UnitOf, class Visit>
-void for_each_run(std::size_t first, std::size_t last, const UnitOf& unit_of, const Visit& visit)
-{
-    while (first < last)
-    {
-        const std::int32_t unit = unit_of(first);
-        std::size_t end = first + 1;
-        while (end < last && unit_of(end) == unit)
-            ++end;
-        if (unit != none)
-            visit(UnitRun{unit, static_cast<std::int32_t>(first), static_cast<std::int32_t>(end - first)});
-        first = end;
-    }
 }
 
 // --- the graph --------------------------------------------------------------------------------------------------------------------
@@ -560,7 +545,7 @@ public:
     void sort_links()
     {
         sort_by_unit(
-            scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
+            ctx, scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
             [](Unit& unit, int first, int count)
             {
                 unit.first_link = first;
@@ -571,7 +556,7 @@ public:
     void sort_joints()
     {
         sort_by_unit(
-            scratch.joint_links, scratch.solved_joints, joints_per_task,
+            ctx, scratch.joint_links, scratch.solved_joints, joints_per_task,
             [&](std::size_t i) { return unit_of_link(scratch.joint_links[i]); },
             [](Unit& unit, int first, int count)
             {
@@ -584,7 +569,7 @@ public:
     void sort_bodies()
     {
         sort_by_unit(
-            scratch.in_plane, scratch.solved_bodies, bodies_per_task,
+            ctx, scratch.in_plane, scratch.solved_bodies, bodies_per_task,
             [&](std::size_t i) { return scratch.unit_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
             [](Unit& unit, int first, int count)
             {
@@ -617,48 +602,6 @@ private:
         if (l.has(link_flag::solved))
             leave_row(state, l.contact);
         return none;
-    }
-
-    // A stable counting sort of items by unit_of(index), a run of one unit after the other: fills `sorted` and calls set_range(unit, first, count). Where
-    // unit_of says none, the item is left out.
-    template <class Item, class UnitOf, class SetRange>
-    void sort_by_unit(const std::vector<Item>& items, std::vector<Item>& sorted, std::size_t items_per_task,
-                      const UnitOf& unit_of, const SetRange& set_range)
-    {
-        using Runs = std::vector<UnitRun>;
-        const TaskHooks& tasks = ctx.scene.def.tasks;
-        const std::span<Runs> parts =
-            find_in_parts(tasks, items.size(), items_per_task, scratch.runs_of_task,
-                          [&](std::size_t first, std::size_t last, Runs& runs)
-                          {
-                              runs.clear();
-                              for_each_run(first, last, unit_of, [&](const UnitRun& run) { append(runs, run); });
-                          });
-        std::vector<std::int32_t>& starts = scratch.unit_starts;
-        starts.assign(scratch.units.size() + 1, 0);
-        for (const Runs& runs : parts)
-        {
-            for (const UnitRun& run : runs)
-                starts[static_cast<std::size_t>(run.unit) + 1] += run.count;
-        }
-        for (std::size_t u = 0; u < scratch.units.size(); ++u)
-        {
-            set_range(scratch.units[u], starts[u], starts[u + 1]);
-            starts[u + 1] += starts[u];
-        }
-        for (Runs& runs : parts)
-        {
-            for (UnitRun& run : runs)
-                run.sorted_first = std::exchange(starts[static_cast<std::size_t>(run.unit)],
-                                                 starts[static_cast<std::size_t>(run.unit)] + run.count);
-        }
-        set_size(sorted, static_cast<std::size_t>(starts[scratch.units.empty() ? 0 : scratch.units.size() - 1]));
-        run_tasks(tasks, static_cast<int>(parts.size()),
-                  [&](int task)
-                  {
-                      for (const UnitRun& run : parts[static_cast<std::size_t>(task)])
-                          std::ranges::copy(run.of(items), sorted.begin() + run.sorted_first);
-                  });
     }
 
     StepContext& ctx;

@@ -17,13 +17,6 @@ namespace {
 constexpr int rounds = 50;
 constexpr int pieces = 37;
 
-// The last task first.
-void run_backwards(void*, int count, void (*task)(void*, int), void* context)
-{
-    for (int i = count; i-- > 0;)
-        task(context, i);
-}
-
 void expect_all_is_done_once(const TaskHooks& hooks, int aside)
 {
     std::vector<std::atomic<int>> done(static_cast<std::size_t>(aside));

@@ -2,6 +2,7 @@
 
 #include "support/slow_build.h"
 #include "support/test_scene.h"
+#include "support/threads.h"
 
 #include "dynamics/scene_data.h"
 #include "scenes/scenes.h"
@@ -39,13 +40,6 @@ void run_on_threads(void*, int count, void (*task)(void*, int), void* context)
     work();
     second.join();
     third.join();
-}
-
-// The other way round, on one thread: order must not matter.
-void run_backwards(void*, int count, void (*task)(void*, int), void* context)
-{
-    for (int i = count; i-- > 0;)
-        task(context, i);
 }
 
 } // namespace

@@ -34,4 +34,11 @@ private:
     int m_count;
 };
 
+/// TaskHooks::run on one thread, the last task first: order must not matter.
+inline void run_backwards(void*, int count, void (*task)(void*, int), void* context)
+{
+    for (int i = count; i-- > 0;)
+        task(context, i);
+}
+
 } // namespace carom::test
