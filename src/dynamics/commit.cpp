@@ -174,26 +174,24 @@ void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
 
 constexpr std::size_t touches_per_task = 64;
 
-// Who has touched within the step, and when it ends neither bears a load nor touches. On all threads; by places in the list.
+// Of one that has touched within the step: when it ends it neither bears a load nor touches.
+bool has_bounced(const StepContext& ctx, const Contact& contact)
+{
+    if ((contact.flags & contact_flag::loaded) != 0)
+        return false;
+    const Manifold m = world_manifold(ctx.state, contact, pose_at_start(ctx.state, contact.body_a),
+                                      pose_at_start(ctx.state, contact.body_b), 2 * ctx.scene.tolerances.slop);
+    return m.count == 0;
+}
+
+// On all threads; by places in the list.
 std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const RawTouch> begins)
 {
     const SceneState& state = ctx.state;
     std::vector<std::uint8_t>& bounced = ctx.scratch.bounced;
     set_size(bounced, begins.size());
-    for_each_in_parts(ctx.scene.def.tasks, begins.size(), touches_per_task,
-                      [&](std::size_t i)
-                      {
-                          bounced[i] = 0;
-                          if (begins[i].contact == none)
-                              return;
-                          const Contact& contact = state.contacts[begins[i].contact];
-                          if ((contact.flags & contact_flag::loaded) == 0)
-                              bounced[i] = world_manifold(state, contact, pose_at_start(state, contact.body_a),
-                                                          pose_at_start(state, contact.body_b), 2 * ctx.scene.tolerances.slop)
-                                                       .count == 0
-                                               ? 1
-                                               : 0;
-                      });
+    for_each_in_parts(ctx.scene.def.tasks, begins.size(), touches_per_task, [&](std::size_t i)
+                      { bounced[i] = begins[i].contact != none && has_bounced(ctx, state.contacts[begins[i].contact]) ? 1 : 0; });
     return bounced;
 }
 
