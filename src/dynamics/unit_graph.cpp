@@ -355,11 +355,12 @@ public:
         const std::span<Meetings> parts =
             find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings_of_task,
                           [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
+        scratch.sets.reset(scratch.tallies.size());
         bool linked = false;
         for (const Meetings& some : parts)
         {
-            for (const auto& [place, other] : some)
-                linked |= scratch.sets.link(place, other, false);
+            for (const auto& [unit, other] : some)
+                linked |= scratch.sets.link(unit, other, false);
         }
         return linked;
     }
@@ -415,16 +416,17 @@ public:
         return edge != none;
     }
 
-    // Of bodies in different units, by place; notes what else may be struck.
+    // Units that meet; notes what else may be struck.
     void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
     {
         const BoxTree& tree = scratch.reach_tree;
         meetings.clear();
         const auto note = [&](std::int32_t place, std::int32_t other)
         {
-            const std::int32_t unit = scratch.unit_of[static_cast<std::size_t>(other)]; // kinematic bodies have none
-            if (unit != none && unit != scratch.unit_of[static_cast<std::size_t>(place)])
-                meetings.emplace_back(place, other);
+            const std::pair units(scratch.unit_of[static_cast<std::size_t>(place)], scratch.unit_of[static_cast<std::size_t>(other)]);
+            const bool is_known = !meetings.empty() && meetings.back() == units;
+            if (units.second != none && units.first != units.second && !is_known) // kinematic bodies have none
+                meetings.push_back(units);
         };
         for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
         {
@@ -455,25 +457,28 @@ public:
         return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
     }
 
-    // What must be solved together, in the order of its first body; every dynamic body gets its unit, and is counted there.
+    // What must be solved together, in the order of its first body; every dynamic body gets its unit, and is counted there. Who is first is not asked by a
+    // branch: it would be guessed wrong.
     void number_units()
     {
         const std::size_t n = state.awake_bodies.size();
-        scratch.tallies.clear();
-        scratch.unit_of.assign(n, none);
+        std::vector<std::int32_t>& firsts = scratch.order;
+        set_size(firsts, n + 1);
+        set_size(scratch.unit_of, n);
+        std::int32_t count = 0;
         for (std::size_t i = 0; i < n; ++i)
         {
             const auto before = static_cast<std::size_t>(scratch.sets.before(i));
-            if (before != i)
-            {
-                scratch.unit_of[i] = scratch.unit_of[before];
-            }
-            else if (!scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic)
-            {
-                scratch.unit_of[i] = static_cast<std::int32_t>(scratch.tallies.size());
-                append(scratch.tallies, {.first = static_cast<std::int32_t>(i)});
-            }
+            const bool moves = !scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic;
+            const bool is_first = before == i;
+            firsts[static_cast<std::size_t>(count)] = static_cast<std::int32_t>(i);
+            scratch.unit_of[i] = is_first ? (moves ? count : none) : scratch.unit_of[before];
+            count += is_first && moves ? 1 : 0;
         }
+        scratch.tallies.clear();
+        set_size(scratch.tallies, static_cast<std::size_t>(count));
+        for (std::int32_t unit = 0; unit < count; ++unit)
+            tally(unit).first = firsts[static_cast<std::size_t>(unit)];
         for_each_run(
             0, n, [&](std::size_t i) { return scratch.unit_of[i]; },
             [&](const UnitRun& run) { tally(run.unit).bodies += run.count; });
@@ -488,17 +493,12 @@ public:
         for (std::size_t u = 0; u < scratch.tallies.size(); ++u)
         {
             const UnitTally old{.first = scratch.tallies[u].first, .bodies = scratch.tallies[u].bodies};
-            const std::int32_t before = scratch.sets.before(static_cast<std::size_t>(old.first));
-            if (before == old.first)
-            {
-                numbers[u] = count;
-                tally(count++) = old;
-            }
+            const auto before = static_cast<std::size_t>(scratch.sets.before(u));
+            numbers[u] = before == u ? count++ : numbers[before];
+            if (before == u)
+                tally(numbers[u]) = old;
             else
-            {
-                numbers[u] = numbers[static_cast<std::size_t>(scratch.unit_of[static_cast<std::size_t>(before)])];
                 tally(numbers[u]).bodies += old.bodies;
-            }
         }
         scratch.tallies.resize(static_cast<std::size_t>(count));
         for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,

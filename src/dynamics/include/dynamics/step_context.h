@@ -419,7 +419,7 @@ struct Scratch
     std::vector<std::int32_t> places;            ///< by body slot, as in Link
     std::vector<std::int32_t> placed;            ///< bodies that have one
     std::vector<float> swings;                   ///< of joint_links, see UnitTally::swing
-    UnionFind sets;                              ///< of what hangs together, by place in awake_bodies
+    UnionFind sets;                              ///< of what hangs together, by place in awake_bodies; then of units that meet
     std::vector<UnionFind> more_sets;            ///< of parts of the links
     std::vector<std::int32_t> unit_of;           ///< by place in awake_bodies
     std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
@@ -440,7 +440,7 @@ struct Scratch
     std::vector<std::uint8_t> is_alone; ///< of what flies, by place in awake_bodies: nothing is near
     BoxTree reach_tree;
     std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
-    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< bodies of different units
+    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< units that meet
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
     std::vector<std::vector<UnitRun>> runs_of_task;
