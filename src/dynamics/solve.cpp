@@ -105,10 +105,7 @@ void form_batches(Scratch& scratch)
             groups = unit.first_wide + unit.wide_count;
         }
     }
-    const auto wanted = static_cast<std::size_t>(groups);
-    if (scratch.wide_rows.capacity() < wanted)
-        scratch.wide_rows.clear(); // all are filled in this step: there is nothing to copy
-    grow(scratch.wide_rows, wanted);
+    scratch.wide_rows.make_room(static_cast<std::size_t>(groups));
     set_size(scratch.struck, scratch.wide_rows.size());
 }
 

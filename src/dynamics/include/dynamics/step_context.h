@@ -5,6 +5,7 @@
 #include "carom/event.h"
 #include "collision/hilbert_order.h"
 #include "collision/time_of_impact.h"
+#include "core/blank_array.h"
 #include "core/union_find.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/joint_rows.h"
@@ -465,7 +466,7 @@ struct Scratch
     std::vector<LawWork> laws;              ///< by unit
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
-    std::vector<WideRow> wide_rows;
+    BlankArray<WideRow> wide_rows;
     std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
     std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
     std::vector<std::int32_t> joint_bin_starts;
