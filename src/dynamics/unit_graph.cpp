@@ -28,12 +28,12 @@ constexpr float slice_turn = 0.02f;  // rad
 constexpr float slice_swing = 0.25f; // rad, of a joint's arm
 constexpr int slice_limit = 32;
 constexpr int hinge_slice_limit = 64; // between bodies that move by themselves: what they err by is their own energy
-constexpr std::size_t fliers_per_task = 256;
-constexpr std::size_t reaches_per_task = 16; // blocks of eight
-constexpr float calm_swing = 0.1f;           // rad, in a step
-constexpr int enough_bodies = 256;           // in a unit of heaps, or of bodies that are alone
-constexpr std::size_t enough_joints = 8;     // in a heap
-constexpr int most_sets = 4;                 // that are linked side by side
+constexpr std::size_t fliers_per_task = 128;
+constexpr std::size_t reaches_per_task = 4; // blocks of eight
+constexpr float calm_swing = 0.1f;          // rad, in a step
+constexpr int enough_bodies = 256;          // in a unit of heaps, or of bodies that are alone
+constexpr std::size_t enough_joints = 8;    // in a heap
+constexpr int most_sets = 4;                // that are linked side by side
 
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
@@ -423,7 +423,8 @@ public:
         meetings.clear();
         const auto note = [&](std::int32_t place, std::int32_t other)
         {
-            const std::pair units(scratch.unit_of[static_cast<std::size_t>(place)], scratch.unit_of[static_cast<std::size_t>(other)]);
+            const std::pair units(scratch.unit_of[static_cast<std::size_t>(place)],
+                                  scratch.unit_of[static_cast<std::size_t>(other)]);
             const bool is_known = !meetings.empty() && meetings.back() == units;
             if (units.second != none && units.first != units.second && !is_known) // kinematic bodies have none
                 meetings.push_back(units);
