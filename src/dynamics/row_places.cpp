@@ -10,6 +10,7 @@
 #include "core/task_pool.h"
 #include "dynamics/contact_colors.h"
 #include "dynamics/scene_data.h"
+#include "dynamics/sort_by_unit.h"
 #include "dynamics/task_sizes.h"
 #include "dynamics/unit_layout.h"
 
@@ -297,6 +298,18 @@ int parts_of(const Unit& unit)
 }
 
 } // namespace
+
+void sort_links(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    sort_by_unit(
+        {}, scratch, scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
+        [](Unit& unit, int first, int count)
+        {
+            unit.first_link = first;
+            unit.link_count = count;
+        });
+}
 
 void place_rows_of_small_units(StepContext& ctx)
 {

@@ -543,21 +543,10 @@ public:
                           [](const KinematicMeeting& m) { return std::pair(m.unit, m.link); });
     }
 
-    void sort_links()
-    {
-        sort_by_unit(
-            ctx, scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
-            [](Unit& unit, int first, int count)
-            {
-                unit.first_link = first;
-                unit.link_count = count;
-            });
-    }
-
     void sort_joints()
     {
         sort_by_unit(
-            ctx, scratch.joint_links, scratch.solved_joints, joints_per_task,
+            ctx.scene.def.tasks, scratch, scratch.joint_links, scratch.solved_joints, joints_per_task,
             [&](std::size_t i) { return unit_of_link(scratch.joint_links[i]); },
             [](Unit& unit, int first, int count)
             {
@@ -570,7 +559,7 @@ public:
     void sort_bodies()
     {
         sort_by_unit(
-            ctx, scratch.in_plane, scratch.solved_bodies, bodies_per_task,
+            ctx.scene.def.tasks, scratch, scratch.in_plane, scratch.solved_bodies, bodies_per_task,
             [&](std::size_t i) { return scratch.unit_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
             [](Unit& unit, int first, int count)
             {
@@ -627,7 +616,6 @@ void build_unit_graph(StepContext& ctx)
     graph.choose_slices();
     graph.form_units();
     graph.find_units_of_links();
-    graph.sort_links();
     graph.sort_joints();
     graph.sort_bodies();
     ctx.state.graph_dirty = false;

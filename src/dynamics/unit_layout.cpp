@@ -469,7 +469,7 @@ void refill_units(StepContext& ctx)
 void lay_out_units(StepContext& ctx)
 {
     UnitLayout layout(ctx);
-    layout.place_states();
+    run_both(ctx.scene.def.tasks, [&] { layout.place_states(); }, [&] { sort_links(ctx); });
     layout.fill_states_and_place_rows();
     layout.add_fliers();
     layout.add_laws();

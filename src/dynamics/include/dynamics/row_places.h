@@ -6,7 +6,10 @@
 
 namespace carom::internal {
 
-/// After states have their places, those of small units one after the other; large ones, on all threads, behind them.
+/// Links stand unit by unit. By one thread: others have states to place.
+void sort_links(StepContext& ctx);
+
+/// After both states and links have their places, those of small units one after the other; large ones, on all threads, behind them.
 void place_rows_of_small_units(StepContext& ctx);
 void place_rows_of_large_units(StepContext& ctx);
 

@@ -36,12 +36,10 @@ void for_each_run(std::size_t first, std::size_t last, const UnitOf& unit_of, co
 /// A stable counting sort of items by unit_of(index), a run of one unit after the other: fills `sorted` and calls set_range(unit, first, count). Where
 /// unit_of says none, the item is left out.
 template <class Item, class UnitOf, class SetRange>
-void sort_by_unit(StepContext& ctx, const std::vector<Item>& items, std::vector<Item>& sorted, std::size_t items_per_task,
-                  const UnitOf& unit_of, const SetRange& set_range)
+void sort_by_unit(const TaskHooks& tasks, Scratch& scratch, const std::vector<Item>& items, std::vector<Item>& sorted,
+                  std::size_t items_per_task, const UnitOf& unit_of, const SetRange& set_range)
 {
     using Runs = std::vector<UnitRun>;
-    const TaskHooks& tasks = ctx.scene.def.tasks;
-    Scratch& scratch = ctx.scratch;
     const std::span<Runs> parts =
         find_in_parts(tasks, items.size(), items_per_task, scratch.runs_of_task,
                       [&](std::size_t first, std::size_t last, Runs& runs)
