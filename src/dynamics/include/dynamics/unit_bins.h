@@ -68,13 +68,15 @@ public:
             crew.share(start(end), enough_groups, those);
             return;
         }
-        const auto share_of = [&](int part)
-        { return start(crossing) + Crew::bound(start(end) - start(crossing), part, m_parts); };
-        crew.in_pieces(m_parts, false,
-                       [&](int part)
+        // A quarter of a part at a time, so that nobody waits long for the last.
+        const auto quarter_of = [&](int begin, int count, int quarter, int quarters)
+        { those(begin + Crew::bound(count, quarter, quarters), begin + Crew::bound(count, quarter + 1, quarters)); };
+        crew.in_pieces(4 * m_parts, false,
+                       [&](int piece)
                        {
-                           those(start(part * m_bins), start((part + 1) * m_bins));
-                           those(share_of(part), share_of(part + 1));
+                           const int begin = start(piece / 4 * m_bins);
+                           quarter_of(begin, start((piece / 4 + 1) * m_bins) - begin, piece % 4, 4);
+                           quarter_of(start(crossing), start(end) - start(crossing), piece, 4 * m_parts);
                        });
     }
 
