@@ -12,6 +12,7 @@
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
 
+#include <algorithm>
 #include <atomic>
 #include <span>
 #include <utility>
@@ -113,16 +114,24 @@ bool should_touch(const StepContext& ctx, const Contact& contact)
     return least_separation(contact.manifold) <= limit;
 }
 
-// A ball that rolled over a seam brings the load it had on the piece before.
+// Of a contact with a piece of a chain.
+int visitor_of(const SceneState& state, const Contact& contact)
+{
+    return state.shapes[contact.shape_a].owner != contact.shape_a ? contact.shape_b : contact.shape_a;
+}
+
+// A ball that rolled over a seam brings the load it had on the piece before. Few have just left one: the walk is for them alone.
 void inherit_load(StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
     Contact& contact = state.contacts[index];
     if ((contact.flags & contact_flag::piece) == 0 || (contact.flags & contact_flag::loaded) != 0)
         return;
-    const bool piece_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
+    const int visitor = visitor_of(state, contact);
+    if (!std::ranges::binary_search(ctx.scratch.left_loads, visitor))
+        return;
+    const bool piece_is_a = visitor == contact.shape_b;
     const int piece = piece_is_a ? contact.shape_a : contact.shape_b;
-    const int visitor = piece_is_a ? contact.shape_b : contact.shape_a;
     for_each_contact(state, state.shapes[visitor].body,
                      [&](int other_index)
                      {
@@ -221,12 +230,17 @@ bool is_looked_at(const Scratch& scratch, std::int32_t contact)
 class ContactUpdate
 {
 public:
-    ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last)
-        : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_scene(followed_scene(ctx))
+    ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last, SomeNews& some)
+        : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_some(some),
+          m_scene(followed_scene(ctx))
     {}
 
-    void run(SomeNews& some)
+    void run()
     {
+        m_some.begins.clear();
+        m_some.ends.clear();
+        m_some.others.clear();
+        m_some.left_loads.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
             prefetch_later(i);
@@ -238,13 +252,10 @@ public:
                 put_off(w.places[i]);
         }
         update_the_others();
-        some.begins.clear();
-        some.ends.clear();
-        some.others.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
             if (m_news[i] != News::Nothing)
-                tell(m_contacts[i], m_news[i], some);
+                tell(m_contacts[i], m_news[i]);
         }
     }
 
@@ -264,24 +275,24 @@ private:
     }
 
     // Events are written when all is known, see tell_all.
-    void tell(std::int32_t index, News what, SomeNews& some) const
+    void tell(std::int32_t index, News what)
     {
         Contact& contact = m_ctx.state.contacts[index];
         if (!concerns_no_other(contact))
         {
-            append(some.others, {index, what});
+            append(m_some.others, {index, what});
         }
         else if (what == News::Begins)
         {
             contact.flags |= contact_flag::touching;
             keep_awake(m_ctx, contact.body_a);
             keep_awake(m_ctx, contact.body_b);
-            append(some.begins, index);
+            append(m_some.begins, index);
         }
         else if (what == News::Ends)
         {
             contact.flags &= ~contact_flag::touching;
-            append(some.ends, index);
+            append(m_some.ends, index);
         }
     }
 
@@ -292,6 +303,7 @@ private:
         if (is_looked_at(m_ctx.scratch, index))
         {
             m_news[i] = news_of(m_ctx, contact);
+            note_left_load(contact);
             return;
         }
         if (!is_told_with_others(m_ctx.state, contact))
@@ -327,8 +339,18 @@ private:
         {
             if (k + turns_ahead < m_other_count)
                 prefetch_corners(m_contacts[m_others[k + turns_ahead]]);
-            m_news[m_others[k]] = update_contact(m_ctx, m_contacts[m_others[k]]);
+            const std::int32_t index = m_contacts[m_others[k]];
+            m_news[m_others[k]] = update_contact(m_ctx, index);
+            note_left_load(m_ctx.state.contacts[index]);
         }
+    }
+
+    // For what now begins to touch the next piece.
+    void note_left_load(const Contact& contact)
+    {
+        constexpr std::uint32_t loaded_piece = contact_flag::piece | contact_flag::loaded;
+        if (contact.manifold.count == 0 && (contact.flags & loaded_piece) == loaded_piece)
+            append(m_some.left_loads, visitor_of(m_ctx.state, contact));
     }
 
     [[gnu::always_inline]] void prefetch_corners(std::int32_t index) const
@@ -381,6 +403,7 @@ private:
 
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
+    SomeNews& m_some;
     FollowedScene m_scene;
     News m_news[contacts_at_once];
     std::size_t m_others[contacts_at_once];
@@ -418,11 +441,16 @@ void update_contacts(StepContext& ctx)
     SceneState& state = ctx.state;
     const std::span<SomeNews> parts =
         find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_at_once, ctx.scratch.news_of_task,
-                      [&](std::size_t first, std::size_t last, SomeNews& some) { ContactUpdate(ctx, first, last).run(some); });
+                      [&](std::size_t first, std::size_t last, SomeNews& some) { ContactUpdate(ctx, first, last, some).run(); });
     std::vector<ContactNews>& news = ctx.scratch.news;
     news.clear();
+    ctx.scratch.left_loads.clear();
     for (const SomeNews& some : parts)
+    {
         append_all(news, some.others);
+        append_all(ctx.scratch.left_loads, some.left_loads);
+    }
+    std::ranges::sort(ctx.scratch.left_loads);
     tell_all(ctx, parts, &SomeNews::begins, ctx.scene.events.begins, begin_event);
     tell_all(ctx, parts, &SomeNews::ends, ctx.scene.events.ends,
              [](const SceneState& s, const Contact& contact) { return event_of<ContactEndEvent>(s, contact, 0.0f); });

@@ -88,6 +88,7 @@ struct SomeNews
     std::vector<std::int32_t> begins{};
     std::vector<std::int32_t> ends{};
     std::vector<ContactNews> others{};
+    std::vector<std::int32_t> left_loads{}; ///< shapes that have left a piece of a chain which bore a load of theirs
 };
 
 /// What becomes of a pair of boxes, see pair_fates.cpp.
@@ -425,6 +426,7 @@ struct Scratch
     std::vector<std::int32_t> unit_of;           ///< by place in awake_bodies
     std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
+    std::vector<std::int32_t> left_loads; ///< in order
     std::vector<SomeNews> news_of_task;
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
