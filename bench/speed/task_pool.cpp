@@ -67,18 +67,26 @@ int TaskPool::end_of_share(int thread) const
     return static_cast<int>(std::int64_t{m_count} * (thread + 1) / static_cast<std::int64_t>(m_shares.size()));
 }
 
+// Tells what is done share by share: others look at the number all the time.
 void TaskPool::work_off(int thread)
 {
     const int threads = static_cast<int>(m_shares.size());
     for (int i = 0; i < threads; ++i)
     {
-        while (take_task((thread + i) % threads))
-        {
-        }
+        if (const int done = take_tasks((thread + i) % threads); done > 0)
+            m_done += done;
     }
 }
 
-// Who holds a ticket keeps its round from ending.
+int TaskPool::take_tasks(int thread)
+{
+    int done = 0;
+    while (take_task(thread))
+        ++done;
+    return done;
+}
+
+// Who holds a ticket, or has not told of what it did with one, keeps its round from ending.
 bool TaskPool::take_task(int thread)
 {
     std::atomic<std::uint64_t>& share = m_shares[static_cast<std::size_t>(thread)].tickets;
@@ -89,7 +97,6 @@ bool TaskPool::take_task(int thread)
             return false;
     } while (!share.compare_exchange_weak(tickets, tickets - 1));
     m_task(m_context, end_of_share(thread) - static_cast<int>(static_cast<std::uint32_t>(tickets)));
-    ++m_done;
     return true;
 }
 

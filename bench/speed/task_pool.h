@@ -6,6 +6,7 @@
 #include "carom/scene.h"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -29,28 +30,30 @@ public:
 private:
     using Task = void (*)(void*, int);
 
-    /// Of a thread in this round: round, and in the lower half how many of its tasks nobody has taken.
+    /// Of a thread: round, and in the lower half how many of its tasks nobody has taken.
     struct alignas(64) Share
     {
         std::atomic<std::uint64_t> tickets{0};
     };
+    static constexpr std::size_t line = 64; ///< bytes of memory that one thread has or another
 
     void run(int count, Task task, void* context);
     void work_off(int thread);
+    [[nodiscard]] int take_tasks(int thread);
     [[nodiscard]] bool take_task(int thread);
     [[nodiscard]] int end_of_share(int thread) const;
     void serve(int thread);
     void wait_for_round(std::uint32_t seen) const;
 
     std::vector<Share> m_shares;
-    std::atomic<std::uint32_t> m_round{0};
-    std::atomic<int> m_done{0};
+    std::vector<std::thread> m_threads{};
+    // Of the round; they stay until all its tasks are done. Whoever sees it begin has all of it at once.
+    alignas(line) std::atomic<std::uint32_t> m_round{0};
     std::atomic<bool> m_over{false};
-    // Of the round; they stay until all its tasks are done.
     int m_count = 0;
     Task m_task = nullptr;
     void* m_context = nullptr;
-    std::vector<std::thread> m_threads{};
+    alignas(line) std::atomic<int> m_done{0};
 };
 
 } // namespace speed
