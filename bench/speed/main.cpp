@@ -176,7 +176,10 @@ int show_scaling(const Options& options)
     const auto say = [](const char* format, auto... values)
     {
         clear_progress();
-        std::printf(format, values...);
+        if constexpr (sizeof...(values) == 0)
+            std::fputs(format, stdout);
+        else
+            std::printf(format, values...);
         std::fflush(stdout);
     };
     std::vector<truth::Series> piles;
