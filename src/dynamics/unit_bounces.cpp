@@ -171,6 +171,8 @@ private:
 
     void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
     {
+        if (!gives_way(state))
+            return;
         const StateConstants& c = m_view.constants[state];
         BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
         unpushed.velocity.x += c.inverse_mass.x * impulse.x;
@@ -238,8 +240,21 @@ private:
     {
         p.normal_impulse += impulse;
         note_push(row, p, impulse * row.n);
-        apply_impulse(m_view.states[row.a], m_view.constants[row.a], p.ra, -impulse * row.n);
-        apply_impulse(m_view.states[row.b], m_view.constants[row.b], p.rb, impulse * row.n);
+        push(row.a, p.ra, -impulse * row.n);
+        push(row.b, p.rb, impulse * row.n);
+    }
+
+    void push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    {
+        if (gives_way(state))
+            apply_impulse(m_view.states[state], m_view.constants[state], arm, impulse);
+    }
+
+    // What does not is in all parts of the plane: what all threads read, none writes.
+    [[nodiscard]] bool gives_way(std::int32_t state) const
+    {
+        const StateConstants& c = m_view.constants[state];
+        return c.inverse_mass != Vec2{} || c.inverse_inertia != 0;
     }
 
     // Two points struck at once bounce at once: a box that lands flat bounces flat.
