@@ -73,17 +73,12 @@ void TaskPool::work_off(int thread)
     const int threads = static_cast<int>(m_shares.size());
     for (int i = 0; i < threads; ++i)
     {
-        if (const int done = take_tasks((thread + i) % threads); done > 0)
+        int done = 0;
+        while (take_task((thread + i) % threads))
+            ++done;
+        if (done > 0)
             m_done += done;
     }
-}
-
-int TaskPool::take_tasks(int thread)
-{
-    int done = 0;
-    while (take_task(thread))
-        ++done;
-    return done;
 }
 
 // Who holds a ticket, or has not told of what it did with one, keeps its round from ending.

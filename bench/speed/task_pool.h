@@ -30,16 +30,16 @@ public:
 private:
     using Task = void (*)(void*, int);
 
-    /// Of a thread: round, and in the lower half how many of its tasks nobody has taken.
-    struct alignas(64) Share
+    static constexpr std::size_t line = 64; ///< bytes of memory that one thread has or another
+
+    /// Of a thread in this round: round, and in the lower half how many of its tasks nobody has taken.
+    struct alignas(line) Share
     {
         std::atomic<std::uint64_t> tickets{0};
     };
-    static constexpr std::size_t line = 64; ///< bytes of memory that one thread has or another
 
     void run(int count, Task task, void* context);
     void work_off(int thread);
-    [[nodiscard]] int take_tasks(int thread);
     [[nodiscard]] bool take_task(int thread);
     [[nodiscard]] int end_of_share(int thread) const;
     void serve(int thread);

@@ -68,15 +68,15 @@ public:
             crew.share(start(end), enough_groups, those);
             return;
         }
-        // A quarter of a part at a time, so that nobody waits long for the last.
-        const auto quarter_of = [&](int begin, int count, int quarter, int quarters)
-        { those(begin + Crew::bound(count, quarter, quarters), begin + Crew::bound(count, quarter + 1, quarters)); };
-        crew.in_pieces(4 * m_parts, false,
+        constexpr int quarters = 4; // of a part: nobody waits long for the last
+        const auto slice = [&](int first, int last, int i, int slices)
+        { those(first + Crew::bound(last - first, i, slices), first + Crew::bound(last - first, i + 1, slices)); };
+        crew.in_pieces(quarters * m_parts, false,
                        [&](int piece)
                        {
-                           const int begin = start(piece / 4 * m_bins);
-                           quarter_of(begin, start((piece / 4 + 1) * m_bins) - begin, piece % 4, 4);
-                           quarter_of(start(crossing), start(end) - start(crossing), piece, 4 * m_parts);
+                           const int part = piece / quarters;
+                           slice(start(part * m_bins), start((part + 1) * m_bins), piece % quarters, quarters);
+                           slice(start(crossing), start(end), piece, quarters * m_parts);
                        });
     }
 
