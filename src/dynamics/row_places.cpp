@@ -23,8 +23,10 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int links_to_a_part = 2048; // what rows keep of them stays in a cache
-constexpr std::uint8_t no_part = 255; // of what does not give way
+constexpr int links_to_a_part = 2048;      // of few
+constexpr int links_to_a_huge_part = 8192; // their rows stay in a cache from solving to relaxing
+constexpr std::size_t most_tasks = 64;     // of a unit: each counts all of its bins
+constexpr std::uint16_t no_part = 65535;   // of what does not give way
 
 class RowPlaces
 {
@@ -70,7 +72,7 @@ private:
             while (last < end && cell_of(last) == cell)
                 ++last;
             const std::int32_t middle = (first + last) / 2 - m_unit.first_state - 1;
-            const auto part = static_cast<std::uint8_t>(std::int64_t{middle} * m_unit.parts / m_unit.dynamic_count);
+            const auto part = static_cast<std::uint16_t>(std::int64_t{middle} * m_unit.parts / m_unit.dynamic_count);
             std::fill(m_scratch.parts.begin() + first, m_scratch.parts.begin() + last, part);
             first = last;
         }
@@ -86,8 +88,8 @@ private:
     {
         if (m_unit.parts == 0)
             return 0;
-        const std::uint8_t a = m_scratch.parts[as_index(l.a)];
-        const std::uint8_t b = m_scratch.parts[as_index(l.b)];
+        const std::uint16_t a = m_scratch.parts[as_index(l.a)];
+        const std::uint16_t b = m_scratch.parts[as_index(l.b)];
         return a == b || b == no_part ? a : a == no_part ? b : m_unit.parts;
     }
 
@@ -119,7 +121,8 @@ private:
     // A small unit is one task.
     [[nodiscard]] std::size_t links_of_task() const
     {
-        return m_unit.parts > 0 ? links_per_task : std::max<std::size_t>(links().size(), 1);
+        return m_unit.parts > 0 ? std::max(links_per_task, links().size() / most_tasks)
+                                : std::max<std::size_t>(links().size(), 1);
     }
 
     // They name states from here on.
@@ -129,6 +132,7 @@ private:
                              m_scratch.places_of_task,
                              [&](std::size_t first, std::size_t last, SomePlaces& some)
                              {
+                                 some.lanes.resize(std::max(some.lanes.size(), as_index((m_unit.parts + 1) * bins_to_a_part)));
                                  some.uncolored.clear();
                                  some.cores.clear();
                                  some.colors = 0;
@@ -210,7 +214,9 @@ private:
             for (std::int32_t bin = 0; bin < m_unit.bin_count; ++bin)
             {
                 m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
-                give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.lanes[part * bins_to_a_part + bin]; }, lane);
+                give_out(
+                    tasks, [&](SomePlaces& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
+                    lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
         }
@@ -254,7 +260,7 @@ private:
                 add_core(l, at, some);
         }
         for (std::int32_t part = 0; part <= m_unit.parts; ++part)
-            std::fill_n(some.lanes + part * bins_to_a_part, m_unit.bin_count, 0);
+            std::fill_n(some.lanes.begin() + part * bins_to_a_part, m_unit.bin_count, 0);
         for_each_row_bin([&](int color) { some.rows[color] = 0; });
     }
 
@@ -293,8 +299,9 @@ private:
 // Whatever the number of threads: the order in which rows are solved depends on it.
 int parts_of(const Unit& unit)
 {
-    const auto parts = std::bit_floor(static_cast<unsigned>(unit.link_count / links_to_a_part));
-    return is_wide(unit) && parts > 1 ? std::min(static_cast<int>(parts), most_parts) : 0;
+    const int few = std::min(unit.link_count / links_to_a_part, few_parts);
+    const int parts = std::clamp(unit.link_count / links_to_a_huge_part, few, plane_cells);
+    return is_wide(unit) && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "dynamics/unit_graph.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -21,6 +22,8 @@ namespace carom::internal {
 namespace {
 
 constexpr std::uint64_t steps_between = 32;
+constexpr std::size_t bodies_to_a_cell = 2048;
+constexpr std::size_t fewest_cells = 16;
 constexpr std::size_t few_of = 8;     // less than one of so many
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
@@ -33,8 +36,8 @@ void sort_bodies(SceneState& state)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
 }
 
-// Into sixteenths, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are solved in another order then, and
-// what is coming to rest is stirred by that.
+// Into sixteenths, or more of what no cache holds, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are
+// solved in another order then, and what is coming to rest is stirred by that.
 void part_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
@@ -42,7 +45,8 @@ void part_bodies(StepContext& ctx)
     order.sort(ctx.scene.def.tasks, state.awake_bodies.size(),
                [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
     const std::span<const HilbertOrder::Key> keys = order.keys();
-    const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * plane_cells / keys.size()); };
+    const std::size_t cells = std::clamp(std::bit_floor(keys.size() / bodies_to_a_cell), fewest_cells, std::size_t{plane_cells});
+    const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * cells / keys.size()); };
     const auto body_of = [&](std::size_t rank) -> BodyRecord& { return state.bodies[state.awake_bodies[keys[rank].index]]; };
     std::size_t changed = 0;
     for (std::size_t rank = 0; rank < keys.size(); ++rank)

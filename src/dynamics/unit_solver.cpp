@@ -144,6 +144,7 @@ private:
         if (goes_by_parts())
         {
             solve_by_parts();
+            fly(k);
             bounce(k);
             finish_substep(k);
             return;
@@ -195,11 +196,11 @@ private:
             m_energy.restore(is_direct());
     }
 
-    // Nothing comes between solving and relaxing, and nothing but lanes is solved.
+    // Nothing but lanes is solved, and nothing comes between solving and relaxing. In a huge unit something always flies: there it flies after both.
     [[nodiscard]] bool goes_by_parts() const
     {
         return m_unit.parts > 0 && m_joints.empty() && m_unit.wide_joint_count == 0 && m_rows.empty() &&
-               m_output.late_rows.empty() && !m_unit.traced && !has_fliers();
+               m_output.late_rows.empty() && !m_unit.traced && (m_unit.parts > few_parts || !has_fliers());
     }
 
     // Each part goes from solving through its new poses to relaxing at once, while its rows are in the cache. What crosses from part to part is solved before
@@ -215,7 +216,7 @@ private:
         m_bins.in_parts(m_crew,
                         [&](int part)
                         {
-                            const auto states = std::ranges::equal_range(parts, static_cast<std::uint8_t>(part));
+                            const auto states = std::ranges::equal_range(parts, static_cast<std::uint16_t>(part));
                             const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
                             m_bins.of_part(part, solve);
                             integrate_positions(first, first + static_cast<int>(states.size()));

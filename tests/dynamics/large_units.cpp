@@ -3,6 +3,9 @@
 #include "support/test_scene.h"
 #include "support/threads.h"
 
+#include "dynamics/scene_data.h"
+#include "dynamics/step_context.h"
+
 #include <algorithm>
 
 using namespace carom;
@@ -14,21 +17,23 @@ constexpr int balls_across = 300;
 constexpr int balls_high = 8; // of balls 0.2 m wide
 constexpr float radius = 0.1f;
 
-// Balls a hexagon's distance apart, the lowest of them set far too deep into a floor.
-Scene sunk_balls(const TaskHooks& tasks)
+// Balls a hexagon's distance apart, the lowest of them set into a floor: their centers at that height.
+Scene piled_balls(const TaskHooks& tasks, int across, int high, double lowest)
 {
     SceneDef def = sleepless();
     def.tasks = tasks;
     Scene scene(def);
     add_static(scene, HalfSpace{}, {.friction = 0.6f});
-    for (int i = 0; i < balls_across * balls_high; ++i)
+    for (int i = 0; i < across * high; ++i)
     {
-        const int row = i / balls_across;
-        add_dynamic(scene, {0.2 * (i % balls_across) + 0.1 * (row % 2), 0.01 + 0.17 * row}, Circle{.radius = radius},
+        const int row = i / across;
+        add_dynamic(scene, {0.2 * (i % across) + 0.1 * (row % 2), lowest + 0.17 * row}, Circle{.radius = radius},
                     {.friction = 0.6f});
     }
     return scene;
 }
+
+Scene sunk_balls(const TaskHooks& tasks) { return piled_balls(tasks, balls_across, balls_high, 0.01); }
 
 float deepest(const Scene& scene)
 {
@@ -54,5 +59,30 @@ TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutToHalfOfItsRadiusAtO
         on_three.step(1.0f / 60);
         ASSERT_LT(deepest(scene), 0.51f * radius) << "step " << i;
         ASSERT_EQ(on_three.state_hash(), scene.state_hash()) << "step " << i;
+    }
+}
+
+// In such a unit parts relax before what flies in it flies.
+TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
+{
+    Threads three(3);
+    std::vector<Scene> scenes;
+    for (const TaskHooks& tasks : {TaskHooks{}, three.hooks()})
+    {
+        scenes.push_back(piled_balls(tasks, 450, 200, 0.98 * static_cast<double>(radius)));
+        for (int i = 0; i < 20; ++i)
+            add_dynamic(scenes.back(), {4.0 * i + 2, 34.5}, Circle{.radius = radius}, {}, {0, -30});
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+        for (Scene& scene : scenes)
+            scene.step(1.0f / 60);
+        ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash()) << "step " << i;
+        if (i > 0)
+            continue;
+        const internal::Scratch& scratch = scenes[0].data().scratch;
+        EXPECT_TRUE(std::ranges::any_of(scratch.units, [](const internal::Unit& unit)
+                                        { return unit.parts > internal::few_parts && unit.flier_count >= 20; }));
+        EXPECT_GE(scenes[0].report().flight_impacts, 20);
     }
 }

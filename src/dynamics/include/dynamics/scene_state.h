@@ -20,7 +20,7 @@ namespace carom::internal {
 
 inline constexpr std::int32_t none = -1;
 
-inline constexpr int plane_cells = 16;
+inline constexpr int plane_cells = 256; ///< at most
 
 struct BodyRecord
 {
@@ -29,7 +29,7 @@ struct BodyRecord
     bool enabled = true;
     bool can_sleep = true;
     bool mass_overridden = false;
-    std::uint8_t plane_cell = 0;     ///< sixteenth of the awake bodies, as tidy() last parted them by where they are
+    std::uint8_t plane_cell = 0;     ///< in which share of the awake bodies, as tidy() last parted them by where they are
     bool gives_way = false;          ///< dynamic, with an inverse mass or inertia that is not 0
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled

@@ -146,13 +146,13 @@ struct WideCore
     float depth;
 };
 
-inline constexpr int most_parts = plane_cells;
+inline constexpr int few_parts = 16; ///< of a unit whose rows stay in the cache that processors share
 inline constexpr int bins_to_a_part = 2 * color_limit;
 
 /// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
 struct SomePlaces
 {
-    std::int32_t lanes[(most_parts + 1) * bins_to_a_part] = {};
+    std::vector<std::int32_t> lanes; ///< by part
     std::int32_t rows[color_limit + 1] = {};
     std::uint64_t colors = 0;            ///< that they have
     std::vector<std::int32_t> uncolored; ///< of the unit's links
@@ -489,7 +489,7 @@ struct Scratch
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
     std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit, then by link
     std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
-    std::vector<std::uint8_t> parts;                       ///< of the states of units that have some
+    std::vector<std::uint16_t> parts;                      ///< of the states of units that have some
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
