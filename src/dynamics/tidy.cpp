@@ -4,6 +4,7 @@
 
 #include "core/grow.h"
 #include "core/index.h"
+#include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/stages.h"
@@ -217,16 +218,33 @@ private:
                           break;
                       }
                   });
-        for_each_in_parts(m_tasks, slots.size(), contacts_per_task,
-                          [&](std::size_t i)
-                          {
-                              Contact& contact = m_state.contacts[slots[i]];
-                              contact.awake_index = static_cast<std::int32_t>(i);
-                              contact.color = none;
-                              rename_edges(contact);
-                              if (contact.pair != none)
-                                  m_state.box_pairs[as_index(contact.pair)].contact = slots[i];
-                          });
+        run_parts(m_tasks, slots.size(), contacts_per_task,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                      for (std::size_t i = first; i < last; ++i)
+                      {
+                          prefetch_named(std::span(slots).subspan(i, last - i));
+                          Contact& contact = m_state.contacts[slots[i]];
+                          contact.awake_index = static_cast<std::int32_t>(i);
+                          contact.color = none;
+                          rename_edges(contact);
+                          if (contact.pair != none)
+                              m_state.box_pairs[as_index(contact.pair)].contact = slots[i];
+                      }
+                  });
+    }
+
+    // First a later contact, then what it names.
+    [[gnu::always_inline]] void prefetch_named(std::span<const std::int32_t> later) const
+    {
+        if (later.size() > 2 * turns_ahead)
+            __builtin_prefetch(&m_state.contacts[later[2 * turns_ahead]]);
+        if (later.size() <= turns_ahead)
+            return;
+        const Contact& contact = m_state.contacts[later[turns_ahead]];
+        for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
+            __builtin_prefetch(&m_moved_to[static_cast<std::size_t>(std::max(edge, 0) >> 1)]);
+        __builtin_prefetch(m_state.box_pairs.data() + std::max(contact.pair, 0));
     }
 
     // What goes to another's slot, that to a third's, and so on until the first slot is free to be taken: one after the other, the first marked.
@@ -249,11 +267,12 @@ private:
             }
         }
         for (std::int32_t& slot : m_moved_to)
-            slot = is_marked(slot) ? marked(slot) : slot;
+            slot = plain(slot);
     }
 
     static bool is_marked(std::int32_t slot) { return slot < 0; }
     static std::int32_t marked(std::int32_t slot) { return ~slot; } // and back
+    static std::int32_t plain(std::int32_t slot) { return is_marked(slot) ? marked(slot) : slot; }
 
     // From the last of each cycle to its first, so that there is always room.
     template <class At>
@@ -266,8 +285,9 @@ private:
             const auto last = at(cycles[i]);
             for (; !is_marked(cycles[i]); --i)
             {
-                const std::int32_t from = is_marked(cycles[i - 1]) ? marked(cycles[i - 1]) : cycles[i - 1];
-                at(cycles[i]) = at(from);
+                if (i > turns_ahead)
+                    prefetch(at(plain(cycles[i - 1 - turns_ahead])));
+                at(cycles[i]) = at(plain(cycles[i - 1]));
             }
             at(marked(cycles[i])) = last;
         }
