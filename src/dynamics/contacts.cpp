@@ -1,9 +1,10 @@
-// Stage 3, contacts: manifolds of awake pairs, begins and ends. The first pass writes only to its own contact and may run on any thread; the
-// second goes through the results in order.
+// Stage 3, contacts: manifolds of awake pairs, begins and ends, and who takes part in the step because of them (contact_links.cpp). The first pass writes only
+// to its own contact and may run on any thread; the second goes through the results in order.
 
 #include "core/grow.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
+#include "dynamics/contact_links.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/kept_manifold.h"
@@ -170,9 +171,6 @@ void begin_touch(StepContext& ctx, int index)
         append(ctx.scene.events.begins, begin_event(state, contact));
 }
 
-// It wakes nobody, and no other contact speaks for the same two shapes: the rest may be done by any thread.
-bool concerns_no_other(const Contact& contact) { return (contact.flags & (contact_flag::piece | contact_flag::sleeper)) == 0; }
-
 // As wake_body for one that is awake. Threads may do so side by side.
 void keep_awake(const StepContext& ctx, int body)
 {
@@ -241,6 +239,7 @@ public:
         m_some.ends.clear();
         m_some.others.clear();
         m_some.left_loads.clear();
+        m_some.of_others.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
             prefetch_later(i);
@@ -439,15 +438,23 @@ void update_contacts(StepContext& ctx)
         return;
     }
     SceneState& state = ctx.state;
-    const std::span<SomeNews> parts =
-        find_in_parts(ctx.scene.def.tasks, state.awake_contacts.size(), contacts_at_once, ctx.scratch.news_of_task,
-                      [&](std::size_t first, std::size_t last, SomeNews& some) { ContactUpdate(ctx, first, last, some).run(); });
+    const std::size_t count = state.awake_contacts.size();
+    ContactLinks links(ctx, contacts_at_once);
+    const std::span<SomeNews> parts = find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.news_of_task,
+                                                    [&](std::size_t first, std::size_t last, SomeNews& some)
+                                                    {
+                                                        ContactUpdate(ctx, first, last, some).run();
+                                                        links.ask(first, last, some.of_others);
+                                                    });
     std::vector<ContactNews>& news = ctx.scratch.news;
+    std::vector<std::int32_t>& of_others = ctx.scratch.of_others;
     news.clear();
+    of_others.clear();
     ctx.scratch.left_loads.clear();
     for (const SomeNews& some : parts)
     {
         append_all(news, some.others);
+        append_all(of_others, some.of_others);
         append_all(ctx.scratch.left_loads, some.left_loads);
     }
     std::ranges::sort(ctx.scratch.left_loads);
@@ -468,7 +475,10 @@ void update_contacts(StepContext& ctx)
         if (n.what == News::Ends)
             end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
     }
-    ctx.scratch.motion.resize(state.awake_bodies.size(), 0); // bodies woken in this stage were at rest
+    ctx.scratch.motion.resize(state.awake_bodies.size(), 0);               // bodies woken in this stage were at rest
+    append_all(of_others, std::span(state.awake_contacts).subspan(count)); // woken in this stage
+    links.ask_later(of_others);
+    links.join();
     ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
 }
 

@@ -1,5 +1,5 @@
-// What takes part in a step: links of contacts and of joints between the awake bodies, found in one walk each, and who may fly as far as single bodies and
-// their contacts tell. All that follows in the units stage goes by these.
+// What takes part in a step: awake bodies, links of joints between them, and who may fly as far as single bodies and their contacts tell. Links of contacts are
+// found while these are updated (contact_links.cpp). All that follows in the units stage goes by these.
 
 #include "dynamics/unit_links.h"
 
@@ -32,116 +32,38 @@ bool is_closed(const StepContext& ctx, int index, int body)
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
 }
 
-// Who bears a load matters to rows and heaps only.
-bool is_same(const Link& a, const Link& b)
-{
-    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.about ^ b.about) & ~link_flag::bears) == 0;
-}
-
-// A task's walk over its contacts. Copies, not references: to a compiler every store might change where vectors are.
-class ContactWalk
-{
-public:
-    // Links of the last step, where they count, are compared with these, and give their place to them.
-    ContactWalk(const StepContext& ctx, std::span<Link> links, std::size_t to_compare)
-        : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.places.data()),
-          m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.is_loaded.data()),
-          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(links.data()),
-          m_old_end(links.data() + to_compare), m_stay(to_compare > 0)
-    {}
-
-    void prefetch(std::int32_t index) const { internal::prefetch(m_contacts[index]); }
-
-    // Links it where it takes part in the step. Whom it loads does not fly.
-    void visit(std::int32_t index)
-    {
-        Contact& contact = m_contacts[index];
-        m_lane_marks[index] = LaneMark::None;
-        contact.wide = none;
-        const bool touching = (contact.flags & contact_flag::touching) != 0;
-        const bool solved = is_solved(contact);
-        if (!solved)
-            leave_row(m_ctx.state, index);
-        if (!touching && !solved)
-            return;
-        const std::int32_t a = m_places[contact.body_a];
-        const std::int32_t b = m_places[contact.body_b];
-        if (a < 0 && b < 0)
-        {
-            leave_color(m_ctx.state, contact);
-            return;
-        }
-        const bool loaded = solved && is_loaded(m_ctx, contact, least_separation(contact.manifold));
-        note_load(a, loaded);
-        note_load(b, loaded);
-        link(index, a, b, about(contact, solved));
-        m_touching += touching ? 1 : 0;
-    }
-
-    void tell(SomeLinks& some) const
-    {
-        some.touching = m_touching;
-        some.stay = m_stay && m_next == m_old_end;
-        some.links.resize(static_cast<std::size_t>(m_next - some.links.data()));
-    }
-
-private:
-    [[nodiscard]] static std::uint16_t about(const Contact& contact, bool solved)
-    {
-        const bool plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
-        const std::uint32_t flags = contact.flags & (link_flag::touching | link_flag::round | link_flag::bears);
-        return about_link(flags | (solved ? link_flag::solved : 0) | (plain ? link_flag::plain : 0), contact.manifold.count,
-                          contact.color);
-    }
-
-    // Filled where it stands: a copy would wait for its bytes.
-    void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t about)
-    {
-        Link& l = *m_next;
-        if (m_stay)
-            m_stay = m_next < m_old_end && is_same(l, {contact, a, b, about});
-        l.contact = contact;
-        l.a = a;
-        l.b = b;
-        l.about = about;
-        l.bin = 0;
-        ++m_next;
-    }
-
-    // Others may do so as well. The last mark is nobody's: a branch here would be guessed wrong.
-    void note_load(std::int32_t place, bool loaded) const
-    {
-        const std::int32_t marked = loaded && place >= 0 ? place : m_nobody;
-        std::atomic_ref(m_is_loaded[marked]).store(1, std::memory_order_relaxed);
-    }
-
-    const StepContext& m_ctx;
-    Contact* m_contacts;
-    const std::int32_t* m_places;
-    LaneMark* m_lane_marks;
-    std::uint8_t* m_is_loaded;
-    std::int32_t m_nobody;
-    Link* m_next;
-    const Link* m_old_end;
-    bool m_stay;
-    int m_touching = 0;
-};
-
 class LinkGathering
 {
 public:
     explicit LinkGathering(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
-    void find_fliers()
+    void forget_bodies()
     {
-        scratch.flight.assign(state.awake_bodies.size(), earthbound);
-        scratch.grounded.assign(state.awake_bodies.size(), earthbound);
-        scratch.is_loaded.assign(state.awake_bodies.size() + 1, 0);
+        scratch.flight.clear();
+        scratch.grounded.clear();
+        scratch.is_loaded.clear();
         scratch.has_uneven = scratch.has_kinematic = scratch.has_hung = false;
-        forget_places();
-        for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
-                          [&](std::size_t i)
+        for (const std::int32_t body : scratch.placed) // of what was awake in the last step alone: what never moves costs nothing
+            scratch.places[static_cast<std::size_t>(body)] = none;
+        scratch.places.resize(std::max(scratch.places.size(), static_cast<std::size_t>(state.bodies.capacity())), none);
+        scratch.placed.clear();
+    }
+
+    // Those that have woken since it was last called.
+    void place_bodies()
+    {
+        const std::size_t first = scratch.placed.size();
+        const std::size_t count = state.awake_bodies.size();
+        scratch.placed.insert(scratch.placed.end(), state.awake_bodies.begin() + static_cast<std::ptrdiff_t>(first),
+                              state.awake_bodies.end());
+        scratch.flight.resize(count, earthbound);
+        scratch.grounded.resize(count, earthbound);
+        scratch.is_loaded.resize(first); // but for nobody's
+        scratch.is_loaded.resize(count + 1);
+        for_each_in_parts(ctx.scene.def.tasks, count - first, bodies_per_task,
+                          [&](std::size_t k)
                           {
+                              const std::size_t i = first + k;
                               prefetch_hinge_of(i + turns_ahead);
                               const int body = state.awake_bodies[i];
                               note_place(body, static_cast<std::int32_t>(i));
@@ -149,34 +71,6 @@ public:
                               if (ctx.scene.def.continuous)
                                   scratch.flight[i] = kind_of_flight(body);
                           });
-    }
-
-    // The one walk over all contacts, on all threads; what follows goes over the links. Links of the last step are compared with these, and give their place
-    // to them.
-    void gather_contacts()
-    {
-        const TaskHooks& tasks = ctx.scene.def.tasks;
-        const std::size_t contacts = state.awake_contacts.size();
-        const std::size_t part = part_of(contacts, contacts_per_task);
-        const bool in_place = contacts > 0 && contacts <= part;
-        if (in_place)
-        {
-            scratch.links_of_task.resize(std::max<std::size_t>(scratch.links_of_task.size(), 1));
-            scratch.links.swap(scratch.links_of_task[0].links);
-        }
-        const std::span<SomeLinks> parts =
-            find_in_parts(tasks, contacts, part, scratch.links_of_task, [&](std::size_t first, std::size_t last, SomeLinks& some)
-                          { gather_some(first, last, in_place && scratch.kept_units.are_plain, some); });
-        if (in_place)
-        {
-            scratch.links.swap(parts[0].links);
-            scratch.kept_units.links_stay = parts[0].stay;
-            ctx.report.touching += parts[0].touching;
-        }
-        else
-        {
-            join_links(parts);
-        }
     }
 
     // A body that a contact loads does not fly.
@@ -192,7 +86,7 @@ public:
         }
     }
 
-    // The same for joints. But for what may fly, their links say nothing that a step changes.
+    // But for what may fly, they say nothing that a step changes.
     void gather_joints()
     {
         KeptUnits& kept = scratch.kept_units;
@@ -236,15 +130,6 @@ private:
             prefetch(state.joints[record.first_joint >> 1]);
     }
 
-    // Of the bodies that were awake in the last step alone: what never moves costs nothing.
-    void forget_places()
-    {
-        for (const std::int32_t body : scratch.placed)
-            scratch.places[static_cast<std::size_t>(body)] = none;
-        scratch.placed.assign(state.awake_bodies.begin(), state.awake_bodies.end());
-        scratch.places.resize(std::max(scratch.places.size(), static_cast<std::size_t>(state.bodies.capacity())), none);
-    }
-
     void note_place(int body, std::int32_t place) const
     {
         const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
@@ -273,46 +158,10 @@ private:
         return kind;
     }
 
-    void join_links(std::span<SomeLinks> parts)
-    {
-        std::size_t count = 0;
-        for (SomeLinks& some : parts)
-        {
-            some.first = count;
-            count += some.links.size();
-            ctx.report.touching += some.touching;
-        }
-        const bool may_stay = scratch.kept_units.are_plain && scratch.links.size() == count;
-        set_size(scratch.links, count);
-        for_each_in_parts(ctx.scene.def.tasks, parts.size(), 4,
-                          [&](std::size_t i)
-                          {
-                              const auto to = scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
-                              parts[i].stay = may_stay && std::equal(parts[i].links.begin(), parts[i].links.end(), to, is_same);
-                              std::copy(parts[i].links.begin(), parts[i].links.end(), to);
-                          });
-        scratch.kept_units.links_stay = may_stay && std::ranges::all_of(parts, &SomeLinks::stay);
-    }
-
     // One thread alone finds all in one place.
     [[nodiscard]] std::size_t part_of(std::size_t count, std::size_t per_task) const
     {
         return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
-    }
-
-    void gather_some(std::size_t first, std::size_t last, bool compare, SomeLinks& some) const
-    {
-        const std::size_t before = some.links.size();
-        set_size(some.links, std::max(before, last - first));
-        ContactWalk walk(ctx, some.links, compare ? before : 0);
-        const std::int32_t* const indices = state.awake_contacts.data();
-        for (std::size_t i = first; i < last; ++i)
-        {
-            if (i + turns_ahead < last)
-                walk.prefetch(indices[i + turns_ahead]);
-            walk.visit(indices[i]);
-        }
-        walk.tell(some);
     }
 
     void gather_joint(int index, std::vector<JointLink>& links) const
@@ -369,13 +218,12 @@ std::int32_t flight_about_hinge(const SceneState& state, int body)
     return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
 }
 
-void gather_links(StepContext& ctx)
-{
-    LinkGathering gathering(ctx);
-    gathering.find_fliers();
-    gathering.gather_contacts();
-    gathering.list_fliers();
-    gathering.gather_joints();
-}
+void forget_bodies(StepContext& ctx) { LinkGathering(ctx).forget_bodies(); }
+
+void place_bodies(StepContext& ctx) { LinkGathering(ctx).place_bodies(); }
+
+void list_fliers(StepContext& ctx) { LinkGathering(ctx).list_fliers(); }
+
+void gather_joints(StepContext& ctx) { LinkGathering(ctx).gather_joints(); }
 
 } // namespace carom::internal

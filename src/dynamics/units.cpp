@@ -18,7 +18,8 @@ void build_units(StepContext& ctx)
         refill_units(ctx);
         return;
     }
-    gather_links(ctx);
+    list_fliers(ctx);
+    gather_joints(ctx);
     ctx.scratch.kept_units.hinges_stay = units_stay(ctx);
     if (ctx.scratch.kept_units.hinges_stay)
     {

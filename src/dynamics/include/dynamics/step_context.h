@@ -89,6 +89,7 @@ struct SomeNews
     std::vector<std::int32_t> ends{};
     std::vector<ContactNews> others{};
     std::vector<std::int32_t> left_loads{}; ///< shapes that have left a piece of a chain which bore a load of theirs
+    std::vector<std::int32_t> of_others{};  ///< contacts of whose news others may have more to say
 };
 
 /// What becomes of a pair of boxes, see pair_fates.cpp.
@@ -164,8 +165,10 @@ struct SomePlaces
 /// What a task has found.
 struct SomeLinks
 {
-    std::vector<Link> links;
-    std::size_t first = 0; ///< where they go among all
+    std::vector<Link> links; ///< room for more than there are
+    std::size_t count = 0;
+    std::size_t first = 0;      ///< where they go among all
+    std::size_t to_compare = 0; ///< so many are of the last step, but for those that have been found
     int touching = 0;
     bool stay = false; ///< they are what they were
 };
@@ -427,6 +430,7 @@ struct Scratch
     std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
     std::vector<std::int32_t> left_loads; ///< in order
+    std::vector<std::int32_t> of_others;  ///< contacts, of all tasks
     std::vector<SomeNews> news_of_task;
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound

@@ -1,6 +1,6 @@
 #pragma once
 
-// Links of contacts and joints between the bodies that take part in a step.
+// Bodies that take part in a step, and joints between them.
 
 #include "dynamics/contact_colors.h"
 #include "dynamics/contact_store.h"
@@ -8,8 +8,16 @@
 
 namespace carom::internal {
 
-/// Fills Scratch::links and joint_links, and flight as far as it is known from single bodies and their contacts.
-void gather_links(StepContext& ctx);
+/// Gives bodies that are awake their places as in Link, and says in Scratch::flight who may fly as far as single bodies tell. Called again after
+/// more have woken. No contact loads them yet.
+void forget_bodies(StepContext& ctx);
+void place_bodies(StepContext& ctx);
+
+/// When links of contacts are known: whom one loads does not fly.
+void list_fliers(StepContext& ctx);
+
+/// Fills Scratch::joint_links.
+void gather_joints(StepContext& ctx);
 
 /// Of a body with joints: the hinge to the world that it turns on, which nothing drives, or earthbound.
 [[nodiscard]] std::int32_t flight_about_hinge(const SceneState& state, int body);
