@@ -28,6 +28,7 @@ void UnitOutput::clear()
     deferred.clear();
     stopped_joints.clear();
     kicked_shapes.clear();
+    struck_states.clear();
     deflected.clear();
     reaches.clear();
     hold_sets.clear();

@@ -1,5 +1,5 @@
 // One unit through all its sub-steps. In every sub-step the soft rows advance first, then the unit's balls in flight through the same interval, then
-// everything relaxes and bounces (unit_bounces.cpp).
+// everything relaxes and bounces (unit_bounces.cpp). In a huge unit balls fly after everything has relaxed: solve_by_parts.
 
 #include "dynamics/unit_solver.h"
 
@@ -145,6 +145,7 @@ private:
         {
             solve_by_parts();
             fly(k);
+            relax_struck();
             bounce(k);
             finish_substep(k);
             return;
@@ -224,6 +225,22 @@ private:
                             m_bins.of_part(part, relax);
                         });
         m_bins.crossing(m_crew, relax);
+    }
+
+    // In a huge unit: what has flown into some bodies finds them relaxed already, and what has landed has rows only now.
+    void relax_struck()
+    {
+        std::vector<std::int32_t>& parts = m_output.struck_states;
+        if (parts.empty() && late_rows().empty())
+            return;
+        std::ranges::transform(parts, parts.begin(), [&](std::int32_t state) { return m_scratch.parts[as_index(state)]; });
+        std::erase_if(parts, [&](std::int32_t part) { return part >= m_unit.parts; }); // of what does not give way
+        std::ranges::sort(parts);
+        parts.erase(std::ranges::unique(parts).begin(), parts.end());
+        const auto relax = [this](int first, int last) { relax_lanes(first, last); };
+        m_bins.crossing(m_crew, relax);
+        m_crew.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_bins.of_part(parts[as_index(i)], relax); });
+        solve_rows(m_view, late_rows(), false);
     }
 
     // Groups of one bin.

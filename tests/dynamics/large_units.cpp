@@ -62,7 +62,7 @@ TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutToHalfOfItsRadiusAtO
     }
 }
 
-// In such a unit parts relax before what flies in it flies.
+// In such a unit parts relax before what flies in it flies. They are parts of the plane from the second step on.
 TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
 {
     Threads three(3);
@@ -70,6 +70,7 @@ TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
     for (const TaskHooks& tasks : {TaskHooks{}, three.hooks()})
     {
         scenes.push_back(piled_balls(tasks, 450, 200, 0.98 * static_cast<double>(radius)));
+        scenes.back().step(1.0f / 60);
         for (int i = 0; i < 20; ++i)
             add_dynamic(scenes.back(), {4.0 * i + 2, 34.5}, Circle{.radius = radius}, {}, {0, -30});
     }
@@ -78,11 +79,16 @@ TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
         for (Scene& scene : scenes)
             scene.step(1.0f / 60);
         ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash()) << "step " << i;
-        if (i > 0)
-            continue;
         const internal::Scratch& scratch = scenes[0].data().scratch;
-        EXPECT_TRUE(std::ranges::any_of(scratch.units, [](const internal::Unit& unit)
-                                        { return unit.parts > internal::few_parts && unit.flier_count >= 20; }));
-        EXPECT_GE(scenes[0].report().flight_impacts, 20);
+        ASSERT_TRUE(
+            std::ranges::any_of(scratch.units, [](const internal::Unit& unit) { return unit.parts > internal::few_parts; }));
+        EXPECT_GT(std::ranges::count(scratch.parts, 31), 1000) << "the last part";
+        if (i == 0)
+        {
+            EXPECT_GE(scenes[0].report().flight_impacts, 20);
+        }
     }
+    const std::vector<BodyId> bodies = scenes[0].bodies();
+    for (std::size_t i = bodies.size() - 20; i < bodies.size(); ++i)
+        EXPECT_GT(scenes[0].body(bodies[i]).position().y, 33.93) << "it has sunk in to its own center or deeper";
 }

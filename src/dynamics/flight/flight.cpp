@@ -272,6 +272,7 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     if (unit.flier_count == 0)
         return;
     const FlightSpan span(ctx, unit, k, output);
+    output.struck_states.clear();
     for (Flier& f : span.fliers())
         start_flight(span, f);
     trace_all(span);

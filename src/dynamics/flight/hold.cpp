@@ -2,8 +2,11 @@
 
 namespace carom::internal {
 
-void correct_state(BodyState& s, double left, double dvx, double dvy, double dw)
+void correct_state(const FlightSpan& span, std::int32_t state, double left, double dvx, double dvy, double dw)
 {
+    span.output.disturbed = true;
+    span.output.struck_states.push_back(state);
+    BodyState& s = span.state_of(state);
     const Vec2 dv = {static_cast<float>(dvx), static_cast<float>(dvy)};
     const auto time = static_cast<float>(left);
     s.velocity += dv;
@@ -31,7 +34,7 @@ void push_back(const FlightSpan& span, const Hold& h, double time)
         return;
     }
     const Vec2 arm = h.point - to_vec2(span.sim_of(span.state.shapes[h.other].body).center + s.delta_position);
-    correct_state(s, span.h - 0.5 * (h.start + time), static_cast<double>(c.inverse_mass.x * impulse.x),
+    correct_state(span, h.solved, span.h - 0.5 * (h.start + time), static_cast<double>(c.inverse_mass.x * impulse.x),
                   static_cast<double>(c.inverse_mass.y * impulse.y),
                   static_cast<double>(c.inverse_inertia * cross(arm, impulse)));
 }

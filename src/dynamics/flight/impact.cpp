@@ -170,8 +170,7 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
     }
     else if (m.state != none)
     {
-        m_span.output.disturbed = true;
-        correct_state(m_span.state_of(m.state), m_span.h - m_time, dvx, dvy, dw);
+        correct_state(m_span, m.state, m_span.h - m_time, dvx, dvy, dw);
     }
     else
         defer(static_cast<int>(i));

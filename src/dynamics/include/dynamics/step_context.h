@@ -148,6 +148,7 @@ struct WideCore
 };
 
 inline constexpr int few_parts = 16; ///< of a unit whose rows stay in the cache that processors share
+inline constexpr int most_parts = plane_cells;
 inline constexpr int bins_to_a_part = 2 * color_limit;
 
 /// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
@@ -371,6 +372,7 @@ struct UnitOutput : Told
     std::vector<DeferredImpulse> deferred;
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
     std::vector<std::int32_t> struck_lanes;   ///< of the unit, in this sub-step
+    std::vector<std::int32_t> struck_states;  ///< that rows move and what flies has struck, in this sub-step
     std::vector<Told> told_by_others;         ///< by all threads but the leader's, empty but for while they tell
     std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;               ///< of each of these
