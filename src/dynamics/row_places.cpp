@@ -300,7 +300,8 @@ private:
 int parts_of(const Unit& unit)
 {
     const int few = std::min(unit.link_count / links_to_a_part, few_parts);
-    const int parts = std::clamp(unit.link_count / links_to_a_huge_part, few, plane_cells);
+    const int many = std::min({unit.link_count / links_to_a_huge_part, unit.dynamic_count / bodies_to_a_cell, most_parts});
+    const int parts = std::max(few, many);
     return is_wide(unit) && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 

@@ -23,7 +23,6 @@ namespace carom::internal {
 namespace {
 
 constexpr std::uint64_t steps_between = 32;
-constexpr std::size_t bodies_to_a_cell = 2048;
 constexpr std::size_t fewest_cells = 16;
 constexpr std::size_t few_of = 8;     // less than one of so many
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
@@ -37,6 +36,15 @@ void sort_bodies(SceneState& state)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
 }
 
+// Powers of two. As long as they have from half to twice the bodies that they should have, as many as there are.
+std::size_t cells_for(std::size_t bodies, std::size_t cells_now)
+{
+    const std::size_t each = bodies / cells_now;
+    if (each >= bodies_to_a_cell / 2 && each < 2 * bodies_to_a_cell)
+        return cells_now;
+    return std::clamp(std::bit_floor(bodies / bodies_to_a_cell), fewest_cells, std::size_t{plane_cells});
+}
+
 // Into sixteenths, or more of what no cache holds, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are
 // solved in another order then, and what is coming to rest is stirred by that.
 void part_bodies(StepContext& ctx)
@@ -46,9 +54,12 @@ void part_bodies(StepContext& ctx)
     order.sort(ctx.scene.def.tasks, state.awake_bodies.size(),
                [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
     const std::span<const HilbertOrder::Key> keys = order.keys();
-    const std::size_t cells = std::clamp(std::bit_floor(keys.size() / bodies_to_a_cell), fewest_cells, std::size_t{plane_cells});
-    const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * cells / keys.size()); };
     const auto body_of = [&](std::size_t rank) -> BodyRecord& { return state.bodies[state.awake_bodies[keys[rank].index]]; };
+    std::size_t cells_now = fewest_cells;
+    for (std::size_t rank = 0; rank < keys.size(); ++rank)
+        cells_now = std::max(cells_now, std::bit_ceil(body_of(rank).plane_cell + std::size_t{1}));
+    const std::size_t cells = cells_for(keys.size(), cells_now);
+    const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * cells / keys.size()); };
     std::size_t changed = 0;
     for (std::size_t rank = 0; rank < keys.size(); ++rank)
         changed += body_of(rank).plane_cell != cell_of(rank) ? 1 : 0;
