@@ -158,6 +158,7 @@ void ContactLinks::ask(std::size_t first, std::size_t last, std::vector<std::int
 {
     SomeLinks& some = links_of(first / m_contacts_to_a_task);
     ContactWalk walk(m_ctx, some);
+    later.clear();
     for (const std::int32_t contact : std::span(m_ctx.state.awake_contacts).subspan(first, last - first))
     {
         if (concerns_no_other(m_ctx.state.contacts[contact]))

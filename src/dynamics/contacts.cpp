@@ -1,5 +1,5 @@
-// Stage 3, contacts: manifolds of awake pairs, begins and ends, and who takes part in the step because of them (contact_links.cpp). The first pass writes only
-// to its own contact and may run on any thread; the second goes through the results in order.
+// Stage 3, contacts: manifolds of awake pairs, begins and ends, and who takes part in the step because of them (contact_links.cpp). The first pass writes to its
+// own contact, and marks bodies in ways that commute; it may run on any thread. The second goes through the results in order.
 
 #include "core/grow.h"
 #include "core/prefetch.h"
@@ -239,7 +239,6 @@ public:
         m_some.ends.clear();
         m_some.others.clear();
         m_some.left_loads.clear();
-        m_some.of_others.clear();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
             prefetch_later(i);

@@ -1,4 +1,4 @@
-// Stage 4, units: first what hangs on what (unit_links.cpp) and who is solved together (unit_graph.cpp), then all that each unit needs side by side
+// Stage 4, units: first who flies, what joints hold (unit_links.cpp) and who is solved together (unit_graph.cpp), then all that each unit needs side by side
 // (unit_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (kept_units.cpp), and so do rows (kept_rows.cpp)
 // and hinges (WideKernels::follow_joints).
 

@@ -8,8 +8,8 @@
 
 namespace carom::internal {
 
-/// Gives bodies that are awake their places as in Link, and says in Scratch::flight who may fly as far as single bodies tell. Called again after
-/// more have woken. No contact loads them yet.
+/// Gives bodies that are awake their places as in Link, and says in Scratch::flight who may fly as far as single bodies tell; no contact loads them
+/// yet. Called again after more have woken, for these.
 void forget_bodies(StepContext& ctx);
 void place_bodies(StepContext& ctx);
 
