@@ -7,7 +7,6 @@
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/body_store.h"
-#include "dynamics/contact_update.h"
 #include "dynamics/joint_bodies.h"
 #include "dynamics/kept_units.h"
 #include "dynamics/task_sizes.h"

@@ -144,8 +144,11 @@ private:
         if (goes_by_parts())
         {
             solve_by_parts();
-            fly(k);
-            relax_struck();
+            if (has_fliers())
+            {
+                fly(k);
+                relax_struck();
+            }
             bounce(k);
             finish_substep(k);
             return;
