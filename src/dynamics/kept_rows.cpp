@@ -61,9 +61,9 @@ bool loose_stay(const StepContext& ctx)
     return stay;
 }
 
-bool are_marked(const SceneState& state, const WideRow& row)
+bool are_marked(const SceneState& state, const WideNotes& notes)
 {
-    return std::ranges::all_of(row.contact.v, [&](std::int32_t contact)
+    return std::ranges::all_of(notes.contact.v, [&](std::int32_t contact)
                                { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InRow; });
 }
 
@@ -76,13 +76,18 @@ bool rows_stay(const StepContext& ctx)
     {
         RowFollower follower(ctx);
         WideRow* const rows = ctx.scratch.wide_rows.data() + unit.wide_store;
+        WideNotes* const all_notes = ctx.scratch.wide_notes.data() + unit.wide_store;
         const bool asks_ahead = !is_large(unit); // a thread has much of a large one in its cache still
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
-            WideRow& row = rows[g];
+            WideNotes& notes = all_notes[g];
             if (asks_ahead)
-                prefetch(rows[g + 2]); // beyond the last there is nothing, which does no harm
-            const FollowNews news = are_marked(ctx.state, row) ? follower.follow(row) : FollowNews{.gone = filled_lanes(row)};
+            { // beyond the last there is nothing, which does no harm
+                prefetch(rows[g + 2]);
+                prefetch(all_notes[g + 2]);
+            }
+            const FollowNews news =
+                are_marked(ctx.state, notes) ? follower.follow(rows[g], notes) : FollowNews{.gone = filled_lanes(notes)};
             if ((news.gone | news.told) != 0)
                 stay.store(false, std::memory_order_relaxed);
         }

@@ -25,34 +25,34 @@ RowFollower::RowFollower(const StepContext& ctx)
     : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
 {}
 
-FollowNews RowFollower::follow(WideRow& row)
+FollowNews RowFollower::follow(WideRow& row, WideNotes& notes)
 {
     FollowedRow now;
-    m_kernels.follow(row, m_scene, now);
+    m_kernels.follow(row, notes, m_scene, now);
     FollowNews news;
     const std::uint32_t looked = now.unsure | now.begins_or_ends;
-    const std::uint32_t sure = filled_lanes(row) & ~looked;
-    row.may_hit = now.unloaded & sure;
-    clear_sums(row);
-    for_each_lane(sure & ~row.followed, [&](int i) { m_state.contacts[row.contact.v[i]].flags |= contact_flag::followed; });
-    row.followed |= sure;
+    const std::uint32_t sure = filled_lanes(notes) & ~looked;
+    notes.may_hit = now.unloaded & sure;
+    clear_sums(row, notes);
+    for_each_lane(sure & ~notes.followed, [&](int i) { m_state.contacts[notes.contact.v[i]].flags |= contact_flag::followed; });
+    notes.followed |= sure;
     for_each_lane(now.borne & sure, [&](int i) { note_borne(row, i); });
-    for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(row, i, now.separation.v[i]); });
-    for_each_lane(looked, [&](int i) { look_at(row, i, news); });
-    m_kernels.prepare(&row, 1);
+    for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(row, notes, i, now.separation.v[i]); });
+    for_each_lane(looked, [&](int i) { look_at(row, notes, i, news); });
+    m_kernels.prepare(row, notes.count);
     return news;
 }
 
 // Found anew, or followed, by itself.
-void RowFollower::look_at(WideRow& row, int i, FollowNews& news)
+void RowFollower::look_at(WideRow& row, WideNotes& notes, int i, FollowNews& news)
 {
     const std::uint32_t bit = 1u << i;
-    const std::int32_t index = row.contact.v[i];
+    const std::int32_t index = notes.contact.v[i];
     m_scratch.is_looked_at[static_cast<std::size_t>(index)] = 1;
     const Contact& contact = m_state.contacts[index];
     if (update_contact(m_ctx, index) != News::Nothing)
         news.told |= bit;
-    if (!is_solved(contact) || contact.manifold.count != row.count)
+    if (!is_solved(contact) || contact.manifold.count != notes.count)
     {
         news.gone |= bit;
         return;
@@ -61,8 +61,8 @@ void RowFollower::look_at(WideRow& row, int i, FollowNews& news)
     link.contact = index;
     link.a = row.a.v[i];
     link.b = row.b.v[i];
-    refill_lane(m_ctx, link, row, i);
-    note_if_loaded(row, i, least_separation(contact.manifold));
+    refill_lane(m_ctx, link, row, notes, i);
+    note_if_loaded(row, notes, i, least_separation(contact.manifold));
 }
 
 // What is not borne may fly.
@@ -72,9 +72,9 @@ void RowFollower::note_borne(const WideRow& row, int i) const
         std::atomic_ref(m_scratch.borne[static_cast<std::size_t>(s)]).store(1, std::memory_order_relaxed);
 }
 
-void RowFollower::note_if_loaded(const WideRow& row, int i, float separation) const
+void RowFollower::note_if_loaded(const WideRow& row, const WideNotes& notes, int i, float separation) const
 {
-    if (is_loaded(m_ctx, m_state.contacts[row.contact.v[i]], separation))
+    if (is_loaded(m_ctx, m_state.contacts[notes.contact.v[i]], separation))
         note_borne(row, i);
 }
 

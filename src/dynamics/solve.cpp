@@ -106,6 +106,7 @@ void form_batches(Scratch& scratch)
         }
     }
     scratch.wide_rows.make_room(static_cast<std::size_t>(groups));
+    scratch.wide_notes.make_room(static_cast<std::size_t>(groups));
     set_size(scratch.struck, scratch.wide_rows.size());
 }
 

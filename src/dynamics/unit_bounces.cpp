@@ -29,7 +29,7 @@ public:
     explicit Bounces(const BouncingUnit& of)
         : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_unit(of.unit), m_output(of.output), m_view(of.view),
           m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_rows.data() + m_unit.wide_store),
-          m_struck(m_scratch.struck.data() + m_unit.wide_store)
+          m_notes(m_scratch.wide_notes.data() + m_unit.wide_store), m_struck(m_scratch.struck.data() + m_unit.wide_store)
     {}
 
     void note_approaches()
@@ -111,7 +111,7 @@ private:
         const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         const SceneState& state = m_ctx.state;
         const auto contact_of = [&](std::size_t lane)
-        { return m_wide[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
+        { return m_notes[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
         if (i + turns_ahead < lanes.size())
             prefetch(state.contacts[contact_of(i + turns_ahead)]);
         if (i + turns_ahead / 2 >= lanes.size())
@@ -125,26 +125,27 @@ private:
     // It bears a load: told once, bounced once.
     void bounce_lane(std::int32_t lane, int k, Told& told)
     {
-        WideRow& wide = m_wide[lane / lane_count];
+        const WideRow& wide = m_wide[lane / lane_count];
+        WideNotes& notes = m_notes[lane / lane_count];
         const int i = lane % lane_count;
         const unsigned bit = 1u << i;
         float approach = 0;
-        for (int p = 0; p < wide.count; ++p)
+        for (int p = 0; p < notes.count; ++p)
         {
             if (wide.points[p].normal_impulse.v[i] > 0)
-                approach = std::max(approach, wide.points[p].approach.v[i]);
+                approach = std::max(approach, notes.approach[p].v[i]);
         }
-        const bool strikes = (wide.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
+        const bool strikes = (notes.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
         const std::int32_t index = m_unit.wide_store * lane_count + lane;
         ContactRow row = row_of_lane(m_scratch, index);
         row.hit = strikes ? 0 : 1;
-        if ((wide.untold & bit) != 0)
+        if ((notes.untold & bit) != 0)
             begin_touch(row, k, told);
-        wide.untold &= ~bit;
+        notes.untold &= ~bit;
         if (!strikes)
             return;
         resolve_impact(row, approach, k, told);
-        wide.may_hit &= ~bit;
+        notes.may_hit &= ~bit;
         put_impulses(m_scratch, row, index);
     }
 
@@ -350,7 +351,8 @@ private:
     UnitOutput& m_output;
     const SolverView& m_view;
     bool m_notes_pushes;
-    WideRow* m_wide;
+    const WideRow* m_wide;
+    WideNotes* m_notes;
     const std::uint8_t* m_struck; ///< lanes of each group
 };
 

@@ -46,7 +46,8 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
     const Scratch& scratch = ctx.scratch;
     const std::int32_t first_lane = (unit.first_wide + g) * lane_count;
     WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
-    row.count = 0;
+    WideNotes& notes = ctx.scratch.wide_notes[as_index(unit.wide_store + g)];
+    notes.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
         prefetch_lane(ctx, as_index(first_lane + i) + 2 * turns_ahead);
@@ -54,19 +55,19 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
         if (link == none)
         {
             row.a.v[i] = row.b.v[i] = unit.first_state;
-            row.contact.v[i] = none;
+            notes.contact.v[i] = none;
             continue;
         }
         const Link& l = scratch.solved_links[as_index(link)];
         row.a.v[i] = l.a;
         row.b.v[i] = l.b;
-        row.contact.v[i] = l.contact;
-        row.count = l.points(); // the same in all lanes
+        notes.contact.v[i] = l.contact;
+        notes.count = l.points(); // the same in all lanes
         Contact& contact = ctx.state.contacts[l.contact];
         contact.wide = (unit.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
     }
-    wide_kernels().fill(row, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
+    wide_kernels().fill(row, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
 }
 
 void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
@@ -175,7 +176,8 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
         .for_each(crew,
                   [&](int g)
                   {
-                      wide_kernels().take_impulses(scratch.wide_rows[as_index(unit.wide_store + g)], &ctx.state.contacts[0],
+                      const std::size_t row = as_index(unit.wide_store + g);
+                      wide_kernels().take_impulses(scratch.wide_rows[row], scratch.wide_notes[row], &ctx.state.contacts[0],
                                                    ctx.state.impulses.data());
                   });
     for_each_place(crew, unit.first_row, unit.row_count,

@@ -75,7 +75,8 @@ public:
           m_rows(rows_of(ctx.scratch, unit)),
           m_joints(std::span(ctx.scratch.joints)
                        .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
-          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store), m_struck(ctx.scratch.struck.data() + unit.wide_store),
+          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store), m_notes(ctx.scratch.wide_notes.data() + unit.wide_store),
+          m_struck(ctx.scratch.struck.data() + unit.wide_store),
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness, m_ctx.rest_speed},
           m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
@@ -247,11 +248,13 @@ private:
     }
 
     // Groups of one bin.
-    void solve_lanes(int first, int last) const { m_kernels.solve(m_wide + first, last - first, m_view.states, m_softness); }
+    [[nodiscard]] WideBin lanes(int first, int last) const { return {m_wide + first, m_notes + first, last - first}; }
+
+    void solve_lanes(int first, int last) const { m_kernels.solve(lanes(first, last), m_view.states, m_softness); }
 
     void relax_lanes(int first, int last) const
     {
-        m_kernels.relax(m_wide + first, last - first, m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first);
+        m_kernels.relax(lanes(first, last), m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first);
     }
 
     void note_pressed()
@@ -394,7 +397,7 @@ private:
             return;
         m_joint_bins.by_color(m_crew, [&](int first, int last)
                               { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
-        m_bins.by_color(m_crew, [&](int first, int last) { m_kernels.warm_start(m_wide + first, last - first, m_view.states); });
+        m_bins.by_color(m_crew, [&](int first, int last) { m_kernels.warm_start(lanes(first, last), m_view.states); });
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
@@ -789,6 +792,7 @@ private:
     std::span<ContactRow> m_rows;
     std::span<JointWork> m_joints;
     WideRow* m_wide;
+    WideNotes* m_notes;
     std::uint8_t* m_struck; ///< lanes of each group
     WideSoftness m_softness;
     WideJoint* m_wide_joints;

@@ -1,6 +1,7 @@
 #include "dynamics/wide_prepare.h"
 
 #include "collision/edge_rules.h"
+#include "core/index.h"
 #include "dynamics/joint_bodies.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/kept_manifold.h"
@@ -16,11 +17,21 @@ namespace {
 struct Lane
 {
     WideRow& row;
+    WideNotes& notes;
     int i;
 
     Lane(Scratch& scratch, std::int32_t lane)
-        : row(scratch.wide_rows[static_cast<std::size_t>(lane / lane_count)]), i(lane % lane_count)
+        : row(scratch.wide_rows[as_index(lane / lane_count)]), notes(scratch.wide_notes[as_index(lane / lane_count)]),
+          i(lane % lane_count)
     {}
+
+    // J M^-1 J^T of the normal, as the kernels have it.
+    [[nodiscard]] float k(const WidePoint& p) const
+    {
+        const float mass = row.inverse_mass_a.v[i] + row.inverse_mass_b.v[i];
+        return mass + p.across_a.v[i] * p.across_a.v[i] * row.inverse_inertia_a.v[i] +
+               p.across_b.v[i] * p.across_b.v[i] * row.inverse_inertia_b.v[i];
+    }
 };
 
 const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
@@ -32,36 +43,36 @@ const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
 bool are_distinct(const Lane& lane)
 {
     const float coupling = lane.row.coupling.v[lane.i];
-    return coupling * coupling < 0.999f * (lane.row.points[0].k.v[lane.i] * lane.row.points[1].k.v[lane.i]);
+    return coupling * coupling < 0.999f * (lane.k(lane.row.points[0]) * lane.k(lane.row.points[1]));
 }
 
 } // namespace
 
-void clear_sums(WideRow& row)
+void clear_sums(WideRow& row, WideNotes& notes)
 {
     for (WidePoint& p : row.points)
     {
         p.total_impulse = {};
         p.total_tangent = {};
-        p.approach = {};
     }
+    for (LaneFloats& approach : notes.approach)
+        approach = {};
 }
 
-void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i)
+void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideNotes& notes, int i)
 {
-    for (std::uint32_t* lanes : {&row.loaded, &row.may_hit, &row.untold, &row.edge_of_b, &row.nearest, &row.kept, &row.followed})
+    for (std::uint32_t* lanes :
+         {&notes.loaded, &notes.may_hit, &notes.untold, &notes.edge_of_b, &notes.nearest, &notes.kept, &notes.followed})
         *lanes &= ~(1u << i);
     const Contact& contact = ctx.state.contacts[states.contact];
     const Manifold& m = contact.manifold;
     const StateConstants& a = constants_of(ctx, states.a);
     const StateConstants& b = constants_of(ctx, states.b);
-    const bool stiff = a.inverse_mass.x == 0 || b.inverse_mass.x == 0;
     row.a.v[i] = states.a;
     row.b.v[i] = states.b;
-    row.contact.v[i] = states.contact;
-    row.body_a.v[i] = contact.body_a;
-    row.body_b.v[i] = contact.body_b;
-    row.stiff.v[i] = stiff ? -1 : 0;
+    notes.contact.v[i] = states.contact;
+    notes.body_a.v[i] = contact.body_a;
+    notes.body_b.v[i] = contact.body_b;
     row.nx.v[i] = m.normal.x;
     row.ny.v[i] = m.normal.y;
     row.friction.v[i] = contact.friction;
@@ -69,11 +80,11 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
     row.inverse_mass_b.v[i] = b.inverse_mass.x;
     row.inverse_inertia_a.v[i] = a.inverse_inertia;
     row.inverse_inertia_b.v[i] = b.inverse_inertia;
-    row.count = m.count;
+    notes.count = m.count;
     if (keeps_edge_of_b(contact))
-        row.edge_of_b |= 1u << i;
+        notes.edge_of_b |= 1u << i;
     if (keeps_nearest(contact))
-        row.nearest |= 1u << i;
+        notes.nearest |= 1u << i;
     for (int k = 0; k < m.count; ++k)
     {
         const ManifoldPoint& from = m.points[k];
@@ -86,11 +97,11 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int i
         p.normal_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].normal;
         p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
     }
-    ((contact.flags & contact_flag::loaded) != 0 ? row.loaded : row.may_hit) |= 1u << i;
+    ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
     if ((contact.flags & contact_flag::touching) == 0)
-        row.untold |= 1u << i;
+        notes.untold |= 1u << i;
     if (is_kept(contact))
-        row.kept |= 1u << i;
+        notes.kept |= 1u << i;
 }
 
 ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
@@ -100,8 +111,8 @@ ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
     ContactRow row;
     row.a = lane.row.a.v[i];
     row.b = lane.row.b.v[i];
-    row.contact = lane.row.contact.v[i];
-    row.count = lane.row.count;
+    row.contact = lane.notes.contact.v[i];
+    row.count = lane.notes.count;
     row.n = {lane.row.nx.v[i], lane.row.ny.v[i]};
     row.friction = lane.row.friction.v[i];
     if (row.count == 2 && are_distinct(lane))
@@ -113,12 +124,12 @@ ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
         RowPoint& p = row.points[k];
         p.ra = arm(from.along_a.v[i], from.across_a.v[i]);
         p.rb = arm(from.along_b.v[i], from.across_b.v[i]);
-        p.normal_mass = 1 / from.k.v[i];
+        p.normal_mass = 1 / lane.k(from);
         p.normal_impulse = from.normal_impulse.v[i];
         p.tangent_impulse = from.tangent_impulse.v[i];
         p.total_impulse = from.total_impulse.v[i];
         p.total_tangent = from.total_tangent.v[i];
-        p.approach = from.approach.v[i];
+        p.approach = lane.notes.approach[k].v[i];
     }
     return row;
 }
@@ -136,11 +147,11 @@ void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t index)
     }
 }
 
-std::uint32_t filled_lanes(const WideRow& row)
+std::uint32_t filled_lanes(const WideNotes& notes)
 {
     std::uint32_t lanes = 0;
     for (int i = 0; i < lane_count; ++i)
-        lanes |= row.contact.v[i] != none ? 1u << i : 0;
+        lanes |= notes.contact.v[i] != none ? 1u << i : 0;
     return lanes;
 }
 
@@ -148,23 +159,19 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
 {
     const Lane lane(ctx.scratch, contact.wide);
     WideRow& row = lane.row;
+    WideNotes& notes = lane.notes;
     const int i = lane.i;
-    for (PointImpulses& p : impulses_of(ctx.state, row.contact.v[i]).points)
+    for (PointImpulses& p : impulses_of(ctx.state, notes.contact.v[i]).points)
         p.normal = p.tangent = 0;
     row.a.v[i] = row.b.v[i] = fixed;
-    row.contact.v[i] = none;
+    notes.contact.v[i] = none;
     row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
     row.coupling.v[i] = 0;
     for (WidePoint& p : row.points)
-    {
-        p.k.v[i] = 1;
         p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
-    }
-    row.loaded &= ~(1u << i);
-    row.may_hit &= ~(1u << i);
-    row.untold &= ~(1u << i);
-    row.fixed_a |= 1u << i;
-    row.fixed_b |= 1u << i;
+    notes.loaded &= ~(1u << i);
+    notes.may_hit &= ~(1u << i);
+    notes.untold &= ~(1u << i);
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;
 }

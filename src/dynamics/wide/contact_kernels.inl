@@ -15,9 +15,9 @@ struct Rows<F8>
     static CAROM_INLINE void write(LaneFloats& a, F8 x) { store(a, x); }
     static CAROM_INLINE Speeds<F8> speeds(const BodyState* states, const LaneInts& index) { return speeds_of(states, index); }
     static CAROM_INLINE Poses<F8> poses(const BodyState* states, const LaneInts& index) { return poses_of(states, index); }
-    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F8>& v, const std::uint32_t& fixed)
+    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F8>& v, I8 fixed)
     {
-        put(states, index, v, fixed);
+        put(states, index, v, bits(fixed));
     }
 };
 
@@ -52,10 +52,10 @@ struct Rows<Twice<F8>>
         const Poses<F8> b = poses_of(states, next(index));
         return {{a.x, b.x}, {a.y, b.y}, {a.c, b.c}, {a.s, b.s}};
     }
-    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F>& v, const std::uint32_t& fixed)
+    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F>& v, Twice<I8> fixed)
     {
-        put(states, index, {v.x.first, v.y.first, v.w.first, v.flags.first}, fixed);
-        put(states, next(index), {v.x.second, v.y.second, v.w.second, v.flags.second}, next(fixed));
+        put(states, index, {v.x.first, v.y.first, v.w.first, v.flags.first}, bits(fixed.first));
+        put(states, next(index), {v.x.second, v.y.second, v.w.second, v.flags.second}, bits(fixed.second));
     }
 };
 
@@ -71,7 +71,7 @@ CAROM_INLINE void write(LaneFloats& a, F x)
     Rows<F>::write(a, x);
 }
 
-// Rows of a large unit stream in; what fetches them ahead by itself stops at the end of each page, after three groups. Beyond the last there is nothing, which
+// Rows of a large unit stream in; what fetches them ahead by itself stops at the end of each page, after four rows. Beyond the last there is nothing, which
 // does no harm.
 CAROM_INLINE void begin_to_fetch(const WideRow* rows)
 {
@@ -89,6 +89,8 @@ CAROM_INLINE void for_each_group(std::int32_t count, const Pass& pass)
     if (i < count)
         pass(i, F8());
 }
+
+constexpr float least_k = std::numeric_limits<float>::min();
 
 // The bodies of a group and their relative velocity in the contact's frame.
 template <class F>
@@ -115,6 +117,14 @@ struct Group
         vn = dx * nx + dy * ny;
         vt = dy * nx - dx * ny;
         pn = pt = all<F>(0);
+    }
+
+    // J M^-1 J^T of the normal; not 0 in empty lanes either.
+    CAROM_INLINE F k(const WidePoint& p) const
+    {
+        const F across_a = read<F>(p.across_a);
+        const F across_b = read<F>(p.across_b);
+        return greatest(mass + across_a * across_a * inertia_a + across_b * across_b * inertia_b, all<F>(least_k));
     }
 
     CAROM_INLINE F normal_speed(const WidePoint& p) const { return vn + read<F>(p.across_b) * b.w - read<F>(p.across_a) * a.w; }
@@ -144,8 +154,9 @@ struct Group
         a.y -= mass_a * py;
         b.x += mass_b * px;
         b.y += mass_b * py;
-        Rows<F>::put_speeds(states, row.a, a, row.fixed_a);
-        Rows<F>::put_speeds(states, row.b, b, row.fixed_b);
+        const F zero = all<F>(0);
+        Rows<F>::put_speeds(states, row.a, a, (mass_a == zero) & (inertia_a == zero));
+        Rows<F>::put_speeds(states, row.b, b, (mass_b == zero) & (inertia_b == zero));
     }
 };
 
@@ -178,9 +189,10 @@ struct Soft
 {
     F bias_rate, give;
 
-    CAROM_INLINE Soft(const WideRow& row, const WideSoftness& s)
+    // Stiff against what has infinite mass.
+    CAROM_INLINE Soft(const Group<F>& g, const WideSoftness& s)
     {
-        const auto stiff = Rows<F>::read(row.stiff);
+        const auto stiff = (g.mass_a == all<F>(0)) | (g.mass_b == all<F>(0));
         bias_rate = select(stiff, all<F>(s.stiff.bias_rate), all<F>(s.contact.bias_rate));
         give = select(stiff, all<F>(1 / s.stiff.mass_scale), all<F>(1 / s.contact.mass_scale));
     }
@@ -222,7 +234,7 @@ template <class F>
 CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const Target<F>& t)
 {
     // k give x + (speed + bias - k old) = 0, x >= 0: softness is compliance beside k.
-    const F k = read<F>(p.k);
+    const F k = g.k(p);
     const F old = read<F>(p.normal_impulse);
     set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), all<F>(0)));
 }
@@ -234,8 +246,8 @@ CAROM_INLINE void solve_normals(Group<F>& g, WideRow& row, const Target<F>& t1, 
 {
     WidePoint& p = row.points[0];
     WidePoint& q = row.points[1];
-    const F k11 = read<F>(p.k);
-    const F k22 = read<F>(q.k);
+    const F k11 = g.k(p);
+    const F k22 = g.k(q);
     const F k12 = read<F>(row.coupling);
     const F old1 = read<F>(p.normal_impulse);
     const F old2 = read<F>(q.normal_impulse);
@@ -269,7 +281,7 @@ template <class F, int points>
 CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftness& s)
 {
     Group<F> g(row, states);
-    const Soft<F> soft(row, s);
+    const Soft<F> soft(g, s);
     const Target<F> t = target_of(g, row.points[0], soft, s);
     if (points == 2)
         solve_normals(g, row, t, target_of(g, row.points[1], soft, s));
@@ -304,41 +316,41 @@ CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftnes
 
 // How fast the points of a group came together when the sub-step began.
 template <int points>
-CAROM_INLINE void note_approach(WideRow& row, const BodySpeeds* before)
+CAROM_INLINE void note_approach(const WideRow& row, WideNotes& notes, const BodySpeeds* before)
 {
     const Speeds a = speeds_of(before, row.a);
     const Speeds b = speeds_of(before, row.b);
     const F8 vn = (b.x - a.x) * load(row.nx) + (b.y - a.y) * load(row.ny);
     for (int i = 0; i < points; ++i)
     {
-        WidePoint& p = row.points[i];
-        store(p.approach, -(vn + load(p.across_b) * b.w - load(p.across_a) * a.w));
+        const WidePoint& p = row.points[i];
+        store(notes.approach[i], -(vn + load(p.across_b) * b.w - load(p.across_a) * a.w));
     }
 }
 
 // Lanes that bear a load: struck harder than rest, or touching for the first time.
 template <int points>
-CAROM_INLINE std::uint8_t struck_lanes(WideRow& row, const BodySpeeds* before, float rest_speed)
+CAROM_INLINE std::uint8_t struck_lanes(const WideRow& row, WideNotes& notes, const BodySpeeds* before, float rest_speed)
 {
-    if ((row.may_hit | row.untold) == 0)
+    if ((notes.may_hit | notes.untold) == 0)
         return 0;
     const I8 first = load(row.points[0].normal_impulse) > all(0);
     const I8 second = points == 2 ? load(row.points[1].normal_impulse) > all(0) : I8{};
     const unsigned loaded = bits(first | second);
-    if ((loaded & row.may_hit) == 0)
-        return static_cast<std::uint8_t>(loaded & row.untold);
-    note_approach<points>(row, before);
-    I8 struck = first & (load(row.points[0].approach) > all(rest_speed));
+    if ((loaded & notes.may_hit) == 0)
+        return static_cast<std::uint8_t>(loaded & notes.untold);
+    note_approach<points>(row, notes, before);
+    I8 struck = first & (load(notes.approach[0]) > all(rest_speed));
     if (points == 2)
-        struck |= second & (load(row.points[1].approach) > all(rest_speed));
-    return static_cast<std::uint8_t>((loaded & row.untold) | (bits(struck) & row.may_hit));
+        struck |= second & (load(notes.approach[1]) > all(rest_speed));
+    return static_cast<std::uint8_t>((loaded & notes.untold) | (bits(struck) & notes.may_hit));
 }
 
-template <class F>
+template <class F, int points>
 CAROM_INLINE void warm_start_group(WideRow& row, BodyState* states)
 {
     Group<F> g(row, states);
-    for (int i = 0; i < row.count; ++i)
+    for (int i = 0; i < points; ++i)
     {
         g.push(row.points[i], read<F>(row.points[i].normal_impulse));
         g.rub(row.points[i], read<F>(row.points[i].tangent_impulse));
@@ -347,52 +359,58 @@ CAROM_INLINE void warm_start_group(WideRow& row, BodyState* states)
 }
 
 template <int points>
-void solve_bin(WideRow* rows, std::int32_t count, BodyState* states, WideSoftness s)
+void solve_bin(WideBin bin, BodyState* states, WideSoftness s)
 {
-    for_each_group(count,
+    for_each_group(bin.count,
                    [&](int i, auto lanes)
                    {
-                       begin_to_fetch(rows + i);
-                       solve_group<decltype(lanes), points>(rows[i], states, s);
+                       begin_to_fetch(bin.rows + i);
+                       solve_group<decltype(lanes), points>(bin.rows[i], states, s);
                    });
 }
 
 template <int points>
-void relax_bin(WideRow* rows, std::int32_t count, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
+void relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
 {
-    for_each_group(count,
+    for_each_group(bin.count,
                    [&](int i, auto lanes)
                    {
-                       begin_to_fetch(rows + i);
-                       relax_group<decltype(lanes), points>(rows[i], states, s);
+                       begin_to_fetch(bin.rows + i);
+                       relax_group<decltype(lanes), points>(bin.rows[i], states, s);
                    });
-    for (int i = 0; i < count; ++i)
-        struck[i] = struck_lanes<points>(rows[i], before, s.rest_speed);
+    for (int i = 0; i < bin.count; ++i)
+        struck[i] = struck_lanes<points>(bin.rows[i], bin.notes[i], before, s.rest_speed);
 }
 
 // The first walk over rows that no near cache holds: those of the next turns are asked for. Beyond the last there is nothing, which does no harm.
-void warm_start(WideRow* rows, std::int32_t count, BodyState* states)
+template <int points>
+void warm_start_bin(WideBin bin, BodyState* states)
 {
-    for_each_group(count,
+    for_each_group(bin.count,
                    [&](int i, auto lanes)
                    {
-                       prefetch(rows[i + 4]);
-                       prefetch(rows[i + 5]);
-                       warm_start_group<decltype(lanes)>(rows[i], states);
+                       prefetch(bin.rows[i + 4]);
+                       prefetch(bin.rows[i + 5]);
+                       warm_start_group<decltype(lanes), points>(bin.rows[i], states);
                    });
 }
 
-void solve(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s)
+void warm_start(const WideBin& bin, BodyState* states)
 {
-    const auto solve_points = rows->count == 2 ? solve_bin<2> : solve_bin<1>;
-    solve_points(rows, count, states, s);
+    const auto start_points = bin.notes->count == 2 ? warm_start_bin<2> : warm_start_bin<1>;
+    start_points(bin, states);
 }
 
-void relax(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
-           std::uint8_t* struck)
+void solve(const WideBin& bin, BodyState* states, const WideSoftness& s)
 {
-    const auto relax_points = rows->count == 2 ? relax_bin<2> : relax_bin<1>;
-    relax_points(rows, count, states, s, before, struck);
+    const auto solve_points = bin.notes->count == 2 ? solve_bin<2> : solve_bin<1>;
+    solve_points(bin, states, s);
+}
+
+void relax(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
+{
+    const auto relax_points = bin.notes->count == 2 ? relax_bin<2> : relax_bin<1>;
+    relax_points(bin, states, s, before, struck);
 }
 
 } // namespace contacts

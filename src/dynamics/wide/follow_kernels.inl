@@ -29,15 +29,15 @@ struct Places
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
 
-    CAROM_INLINE Places(const WideRow& row, const FollowedScene& scene)
+    CAROM_INLINE Places(const WideNotes& notes, const FollowedScene& scene)
     {
-        const int some = filled_lane(row.contact);
+        const int some = filled_lane(notes.contact);
         for (int i = 0; i < lane_count; ++i)
         {
-            const int lane = row.contact.v[i] < 0 ? some : i;
-            kept[i] = scene.kept + row.contact.v[lane];
-            a[i] = scene.sims + row.body_a.v[lane];
-            b[i] = scene.sims + row.body_b.v[lane];
+            const int lane = notes.contact.v[i] < 0 ? some : i;
+            kept[i] = scene.kept + notes.contact.v[lane];
+            a[i] = scene.sims + notes.body_a.v[lane];
+            b[i] = scene.sims + notes.body_b.v[lane];
         }
     }
 
@@ -227,10 +227,10 @@ CAROM_INLINE void put(WidePoint& to, const Point& p, const Arrow& n, I8 filled)
 }
 
 // It bore a load when the last step ended.
-CAROM_INLINE I8 bears(const WideRow& row)
+CAROM_INLINE I8 bears(const WideRow& row, int points)
 {
     I8 loaded = load(row.points[0].normal_impulse) > all(0);
-    if (row.count == 2)
+    if (points == 2)
         loaded |= load(row.points[1].normal_impulse) > all(0);
     return loaded;
 }
@@ -330,13 +330,12 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
 }
 
 // Lanes by what has become of their contacts.
-CAROM_INLINE void tell(const WideRow& row, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
+CAROM_INLINE void tell(I8 loaded, const WideNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
 {
-    const I8 touching = ~lanes_of(row.untold);
-    const I8 loaded = bears(row);
+    const I8 touching = ~lanes_of(notes.untold);
     const I8 near = now.separation <= select(touching, all(2 * scene.slop), all(scene.slop));
     const I8 borne = loaded & (now.separation <= all(scene.speculation));
-    found.unsure = bits(filled & ~(lanes_of(row.kept) & now.holds));
+    found.unsure = bits(filled & ~(lanes_of(notes.kept) & now.holds));
     found.begins_or_ends = bits(filled & (near != touching));
     found.borne = bits(filled & borne);
     found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
@@ -345,24 +344,24 @@ CAROM_INLINE void tell(const WideRow& row, const Found& now, I8 filled, const Fo
 }
 
 template <int points>
-void follow_row(WideRow& row, const FollowedScene& scene, FollowedRow& found)
+void follow_row(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
 {
-    const Places places(row, scene);
-    const I8 filled = load(row.contact) >= I8{};
-    Found now = follow_points<points>(places, {row.edge_of_b, row.nearest}, scene);
+    const Places places(notes, scene);
+    const I8 filled = load(notes.contact) >= I8{};
+    Found now = follow_points<points>(places, {notes.edge_of_b, notes.nearest}, scene);
     if (points == 1)
-        now.holds &= are_alone(now, margins_of(with_all_lanes(row.contact), scene), scene);
+        now.holds &= are_alone(now, margins_of(with_all_lanes(notes.contact), scene), scene);
     store(row.nx, select(filled, now.n.x, all(0)));
     store(row.ny, select(filled, now.n.y, all(0)));
     for (int k = 0; k < points; ++k)
         put(row.points[k], now.points[k], now.n, filled);
-    tell(row, now, filled, scene, found);
+    tell(bears(row, points), notes, now, filled, scene, found);
 }
 
-void follow(WideRow& row, const FollowedScene& scene, FollowedRow& found)
+void follow(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
 {
-    const auto follow_points_of = row.count == 2 ? follow_row<2> : follow_row<1>;
-    follow_points_of(row, scene, found);
+    const auto follow_points_of = notes.count == 2 ? follow_row<2> : follow_row<1>;
+    follow_points_of(row, notes, scene, found);
 }
 
 CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const FollowedScene& scene, std::uint32_t flag)
@@ -435,25 +434,25 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
 }
 
 // Impulses of a point, side by side in a row, one after the other in a contact's.
-void take_impulses(WideRow& row, Contact* contacts, ContactImpulses* impulses)
+void take_impulses(const WideRow& row, WideNotes& notes, Contact* contacts, ContactImpulses* impulses)
 {
     static_assert(sizeof(PointImpulses) == sizeof(F4) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
                   offsetof(PointImpulses, total_normal) == 8);
     PointImpulses unused[lane_count];
     I8 loaded{};
-    for (int k = 0; k < row.count; ++k)
+    for (int k = 0; k < notes.count; ++k)
     {
         const WidePoint& p = row.points[k];
         const F8 normal_impulse = load(p.normal_impulse);
         loaded |= normal_impulse > all(0);
         const auto at = [&](int i)
-        { return reinterpret_cast<char*>(row.contact.v[i] < 0 ? unused + i : impulses[row.contact.v[i]].points + k); };
+        { return reinterpret_cast<char*>(notes.contact.v[i] < 0 ? unused + i : impulses[notes.contact.v[i]].points + k); };
         scatter4(at, normal_impulse, load(p.tangent_impulse), load(p.total_impulse), load(p.total_tangent));
     }
-    const unsigned bears = bits(loaded & (load(row.contact) >= I8{}));
-    for (unsigned changed = bears ^ row.loaded; changed != 0; changed &= changed - 1)
-        contacts[row.contact.v[std::countr_zero(changed)]].flags ^= contact_flag::loaded;
-    row.loaded = bears;
+    const unsigned bears = bits(loaded & (load(notes.contact) >= I8{}));
+    for (unsigned changed = bears ^ notes.loaded; changed != 0; changed &= changed - 1)
+        contacts[notes.contact.v[std::countr_zero(changed)]].flags ^= contact_flag::loaded;
+    notes.loaded = bears;
 }
 
 } // namespace follows

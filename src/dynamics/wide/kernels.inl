@@ -10,6 +10,7 @@
 
 #include <bit>
 #include <cstddef>
+#include <limits>
 
 namespace carom::internal::CAROM_ISA {
 

@@ -214,9 +214,11 @@ struct Twice
     friend CAROM_INLINE Twice operator*(Twice a, Twice b) { return {a.first * b.first, a.second * b.second}; }
     friend CAROM_INLINE Twice operator/(Twice a, Twice b) { return {a.first / b.first, a.second / b.second}; }
     friend CAROM_INLINE Twice operator&(Twice a, Twice b) { return {a.first & b.first, a.second & b.second}; }
+    friend CAROM_INLINE Twice operator|(Twice a, Twice b) { return {a.first | b.first, a.second | b.second}; }
     friend CAROM_INLINE Twice operator-(Twice a) { return {-a.first, -a.second}; }
     friend CAROM_INLINE Twice<I8> operator<(Twice a, Twice b) { return {a.first < b.first, a.second < b.second}; }
     friend CAROM_INLINE Twice<I8> operator>(Twice a, Twice b) { return {a.first > b.first, a.second > b.second}; }
+    friend CAROM_INLINE Twice<I8> operator==(Twice a, Twice b) { return {a.first == b.first, a.second == b.second}; }
     friend CAROM_INLINE Twice<I8> operator>=(Twice a, Twice b) { return {a.first >= b.first, a.second >= b.second}; }
     CAROM_INLINE Twice& operator+=(Twice b) { return *this = *this + b; }
     CAROM_INLINE Twice& operator-=(Twice b) { return *this = *this - b; }

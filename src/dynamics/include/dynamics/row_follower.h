@@ -22,12 +22,12 @@ public:
 
     /// Lanes that cannot be followed, or whose touch may begin or end, are updated by themselves and filled again. Those that are gone are left as they come.
     /// All contacts must have their lane marks.
-    [[nodiscard]] FollowNews follow(WideRow& row);
+    [[nodiscard]] FollowNews follow(WideRow& row, WideNotes& notes);
 
 private:
-    void look_at(WideRow& row, int i, FollowNews& news);
+    void look_at(WideRow& row, WideNotes& notes, int i, FollowNews& news);
     void note_borne(const WideRow& row, int i) const;
-    void note_if_loaded(const WideRow& row, int i, float separation) const;
+    void note_if_loaded(const WideRow& row, const WideNotes& notes, int i, float separation) const;
 
     const StepContext& m_ctx;
     SceneState& m_state;

@@ -475,6 +475,7 @@ struct Scratch
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     BlankArray<WideRow> wide_rows;
+    BlankArray<WideNotes> wide_notes;     ///< of each
     std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
     std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
     std::vector<std::int32_t> joint_bin_starts;

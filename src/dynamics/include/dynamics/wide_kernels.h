@@ -92,18 +92,18 @@ struct OverlapSink
 struct WideKernels
 {
     const char* name;
-    /// A row from its contacts, their impulses, and the constants of their states, effective masses too. `row` has a, b, contact and count of each lane.
-    void (*fill)(WideRow& row, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants);
+    /// A row from its contacts, their impulses, and the constants of their states, effective masses too. Of each lane `row` has a and b, `notes` the contact
+    /// and how many points.
+    void (*fill)(WideRow& row, WideNotes& notes, const Contact* contacts, const ContactImpulses* impulses,
+                 const StateConstants* constants);
     /// Effective masses anew, once lanes have been filled one by one.
-    void (*prepare)(WideRow* rows, std::int32_t count);
-    /// This and the passes after it: rows of one bin, so that all have as many points and no two share a body that gives way.
-    void (*warm_start)(WideRow* rows, std::int32_t count, BodyState* states);
+    void (*prepare)(WideRow& row, std::int32_t points);
+    void (*warm_start)(const WideBin& bin, BodyState* states);
     /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
-    void (*solve)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s);
+    void (*solve)(const WideBin& bin, BodyState* states, const WideSoftness& s);
     /// Also notes of each group which lanes have been struck, or have begun to touch and this is not yet told.
     /// A blow is told by the speeds that bodies had before.
-    void (*relax)(WideRow* rows, std::int32_t count, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
-                  std::uint8_t* struck);
+    void (*relax)(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck);
     /// Joints from their records, bodies, and the constants of their states, for sub-steps of h. `joints` has a, b, joint and turns of each lane.
     void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const StateConstants* constants,
                         float h);
@@ -116,14 +116,14 @@ struct WideKernels
     /// To the records: forces over the step dt, and what the next one is warm started with.
     void (*take_joint_impulses)(const WideJoint& joints, JointRecord* records, float dt);
     /// Normal, arms and separations of a row whose contacts it held in the last step, at the poses that bodies have now.
-    void (*follow)(WideRow& row, const FollowedScene& scene, FollowedRow& found);
+    void (*follow)(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found);
     /// The manifolds of eight contacts that have as many points and are kept, likewise; of those that are not sure it is to be found by itself.
     void (*follow_contacts)(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene,
                             FollowedContacts& found);
     /// Of eight contacts that are kept and have no points, those that have come to no point for sure.
     std::uint32_t (*stay_apart)(const LaneInts& contacts, const FollowedScene& scene);
     /// Impulses of all lanes, and to their contacts whether they bear a load.
-    void (*take_impulses)(WideRow& row, Contact* contacts, ContactImpulses* impulses);
+    void (*take_impulses)(const WideRow& row, WideNotes& notes, Contact* contacts, ContactImpulses* impulses);
     /// Moves states that do not fly over a time h, eight by eight from the first on, as long as none of them turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, const StateConstants* constants, std::int32_t count, float h);
     /// Paths of bodies that move freely, into their places, and their boxes: as sweep_body in sweep.cpp. False where it must decide, one by one.

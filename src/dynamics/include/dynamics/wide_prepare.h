@@ -7,14 +7,14 @@
 namespace carom::internal {
 
 /// What a row gathers over a step.
-void clear_sums(WideRow& row);
+void clear_sums(WideRow& row, WideNotes& notes);
 
 /// Writes the contact of a link between states into a lane that it has stood in before, as WideKernels::fill does with eight; sums are cleared already.
 /// WideKernels::prepare does the rest.
-void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, int lane);
+void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideNotes& notes, int lane);
 
 /// As bits.
-[[nodiscard]] std::uint32_t filled_lanes(const WideRow& row);
+[[nodiscard]] std::uint32_t filled_lanes(const WideNotes& notes);
 
 /// The lane as a row of its own: where its points are at the start of the step, what they bear, and the masses along the normal.
 [[nodiscard]] ContactRow row_of_lane(Scratch& scratch, std::int32_t lane);

@@ -19,44 +19,57 @@ struct WidePoint
     LaneFloats along_a;
     LaneFloats across_b;
     LaneFloats along_b;
-    LaneFloats base;       ///< separation at the start of the step; later n · (relative displacement of the anchors) more
-    LaneFloats separation; ///< at the poses that bodies have, as relaxing found it
-    LaneFloats k;          ///< J M^-1 J^T of the normal; 1 in empty lanes
-    LaneFloats tangent_mass;
     LaneFloats normal_impulse;
     LaneFloats tangent_impulse;
+    LaneFloats tangent_mass;
+    LaneFloats separation;    ///< at the poses that bodies have, as relaxing found it
+    LaneFloats base;          ///< separation at the start of the step; later n · (relative displacement of the anchors) more
     LaneFloats total_impulse; ///< over the step
     LaneFloats total_tangent;
-    LaneFloats approach; ///< speed at the start of the sub-step, of groups in which a lane may have been struck
 };
 
-struct WideRow
+/// What solving reads and writes, and nothing else: rows of a large unit come from memory in every sub-step. What follows from the masses with little
+/// arithmetic does not stand here.
+struct alignas(64) WideRow
 {
     LaneInts a; ///< states
     LaneInts b;
-    LaneInts contact; ///< none: the lane is empty
-    LaneInts body_a;
-    LaneInts body_b;
-    LaneInts stiff; ///< -1: against what has infinite mass
     LaneFloats nx;
     LaneFloats ny;
-    LaneFloats friction;
-    LaneFloats inverse_mass_a;
+    LaneFloats
+        inverse_mass_a; ///< 0 as the inertia: the body does not give way, all threads read it and none writes it; both of empty lanes
     LaneFloats inverse_mass_b;
     LaneFloats inverse_inertia_a;
     LaneFloats inverse_inertia_b;
+    LaneFloats friction;
     LaneFloats coupling; ///< of two normals, J1 M^-1 J2^T
     WidePoint points[2];
-    std::int32_t count;    ///< points, the same in all lanes
-    std::uint32_t may_hit; ///< lanes that bore nothing when the step began and have not been struck
-    std::uint32_t loaded;  ///< lanes whose contact has contact_flag::loaded
-    std::uint32_t untold;  ///< lanes that did not touch when the step began and whose touch is not told
-    std::uint32_t fixed_a; ///< lanes whose body a does not give way; what all threads read, none writes
-    std::uint32_t fixed_b;
-    std::uint32_t edge_of_b; ///< lanes whose normal is that of an edge of b
-    std::uint32_t nearest;   ///< lanes whose normal leads from corner to corner
-    std::uint32_t kept;      ///< lanes whose manifold is kept
-    std::uint32_t followed;  ///< lanes whose contact has contact_flag::followed
+};
+static_assert(sizeof(WideRow) == 1024);
+
+/// Who stands in the lanes of a row, and what is known of their contacts; masks are of lanes.
+struct alignas(64) WideNotes
+{
+    LaneInts contact; ///< none: the lane is empty
+    LaneInts body_a;
+    LaneInts body_b;
+    LaneFloats approach[2];  ///< speed of the points at the start of the sub-step, of groups in which a lane may have been struck
+    std::int32_t count;      ///< points, the same in all lanes
+    std::uint32_t may_hit;   ///< bore nothing when the step began and have not been struck
+    std::uint32_t loaded;    ///< the contact has contact_flag::loaded
+    std::uint32_t untold;    ///< did not touch when the step began, and the touch is not told
+    std::uint32_t edge_of_b; ///< the normal is that of an edge of b
+    std::uint32_t nearest;   ///< the normal leads from corner to corner
+    std::uint32_t kept;      ///< the manifold is kept
+    std::uint32_t followed;  ///< the contact has contact_flag::followed
+};
+
+/// Groups that have as many points each, and no two share a body that gives way.
+struct WideBin
+{
+    WideRow* rows;
+    WideNotes* notes;
+    std::int32_t count;
 };
 
 struct WideSoftness
