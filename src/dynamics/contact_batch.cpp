@@ -23,7 +23,7 @@ constexpr std::size_t contacts_per_fill = 128;
     for (const std::int32_t edge : {contact.next[side], contact.previous[side]})
     {
         if (edge != none)
-            __builtin_prefetch(&state.contacts[edge >> 1]);
+            prefetch_line(&state.contacts[edge >> 1]);
     }
 }
 
@@ -80,7 +80,7 @@ void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const V
                   for (std::size_t i = 0; i < contacts.size(); ++i)
                   {
                       if (i + 2 * turns_ahead < contacts.size())
-                          __builtin_prefetch(&m_state.contacts[contacts[i + 2 * turns_ahead]]);
+                          prefetch_line(&m_state.contacts[contacts[i + 2 * turns_ahead]]);
                       if (i + turns_ahead < contacts.size())
                           for_own_sides(i + turns_ahead,
                                         [&](const Contact& contact, int side) { prefetch_side(m_state, contact, side); });

@@ -269,7 +269,7 @@ private:
         const std::int32_t index = m_contacts[i + turns_ahead];
         prefetch(state.kept_manifolds[static_cast<std::size_t>(index)]);
         for (const std::int32_t body : {state.contacts[index].body_a, state.contacts[index].body_b})
-            __builtin_prefetch(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
+            prefetch_line(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
     }
 
     // Events are written when all is known, see tell_all.
@@ -327,7 +327,7 @@ private:
         const SceneState& state = m_ctx.state;
         const Contact& contact = state.contacts[m_contacts[i]];
         for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
-            __builtin_prefetch(&state.shapes[shape]);
+            prefetch_line(&state.shapes[shape]);
         m_others[m_other_count++] = i;
     }
 
@@ -354,12 +354,12 @@ private:
     [[gnu::always_inline]] void prefetch_corners(std::int32_t index) const
     {
         const SceneState& state = m_ctx.state;
-        __builtin_prefetch(&impulses_of(state, index));
+        prefetch_line(&impulses_of(state, index));
         for (const std::int32_t shape : {state.contacts[index].shape_a, state.contacts[index].shape_b})
         {
             const LeafView leaf = leaf_view(state, shape);
-            __builtin_prefetch(leaf.points);
-            __builtin_prefetch(leaf.normals);
+            prefetch_line(leaf.points);
+            prefetch_line(leaf.normals);
         }
     }
 

@@ -149,7 +149,7 @@ public:
         for (std::size_t i = 0; i < fates.size(); ++i)
         {
             if (i + 2 * turns_ahead < fates.size())
-                __builtin_prefetch(&m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
+                prefetch_line(&m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
             if (i + turns_ahead < fates.size())
                 prefetch_contact(m_state.box_pairs[as_index(fates[i + turns_ahead].pair)]);
             fulfil(fates[i]);
@@ -181,8 +181,8 @@ private:
     {
         if (pair.contact == none)
             return;
-        __builtin_prefetch(&m_state.contacts[pair.contact]);
-        __builtin_prefetch(&m_state.contacts.generation(pair.contact));
+        prefetch_line(&m_state.contacts[pair.contact]);
+        prefetch_line(&m_state.contacts.generation(pair.contact));
     }
 
     void fulfil(const PairFate& fate)

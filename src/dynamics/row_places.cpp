@@ -173,7 +173,7 @@ private:
         const auto contact_of = [&](std::size_t i) -> const Contact&
         { return m_state.contacts[links()[as_index(uncolored[i])].contact]; };
         if (u + 2 * turns_ahead < uncolored.size())
-            __builtin_prefetch(&contact_of(u + 2 * turns_ahead));
+            prefetch_line(&contact_of(u + 2 * turns_ahead));
         if (u + turns_ahead >= uncolored.size())
             return;
         for (const std::int32_t body : {contact_of(u + turns_ahead).body_a, contact_of(u + turns_ahead).body_b})

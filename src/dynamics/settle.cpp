@@ -161,7 +161,7 @@ private:
                           [&](std::size_t i)
                           {
                               if (i + turns_ahead < m_state.awake_contacts.size())
-                                  __builtin_prefetch(&m_state.contacts[m_state.awake_contacts[i + turns_ahead]]);
+                                  prefetch_line(&m_state.contacts[m_state.awake_contacts[i + turns_ahead]]);
                               const Contact& contact = m_state.contacts[m_state.awake_contacts[i]];
                               if ((contact.flags & contact_flag::touching) != 0)
                                   link(contact.body_a, contact.body_b);

@@ -94,7 +94,7 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     const int shape = state.bodies[body].first_shape;
     if (shape == none)
         return;
-    __builtin_prefetch(&state.shapes[shape]); // the first line: leaves but for arcs
+    prefetch_line(&state.shapes[shape]); // the first line: leaves but for arcs
     state.broad_phase.prefetch_place(shape);
 }
 

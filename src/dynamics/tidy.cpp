@@ -249,13 +249,13 @@ private:
     [[gnu::always_inline]] void prefetch_named(std::span<const std::int32_t> later) const
     {
         if (later.size() > 2 * turns_ahead)
-            __builtin_prefetch(&m_state.contacts[later[2 * turns_ahead]]);
+            prefetch_line(&m_state.contacts[later[2 * turns_ahead]]);
         if (later.size() <= turns_ahead)
             return;
         const Contact& contact = m_state.contacts[later[turns_ahead]];
         for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
-            __builtin_prefetch(&m_moved_to[static_cast<std::size_t>(std::max(edge, 0) >> 1)]);
-        __builtin_prefetch(m_state.box_pairs.data() + std::max(contact.pair, 0));
+            prefetch_line(&m_moved_to[static_cast<std::size_t>(std::max(edge, 0) >> 1)]);
+        prefetch_line(m_state.box_pairs.data() + std::max(contact.pair, 0));
     }
 
     // What goes to another's slot, that to a third's, and so on until the first slot is free to be taken: one after the other, the first marked.

@@ -119,7 +119,7 @@ private:
         const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
         for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
             prefetch(state.shapes[shape]);
-        __builtin_prefetch(&state.sims[static_cast<std::size_t>(contact.body_a)]);
+        prefetch_line(&state.sims[static_cast<std::size_t>(contact.body_a)]);
     }
 
     // It bears a load: told once, bounced once.

@@ -90,7 +90,7 @@ void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
     for (const std::int32_t body : {joint.body_a, joint.body_b})
     {
         if (body != none)
-            __builtin_prefetch(&state.sims[as_index(body)]); // the half that neighbours read
+            prefetch_line(&state.sims[as_index(body)]); // the half that neighbours read
     }
 }
 
@@ -172,13 +172,18 @@ void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
 {
     Scratch& scratch = ctx.scratch;
+    WideRow* const rows = scratch.wide_rows.data() + unit.wide_store;
+    WideNotes* const notes = scratch.wide_notes.data() + unit.wide_store;
     contact_bins(scratch, unit)
         .for_each(crew,
                   [&](int g)
                   {
-                      const std::size_t row = as_index(unit.wide_store + g);
-                      wide_kernels().take_impulses(scratch.wide_rows[row], scratch.wide_notes[row], &ctx.state.contacts[0],
-                                                   ctx.state.impulses.data());
+                      if (unit.wide_count > most_near_rows)
+                      { // beyond the last there is nothing, which does no harm
+                          prefetch(rows[g + 8]);
+                          prefetch(notes[g + 8]);
+                      }
+                      wide_kernels().take_impulses(rows[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
                   });
     for_each_place(crew, unit.first_row, unit.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });

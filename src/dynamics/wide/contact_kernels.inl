@@ -71,23 +71,30 @@ CAROM_INLINE void write(LaneFloats& a, F x)
     Rows<F>::write(a, x);
 }
 
-// Rows of a large unit stream in; what fetches them ahead by itself stops at the end of each page, after four rows. Beyond the last there is nothing, which
-// does no harm.
-CAROM_INLINE void begin_to_fetch(const WideRow* rows)
+// Two that are solved together in a later turn. What fetches ahead by itself stops at the end of each page, after four rows. Beyond the last there is nothing,
+// which does no harm.
+CAROM_INLINE void fetch(const WideRow* rows, const WideNotes* notes)
 {
-    __builtin_prefetch(rows + 4);
-    __builtin_prefetch(rows + 5);
+    for (const int later : {8, 9})
+    {
+        prefetch(rows[later]);
+        prefetch_line(&notes[later].count); // and masks
+    }
 }
 
-// Calls pass(group, F()) for groups of a bin, two at a time as long as there are two.
+// Calls pass(row, F()) for groups of a bin, two at a time as long as there are two.
 template <class Pass>
-CAROM_INLINE void for_each_group(std::int32_t count, const Pass& pass)
+CAROM_INLINE void for_each_group(const WideBin& bin, const Pass& pass)
 {
-    std::int32_t i = 0;
-    for (; i + 1 < count; i += 2)
-        pass(i, Twice<F8>());
-    if (i < count)
-        pass(i, F8());
+    for (std::int32_t i = 0; i < bin.count; i += 2)
+    {
+        if (bin.are_far)
+            fetch(bin.rows + i, bin.notes + i);
+        if (i + 1 < bin.count)
+            pass(bin.rows[i], Twice<F8>());
+        else
+            pass(bin.rows[i], F8());
+    }
 }
 
 constexpr float least_k = std::numeric_limits<float>::min();
@@ -361,38 +368,22 @@ CAROM_INLINE void warm_start_group(WideRow& row, BodyState* states)
 template <int points>
 void solve_bin(WideBin bin, BodyState* states, WideSoftness s)
 {
-    for_each_group(bin.count,
-                   [&](int i, auto lanes)
-                   {
-                       begin_to_fetch(bin.rows + i);
-                       solve_group<decltype(lanes), points>(bin.rows[i], states, s);
-                   });
+    for_each_group(bin, [&](WideRow& row, auto lanes) { solve_group<decltype(lanes), points>(row, states, s); });
 }
 
 template <int points>
 void relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
 {
-    for_each_group(bin.count,
-                   [&](int i, auto lanes)
-                   {
-                       begin_to_fetch(bin.rows + i);
-                       relax_group<decltype(lanes), points>(bin.rows[i], states, s);
-                   });
+    for_each_group(bin, [&](WideRow& row, auto lanes) { relax_group<decltype(lanes), points>(row, states, s); });
     for (int i = 0; i < bin.count; ++i)
         struck[i] = struck_lanes<points>(bin.rows[i], bin.notes[i], before, s.rest_speed);
 }
 
-// The first walk over rows that no near cache holds: those of the next turns are asked for. Beyond the last there is nothing, which does no harm.
 template <int points>
 void warm_start_bin(WideBin bin, BodyState* states)
 {
-    for_each_group(bin.count,
-                   [&](int i, auto lanes)
-                   {
-                       prefetch(bin.rows[i + 4]);
-                       prefetch(bin.rows[i + 5]);
-                       warm_start_group<decltype(lanes), points>(bin.rows[i], states);
-                   });
+    bin.are_far = true; // the first walk over rows that no near cache holds
+    for_each_group(bin, [&](WideRow& row, auto lanes) { warm_start_group<decltype(lanes), points>(row, states); });
 }
 
 void warm_start(const WideBin& bin, BodyState* states)

@@ -64,12 +64,16 @@ struct alignas(64) WideNotes
     std::uint32_t followed;  ///< the contact has contact_flag::followed
 };
 
+/// More rows than this come from memory, for the third cache does not hold them: 8 MB.
+inline constexpr std::int32_t most_near_rows = 8'192;
+
 /// Groups that have as many points each, and no two share a body that gives way.
 struct WideBin
 {
     WideRow* rows;
     WideNotes* notes;
     std::int32_t count;
+    bool are_far; ///< those of the next turns are asked for
 };
 
 struct WideSoftness
