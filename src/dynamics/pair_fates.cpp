@@ -20,6 +20,7 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t pairs_per_task = 2048;
+constexpr std::size_t most_near_pairs = 131'072; // boxes of more come from memory
 constexpr std::uint32_t every_lane = (1u << lane_count) - 1;
 
 bool is_trigger(const BroadPhase& boxes, const BoxPair& pair)
@@ -95,12 +96,23 @@ struct SeenPair
     prefetch(state.shapes[pair.b]);
 }
 
+// Of eight pairs.
+[[gnu::always_inline]] inline void prefetch_boxes(const BoxPlace* places, const BoxPair* pairs)
+{
+    for (const BoxPair& pair : std::span(pairs, lane_count))
+    {
+        prefetch_line(places + pair.a);
+        prefetch_line(places + pair.b);
+    }
+}
+
 // Of a task's pairs. Most stay as they are.
 void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairFate>& fates)
 {
     const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
     const BoxPlace* places = ctx.state.broad_phase.places();
     const WideKernels& kernels = wide_kernels();
+    const bool are_far = pairs.size() > most_near_pairs;
     const auto add = [&](std::size_t i, std::uint8_t what)
     {
         if (what != 0)
@@ -112,6 +124,8 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
     std::size_t i = first;
     for (; i + lane_count <= last; i += lane_count)
     {
+        if (are_far && i + 4 * lane_count <= last)
+            prefetch_boxes(places, &pairs[i + 3 * lane_count]);
         SeenPairs seen;
         kernels.look_at_pairs(&pairs[i], places, ctx.scene.tolerances.box_margin, seen);
         for (std::uint32_t others = ~seen.stay & every_lane; others != 0; others &= others - 1)
