@@ -36,8 +36,7 @@ struct alignas(64) WideRow
     LaneInts b;
     LaneFloats nx;
     LaneFloats ny;
-    LaneFloats
-        inverse_mass_a; ///< 0 as the inertia: the body does not give way, all threads read it and none writes it; both of empty lanes
+    LaneFloats inverse_mass_a; ///< 0 as the inertia: does not give way; read by all threads, written by none
     LaneFloats inverse_mass_b;
     LaneFloats inverse_inertia_a;
     LaneFloats inverse_inertia_b;
