@@ -180,8 +180,8 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
                   {
                       if (unit.wide_count > most_near_rows)
                       { // beyond the last there is nothing, which does no harm
-                          prefetch(rows[g + 8]);
-                          prefetch(notes[g + 8]);
+                          prefetch(rows[as_index(g) + turns_ahead]);
+                          prefetch(notes[as_index(g) + turns_ahead]);
                       }
                       wide_kernels().take_impulses(rows[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
                   });

@@ -168,7 +168,7 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
     row.coupling.v[i] = 0;
     for (WidePoint& p : row.points)
-        p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
+        p.base.v[i] = p.separation.v[i] = p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
     notes.loaded &= ~(1u << i);
     notes.may_hit &= ~(1u << i);
     notes.untold &= ~(1u << i);

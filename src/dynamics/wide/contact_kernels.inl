@@ -75,7 +75,7 @@ CAROM_INLINE void write(LaneFloats& a, F x)
 // which does no harm.
 CAROM_INLINE void fetch(const WideRow* rows, const WideNotes* notes)
 {
-    for (const int later : {8, 9})
+    for (const std::size_t later : {turns_ahead, turns_ahead + 1})
     {
         prefetch(rows[later]);
         prefetch_line(&notes[later].count); // and masks
@@ -161,9 +161,8 @@ struct Group
         a.y -= mass_a * py;
         b.x += mass_b * px;
         b.y += mass_b * py;
-        const F zero = all<F>(0);
-        Rows<F>::put_speeds(states, row.a, a, (mass_a == zero) & (inertia_a == zero));
-        Rows<F>::put_speeds(states, row.b, b, (mass_b == zero) & (inertia_b == zero));
+        Rows<F>::put_speeds(states, row.a, a, are_fixed(mass_a, inertia_a));
+        Rows<F>::put_speeds(states, row.b, b, are_fixed(mass_b, inertia_b));
     }
 };
 

@@ -133,7 +133,8 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
         fill_drive(j.angle, of_lane, h);
     }
     fill_masses(j, constants);
-    mark_fixed(j);
+    j.fixed_a = bits(are_fixed(load(j.inverse_mass_a), load(j.inverse_inertia_a)));
+    j.fixed_b = bits(are_fixed(load(j.inverse_mass_b), load(j.inverse_inertia_b)));
 }
 
 void follow(WideJoint& j, const BodySim* sims)

@@ -89,12 +89,11 @@ CAROM_INLINE void fill_masses(Wide& wide, const StateConstants* constants)
     store(wide.inverse_inertia_b, inertia_b);
 }
 
-// Whose bodies do not give way.
-template <class Wide>
-CAROM_INLINE void mark_fixed(Wide& wide)
+// Lanes whose body does not give way.
+template <class F>
+CAROM_INLINE auto are_fixed(F inverse_mass, F inverse_inertia)
 {
-    wide.fixed_a = bits((load(wide.inverse_mass_a) == all(0)) & (load(wide.inverse_inertia_a) == all(0)));
-    wide.fixed_b = bits((load(wide.inverse_mass_b) == all(0)) & (load(wide.inverse_inertia_b) == all(0)));
+    return (inverse_mass == all<F>(0)) & (inverse_inertia == all<F>(0));
 }
 
 #include "fill_kernels.inl"
