@@ -7,7 +7,9 @@
 #include "dynamics/contact_colors.h"
 #include "dynamics/contact_store.h"
 
+#include <algorithm>
 #include <span>
+#include <utility>
 
 namespace carom::internal {
 
@@ -30,33 +32,88 @@ constexpr std::size_t contacts_per_fill = 128;
 } // namespace
 
 ContactBatch::ContactBatch(StepContext& ctx)
-    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.made_contacts), m_destroyed(ctx.scratch.destroyed_contacts)
+    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.made_contacts), m_destroyed(ctx.scratch.destroyed_contacts),
+      m_keeps_order(ctx.state.awake_contacts.size() > most_near_pairs)
 {
     m_made.clear();
     m_destroyed.clear();
 }
 
-void ContactBatch::make(std::int32_t pair)
-{
-    const int contact = m_state.contacts.take();
-    m_state.box_pairs[as_index(pair)].contact = contact;
-    m_state.contacts[contact].pair = pair;
-    m_state.contacts[contact].awake_index = static_cast<std::int32_t>(m_state.awake_contacts.size());
-    append(m_state.awake_contacts, contact);
-    append(m_made, contact);
-}
+void ContactBatch::make(std::int32_t pair) { append(m_made, m_keeps_order ? pair : take_slot(pair)); }
 
 void ContactBatch::destroy(std::int32_t contact)
 {
-    give_up_slot(m_state, contact);
+    if (!m_keeps_order)
+        give_up_slot(m_state, contact);
     append(m_destroyed, contact);
 }
 
 void ContactBatch::finish()
 {
     unlink_destroyed(); // before their slots are filled anew
+    if (m_keeps_order)
+        find_slots();
     fill_made();
     link_made();
+}
+
+// Both come in the order of pairs, neighbours mostly one after the other: what is made takes the slots of what goes nearby, and its places among the awake.
+// The rest of these keep their order.
+void ContactBatch::find_slots()
+{
+    const std::size_t gone = m_destroyed.size();
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < m_made.size(); ++i)
+    {
+        const std::size_t own = gone * (i + 1) / m_made.size(); // up to there
+        m_made[i] = next < own ? take_over(m_destroyed[next++], m_made[i]) : take_slot(m_made[i]);
+        give_up(next, own);
+        next = own;
+    }
+    give_up(next, gone);
+    close_gaps();
+}
+
+std::int32_t ContactBatch::take_over(std::int32_t contact, std::int32_t pair)
+{
+    leave_pair(m_state, contact);
+    leave_lane(m_state, contact);
+    m_state.contacts.renew(contact);
+    m_state.box_pairs[as_index(pair)].contact = contact;
+    m_state.contacts[contact].pair = pair;
+    return contact;
+}
+
+std::int32_t ContactBatch::take_slot(std::int32_t pair)
+{
+    const int contact = m_state.contacts.take();
+    m_state.box_pairs[as_index(pair)].contact = contact;
+    m_state.contacts[contact].pair = pair;
+    m_state.contacts[contact].awake_index = static_cast<std::int32_t>(m_state.awake_contacts.size());
+    append(m_state.awake_contacts, contact);
+    return contact;
+}
+
+// Of those destroyed, first to last.
+void ContactBatch::give_up(std::size_t first, std::size_t last)
+{
+    for (const std::int32_t contact : std::span(m_destroyed).subspan(first, last - first))
+    {
+        const auto place = as_index(std::exchange(m_state.contacts[contact].awake_index, none));
+        m_state.awake_contacts[place] = none;
+        m_first_gap = std::min(m_first_gap, place);
+        leave_pair(m_state, contact);
+        leave_lane(m_state, contact);
+        m_state.contacts.destroy(contact);
+    }
+}
+
+// Contacts know their new places when they are updated.
+void ContactBatch::close_gaps()
+{
+    std::vector<std::int32_t>& awake = m_state.awake_contacts;
+    if (m_first_gap < awake.size())
+        awake.erase(std::remove(awake.begin() + static_cast<std::ptrdiff_t>(m_first_gap), awake.end(), none), awake.end());
 }
 
 // Each side by the task that has its body. What stands of the other side is somebody else's to read and write.

@@ -273,12 +273,17 @@ void end_touch(SceneData& scene, int index, Events& events, float time)
         append(events.ends, event_between<ContactEndEvent>(state, contact.shape_a, contact.shape_b, time));
 }
 
-void give_up_slot(SceneState& state, int index)
+void leave_pair(SceneState& state, int index)
 {
-    remove_awake_contact(state, index);
     const Contact& contact = state.contacts[index];
     if (contact.pair != none)
         state.box_pairs[static_cast<std::size_t>(contact.pair)].contact = none;
+}
+
+void give_up_slot(SceneState& state, int index)
+{
+    remove_awake_contact(state, index);
+    leave_pair(state, index);
     state.contacts.destroy(index);
 }
 

@@ -229,7 +229,7 @@ class ContactUpdate
 {
 public:
     ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last, SomeNews& some)
-        : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_some(some),
+        : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_first(first), m_some(some),
           m_scene(followed_scene(ctx))
     {}
 
@@ -297,7 +297,8 @@ private:
     void update(std::size_t i)
     {
         const std::int32_t index = m_contacts[i];
-        const Contact& contact = m_ctx.state.contacts[index];
+        Contact& contact = m_ctx.state.contacts[index];
+        contact.awake_index = static_cast<std::int32_t>(m_first + i); // see ContactBatch
         if (is_looked_at(m_ctx.scratch, index))
         {
             m_news[i] = news_of(m_ctx, contact);
@@ -401,6 +402,7 @@ private:
 
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
+    std::size_t m_first; ///< of the awake contacts
     SomeNews& m_some;
     FollowedScene m_scene;
     News m_news[contacts_at_once];

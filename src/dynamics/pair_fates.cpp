@@ -20,7 +20,6 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t pairs_per_task = 2048;
-constexpr std::size_t most_near_pairs = 131'072; // boxes of more come from memory
 constexpr std::uint32_t every_lane = (1u << lane_count) - 1;
 
 bool is_trigger(const BroadPhase& boxes, const BoxPair& pair)

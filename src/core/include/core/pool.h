@@ -53,6 +53,13 @@ public:
         --m_count;
     }
 
+    /// Destroys what is in a slot, which is taken again at once.
+    void renew(int slot)
+    {
+        CAROM_ASSERT(is_live(slot), "a slot is destroyed once");
+        m_generations[static_cast<std::size_t>(slot)] += 2;
+    }
+
     [[nodiscard]] bool is_live(int slot) const
     {
         return slot >= 0 && slot < capacity() && (m_generations[static_cast<std::size_t>(slot)] & 1u) != 0;

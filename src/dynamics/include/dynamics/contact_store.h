@@ -4,7 +4,12 @@
 
 #include "dynamics/scene_data.h"
 
+#include <cstddef>
+
 namespace carom::internal {
+
+/// Boxes and contacts of more come from memory: walks over them are to go straight through it.
+inline constexpr std::size_t most_near_pairs = 131'072;
 
 /// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
 [[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
@@ -27,6 +32,9 @@ void make_room_beside_contacts(SceneState& state);
 /// Into and out of the list of one of its bodies: side 0 is that of body_a.
 void link_side(SceneState& state, int contact, int side);
 void unlink_side(SceneState& state, int contact, int side);
+
+/// Its pair has no contact then.
+void leave_pair(SceneState& state, int contact);
 
 /// Takes it from its pair and from the list of awake ones. Bodies' lists and colours are the caller's.
 void give_up_slot(SceneState& state, int contact);
