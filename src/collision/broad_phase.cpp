@@ -153,9 +153,21 @@ void BroadPhase::choose_all_but(Layer layer, std::span<const std::int32_t> left_
     }
 }
 
+// Those of few boxes are in a cache.
+void BroadPhase::prefetch_block(const BoxTree& tree, int block) const
+{
+    constexpr int few = 65'536;
+    const int first = block * BoxTree::arity;
+    if (tree.leaf_count() <= few || first + BoxTree::arity > tree.leaf_count())
+        return;
+    for (int leaf = first; leaf < first + BoxTree::arity; ++leaf)
+        prefetch_place(std::max(tree.item(leaf), 0));
+}
+
 void BroadPhase::note_changes(int block)
 {
     const BoxTree& tree = m_forests[0].trees[0];
+    prefetch_block(tree, block + 2);
     BlockPast& past = m_past[static_cast<std::size_t>(block)];
     past.changed = 0;
     for (int i = 0; i < BoxTree::arity; ++i)

@@ -105,13 +105,15 @@ private:
         }
     }
 
-    // First the contact, then its shapes and where it is.
+    // First who stands in the lane, then the contact, then its shapes and where it is.
     [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
     {
         const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         const SceneState& state = m_ctx.state;
         const auto contact_of = [&](std::size_t lane)
         { return m_notes[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
+        if (i + 2 * turns_ahead < lanes.size())
+            prefetch_line(&m_notes[lanes[i + 2 * turns_ahead] / lane_count]);
         if (i + turns_ahead < lanes.size())
             prefetch(state.contacts[contact_of(i + turns_ahead)]);
         if (i + turns_ahead / 2 >= lanes.size())

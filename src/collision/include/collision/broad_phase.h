@@ -280,6 +280,7 @@ private:
     void widen(int item, const FloatBox& box);
     void add_recent(int item, Layer layer);
     void take_out(int item);
+    void prefetch_block(const BoxTree& tree, int block) const;
     void merge_recent(Forest& forest);
     void rebuild(const TaskHooks& tasks, Forest& forest, std::size_t from_tree);
 
