@@ -153,7 +153,7 @@ void BroadPhase::choose_all_but(Layer layer, std::span<const std::int32_t> left_
     }
 }
 
-// Those of few boxes are in a cache.
+// The boxes of its leaves, which a cache holds where there are few.
 void BroadPhase::prefetch_block(const BoxTree& tree, int block) const
 {
     constexpr int few = 65'536;

@@ -1,5 +1,6 @@
 #include "dynamics/contact_batch.h"
 
+#include "core/assert.h"
 #include "core/grow.h"
 #include "core/index.h"
 #include "core/prefetch.h"
@@ -57,18 +58,18 @@ void ContactBatch::finish()
     link_made();
 }
 
-// Both come in the order of pairs, neighbours mostly one after the other: what is made takes the slots of what goes nearby, and its places among the awake.
-// The rest of these keep their order.
+// What is made and what goes both come in the order of pairs, neighbours mostly one after the other. So the i-th that is made takes the slot of the like one
+// that goes, and its place among the awake; what is left over of either comes last or leaves a gap. The others keep their order.
 void ContactBatch::find_slots()
 {
     const std::size_t gone = m_destroyed.size();
     std::size_t next = 0;
     for (std::size_t i = 0; i < m_made.size(); ++i)
     {
-        const std::size_t own = gone * (i + 1) / m_made.size(); // up to there
-        m_made[i] = next < own ? take_over(m_destroyed[next++], m_made[i]) : take_slot(m_made[i]);
-        give_up(next, own);
-        next = own;
+        const std::size_t end = gone * (i + 1) / m_made.size();
+        m_made[i] = next < end ? take_over(m_destroyed[next++], m_made[i]) : take_slot(m_made[i]);
+        give_up(next, end);
+        next = end;
     }
     give_up(next, gone);
     close_gaps();
@@ -79,19 +80,23 @@ std::int32_t ContactBatch::take_over(std::int32_t contact, std::int32_t pair)
     leave_pair(m_state, contact);
     leave_lane(m_state, contact);
     m_state.contacts.renew(contact);
-    m_state.box_pairs[as_index(pair)].contact = contact;
-    m_state.contacts[contact].pair = pair;
+    join_pair(contact, pair);
     return contact;
 }
 
 std::int32_t ContactBatch::take_slot(std::int32_t pair)
 {
     const int contact = m_state.contacts.take();
-    m_state.box_pairs[as_index(pair)].contact = contact;
-    m_state.contacts[contact].pair = pair;
+    join_pair(contact, pair);
     m_state.contacts[contact].awake_index = static_cast<std::int32_t>(m_state.awake_contacts.size());
     append(m_state.awake_contacts, contact);
     return contact;
+}
+
+void ContactBatch::join_pair(std::int32_t contact, std::int32_t pair)
+{
+    m_state.box_pairs[as_index(pair)].contact = contact;
+    m_state.contacts[contact].pair = pair;
 }
 
 // Of those destroyed, first to last.
@@ -100,15 +105,15 @@ void ContactBatch::give_up(std::size_t first, std::size_t last)
     for (const std::int32_t contact : std::span(m_destroyed).subspan(first, last - first))
     {
         const auto place = as_index(std::exchange(m_state.contacts[contact].awake_index, none));
+        CAROM_ASSERT(m_state.awake_contacts[place] == contact, "what is destroyed here is awake");
         m_state.awake_contacts[place] = none;
         m_first_gap = std::min(m_first_gap, place);
-        leave_pair(m_state, contact);
         leave_lane(m_state, contact);
-        m_state.contacts.destroy(contact);
+        give_up_slot(m_state, contact);
     }
 }
 
-// Contacts know their new places when they are updated.
+// Those behind a gap know their places again once update_contacts has seen them: it sees all, for contacts are fewer then than when rows were kept.
 void ContactBatch::close_gaps()
 {
     std::vector<std::int32_t>& awake = m_state.awake_contacts;

@@ -189,7 +189,7 @@ public:
     }
 
 private:
-    // One that may go: its place among the awake ones.
+    // One that may go.
     [[gnu::always_inline]] void prefetch_contact(const BoxPair& pair) const
     {
         if (pair.contact == none)

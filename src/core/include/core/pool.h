@@ -56,7 +56,7 @@ public:
     /// Destroys what is in a slot, which is taken again at once.
     void renew(int slot)
     {
-        CAROM_ASSERT(is_live(slot), "a slot is destroyed once");
+        CAROM_ASSERT(is_live(slot), "what is destroyed is there");
         m_generations[static_cast<std::size_t>(slot)] += 2;
     }
 

@@ -18,7 +18,7 @@ public:
     void make(std::int32_t pair);
     /// Of two that do not touch, and none is a trigger.
     void destroy(std::int32_t contact);
-    /// Until then lists of bodies hold those that are destroyed, and what is made has a slot, a pair and a place among the awake at most.
+    /// Until then lists of bodies hold those that are destroyed and not those that are made.
     void finish();
 
 private:
@@ -28,6 +28,7 @@ private:
     void find_slots();
     std::int32_t take_over(std::int32_t contact, std::int32_t pair);
     std::int32_t take_slot(std::int32_t pair);
+    void join_pair(std::int32_t contact, std::int32_t pair);
     void give_up(std::size_t first, std::size_t last);
     void close_gaps();
     void fill_made();
@@ -35,7 +36,7 @@ private:
 
     SceneData& m_scene;
     SceneState& m_state;
-    std::vector<std::int32_t>& m_made; ///< their pairs, until they have slots
+    std::vector<std::int32_t>& m_made; ///< in finish() contacts; until then pairs where the order is kept
     std::vector<std::int32_t>& m_destroyed;
     bool m_keeps_order;
     std::size_t m_first_gap = static_cast<std::size_t>(-1); ///< in the list of awake contacts

@@ -8,7 +8,7 @@
 
 namespace carom::internal {
 
-/// Boxes and contacts of more come from memory: walks over them are to go straight through it.
+/// Of pairs, and of contacts. Where there are more, they and their boxes come from memory: walks are to go straight through it.
 inline constexpr std::size_t most_near_pairs = 131'072;
 
 /// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
@@ -33,7 +33,7 @@ void make_room_beside_contacts(SceneState& state);
 void link_side(SceneState& state, int contact, int side);
 void unlink_side(SceneState& state, int contact, int side);
 
-/// Its pair has no contact then.
+/// The pair that it has, if any, is without a contact then.
 void leave_pair(SceneState& state, int contact);
 
 /// Takes it from its pair and from the list of awake ones. Bodies' lists and colours are the caller's.
