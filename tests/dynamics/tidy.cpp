@@ -134,14 +134,14 @@ TEST(DynamicsTidy, ManyContactsStayInTheOrderOfMemory)
     scenes.push_back(stirred_balls(three.hooks()));
     const internal::SceneState& state = scenes[0].data().state;
     const internal::Scratch& scratch = scenes[0].data().scratch;
-    const auto step = [&]
+    const auto step_both = [&]
     {
         for (Scene& scene : scenes)
             scene.step(1.0f / 60);
         ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash());
         expect_contacts_are_listed_once(state);
     };
-    step(); // all are made at once
+    step_both(); // all are made at once
     int more_made = 0;
     int more_destroyed = 0;
     for (int i = 0; i < 8; ++i)
@@ -152,7 +152,7 @@ TEST(DynamicsTidy, ManyContactsStayInTheOrderOfMemory)
                 add_balls(scene, 20.5 + 4 * i, 40, {0, -10});
         }
         ASSERT_GT(state.awake_contacts.size(), internal::most_near_pairs);
-        ASSERT_NO_FATAL_FAILURE(step()) << "step " << i;
+        ASSERT_NO_FATAL_FAILURE(step_both()) << "step " << i;
         const bool more = scratch.made_contacts.size() > scratch.destroyed_contacts.size();
         ++(more ? more_made : more_destroyed);
         EXPECT_GT(std::min(scratch.made_contacts.size(), scratch.destroyed_contacts.size()), 100u);
@@ -169,7 +169,7 @@ TEST(DynamicsTidy, ManyContactsStayInTheOrderOfMemory)
         for (std::size_t i = 2; i < bodies.size(); i += 2)
             scene.destroy(bodies[i]);
     }
-    ASSERT_NO_FATAL_FAILURE(step()) << "half of them";
+    ASSERT_NO_FATAL_FAILURE(step_both()) << "half of them";
     EXPECT_LT(state.awake_contacts.size(), internal::most_near_pairs);
-    ASSERT_NO_FATAL_FAILURE(step()) << "half of them";
+    ASSERT_NO_FATAL_FAILURE(step_both()) << "half of them";
 }
