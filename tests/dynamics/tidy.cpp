@@ -141,7 +141,7 @@ TEST(DynamicsTidy, ManyContactsStayInTheOrderOfMemory)
         ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash());
         expect_contacts_are_listed_once(state);
     };
-    step_both(); // all are made at once
+    ASSERT_NO_FATAL_FAILURE(step_both()) << "all are made at once";
     int more_made = 0;
     int more_destroyed = 0;
     for (int i = 0; i < 8; ++i)
