@@ -8,9 +8,9 @@
 #include "dynamics/contact_colors.h"
 #include "dynamics/contact_store.h"
 
-#include <algorithm>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace carom::internal {
 
@@ -72,7 +72,9 @@ void ContactBatch::find_slots()
         next = end;
     }
     give_up(next, gone);
-    close_gaps();
+    // Those behind a gap know their places again once update_contacts has seen them: it sees all, for contacts are fewer then than when rows were kept.
+    if (gone > m_made.size())
+        std::erase(m_state.awake_contacts, none);
 }
 
 std::int32_t ContactBatch::take_over(std::int32_t contact, std::int32_t pair)
@@ -99,7 +101,7 @@ void ContactBatch::join_pair(std::int32_t contact, std::int32_t pair)
     m_state.contacts[contact].pair = pair;
 }
 
-// Of those destroyed, first to last.
+// Of those destroyed, first to last: each leaves a gap among the awake.
 void ContactBatch::give_up(std::size_t first, std::size_t last)
 {
     for (const std::int32_t contact : std::span(m_destroyed).subspan(first, last - first))
@@ -107,18 +109,9 @@ void ContactBatch::give_up(std::size_t first, std::size_t last)
         const auto place = as_index(std::exchange(m_state.contacts[contact].awake_index, none));
         CAROM_ASSERT(m_state.awake_contacts[place] == contact, "what is destroyed here is awake");
         m_state.awake_contacts[place] = none;
-        m_first_gap = std::min(m_first_gap, place);
         leave_lane(m_state, contact);
         give_up_slot(m_state, contact);
     }
-}
-
-// Those behind a gap know their places again once update_contacts has seen them: it sees all, for contacts are fewer then than when rows were kept.
-void ContactBatch::close_gaps()
-{
-    std::vector<std::int32_t>& awake = m_state.awake_contacts;
-    if (m_first_gap < awake.size())
-        awake.erase(std::remove(awake.begin() + static_cast<std::ptrdiff_t>(m_first_gap), awake.end(), none), awake.end());
 }
 
 // Each side by the task that has its body. What stands of the other side is somebody else's to read and write.

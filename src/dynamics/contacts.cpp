@@ -299,7 +299,7 @@ private:
     {
         const std::int32_t index = m_contacts[i];
         Contact& contact = m_ctx.state.contacts[index];
-        contact.awake_index = static_cast<std::int32_t>(m_first + i); // see ContactBatch::close_gaps
+        contact.awake_index = static_cast<std::int32_t>(m_first + i); // see ContactBatch::find_slots
         if (is_looked_at(m_ctx.scratch, index))
         {
             m_news[i] = news_of(m_ctx, contact);

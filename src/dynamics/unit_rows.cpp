@@ -178,7 +178,7 @@ void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
         .for_each(crew,
                   [&](int g)
                   {
-                      if (unit.wide_count > most_near_rows)
+                      if (are_rows_far(unit))
                       { // beyond the last there is nothing, which does no harm
                           prefetch(rows[as_index(g) + turns_ahead]);
                           prefetch(notes[as_index(g) + turns_ahead]);

@@ -250,7 +250,7 @@ private:
     // Groups of one bin.
     [[nodiscard]] WideBin lanes(int first, int last) const
     {
-        return {m_wide + first, m_notes + first, last - first, m_unit.wide_count > most_near_rows};
+        return {m_wide + first, m_notes + first, last - first, are_rows_far(m_unit)};
     }
 
     void solve_lanes(int first, int last) const { m_kernels.solve(lanes(first, last), m_view.states, m_softness); }

@@ -30,7 +30,6 @@ private:
     std::int32_t take_slot(std::int32_t pair);
     void join_pair(std::int32_t contact, std::int32_t pair);
     void give_up(std::size_t first, std::size_t last);
-    void close_gaps();
     void fill_made();
     void link_made();
 
@@ -39,7 +38,6 @@ private:
     std::vector<std::int32_t>& m_made; ///< in finish() contacts; until then pairs where the order is kept
     std::vector<std::int32_t>& m_destroyed;
     bool m_keeps_order;
-    std::size_t m_first_gap = static_cast<std::size_t>(-1); ///< in the list of awake contacts
 };
 
 } // namespace carom::internal

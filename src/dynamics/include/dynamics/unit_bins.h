@@ -132,6 +132,9 @@ private:
 inline constexpr int worth_all_threads = 1536; // groups
 [[nodiscard]] inline bool is_large(const Unit& unit) { return unit.parts > 0 || unit.wide_joint_count >= worth_all_threads; }
 
+/// Its rows come from memory.
+[[nodiscard]] inline bool are_rows_far(const Unit& unit) { return unit.wide_count > most_near_rows; }
+
 [[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
 {
     return {scratch.bin_starts, unit.first_bin, unit.parts, unit.bin_count};
