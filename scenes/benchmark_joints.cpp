@@ -35,7 +35,7 @@ BuiltScene joint_grid(const SceneDef& base)
     return built;
 }
 
-/// Every eighth step five figures appear above each of the five floors, in one of forty columns after the other; from the second
+/// Every eighth step of 1/60 s five figures appear above each of the five floors, in one of forty columns after the other; from the second
 /// time round on those that fell there before go.
 class Rain
 {
@@ -44,11 +44,12 @@ public:
     static constexpr float floor_distance = 45;
     static constexpr float half_width = 125;
 
-    void operator()(Scene& scene)
+    void operator()(Scene& scene, float h)
     {
-        if (scene.step_count() % 8 != 0)
+        const std::uint64_t interval = steps_in(8.0f / 60, h);
+        if (scene.step_count() % interval != 0)
             return;
-        const auto column = static_cast<int>(scene.step_count() / 8 % columns);
+        const auto column = static_cast<int>(scene.step_count() / interval % columns);
         for (int floor = 0; floor < floors; ++floor)
         {
             Group& group = m_groups[static_cast<std::size_t>(floor * columns + column)];

@@ -122,9 +122,9 @@ BuiltScene junkyard(const SceneDef& base)
         }
     const BodyId pusher = scene.create_body({.type = BodyType::Kinematic});
     scene.create_shape(pusher, box(2, 4, {0, 4}));
-    built.before_step = [pusher](Scene& s)
+    built.before_step = [pusher](Scene& s, float h)
     {
-        const float time = static_cast<float>(s.step_count()) / 60;
+        const float time = static_cast<float>(s.step_count()) / static_cast<float>(steps_in(1, h));
         const float x = 60 * Rotation::from_angle(0.2f * time).s;
         s.body(pusher).set_target_pose({x, 0}, 0);
     };

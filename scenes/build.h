@@ -5,6 +5,8 @@
 
 #include "scenes/scenes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace carom::scenes {
@@ -29,6 +31,12 @@ public:
 private:
     std::uint64_t m_state;
 };
+
+/// How many steps of length h a schedule counts for so many seconds: at least 1.
+inline std::uint64_t steps_in(float seconds, float h)
+{
+    return static_cast<std::uint64_t>(std::max(1.0f, std::round(seconds / h)));
+}
 
 inline BodyId add_static(Scene& scene, const Geometry& geometry, const ShapeDef& shape = {}, Position at = {}, float angle = 0)
 {

@@ -19,10 +19,11 @@ BuiltScene kinematic_bar(const SceneDef& base)
     for (int i = 0; i < 60; ++i)
         add_dynamic(scene, {-9 + 0.9 * (i % 20), 8.5 + 0.8 * (i / 20)}, Circle{.radius = random.in(0.2f, 0.35f)},
                     {.restitution = 0.3f});
-    built.before_step = [piston](Scene& s)
+    built.before_step = [piston](Scene& s, float h)
     {
         // Out and back once in four seconds, on a curve without jumps.
-        const float phase = static_cast<float>(s.step_count() % 240) / 240;
+        const std::uint64_t period = steps_in(4, h);
+        const float phase = static_cast<float>(s.step_count() % period) / static_cast<float>(period);
         const float out = phase < 0.5f ? phase * 2 : 2 - phase * 2;
         const float eased = out * out * (3 - 2 * out);
         s.body(piston).set_target_pose({12.5 - 5.0 * static_cast<double>(eased), 0.8}, 0);

@@ -15,12 +15,12 @@ namespace carom::scenes {
 struct BuiltScene
 {
     Scene scene;
-    std::function<void(Scene&)> before_step{}; ///< may be empty
+    std::function<void(Scene&, float h)> before_step{}; ///< may be empty; goes by time, so that shorter steps are the same scene
 
     const StepReport& step(float h)
     {
         if (before_step)
-            before_step(scene);
+            before_step(scene, h);
         return scene.step(h);
     }
 };

@@ -49,7 +49,7 @@ public:
     {
         if (!m_script.before_step)
             return;
-        m_script.before_step(m_script.scene);
+        m_script.before_step(m_script.scene, h);
         m_changes = m_translator.look(m_script.scene);
         move_script(h);
     }

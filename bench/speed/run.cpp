@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <stdexcept>
 
 namespace speed {
 namespace {
@@ -26,13 +25,6 @@ int step_count(const carom::scenes::SceneEntry& entry, const RunOptions& options
 float step_length(const carom::scenes::SceneEntry& entry, const RunOptions& options)
 {
     return entry.h / static_cast<float>(options.finer);
-}
-
-void check_schedule(const carom::scenes::SceneEntry& entry, const RunOptions& options)
-{
-    if (options.finer > 1 && entry.create({}).before_step)
-        throw std::invalid_argument("finer steps of " + std::string(entry.name) +
-                                    ": its schedule goes by steps, so that finer ones would be another scene");
 }
 
 /// Steps a contestant and adds up what that takes.
@@ -162,7 +154,6 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
 
 Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
 {
-    check_schedule(entry, options);
     QualityMeter meter(entry.stands);
     Result best = run_once(entry, contender, options, maker_of(entry), options.disturbed == 0 ? &meter : nullptr);
     for (int i = 1; i < options.repeat; ++i)
@@ -184,7 +175,6 @@ Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, c
 
 std::vector<std::uint64_t> hashes(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options)
 {
-    check_schedule(entry, options);
     TaskPool pool(options.threads);
     carom::SceneDef def;
     def.tasks = pool.hooks();

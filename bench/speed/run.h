@@ -19,7 +19,7 @@ struct RunOptions
     int threads = 1;
     int repeat = 1;
     bool discrete = false; ///< without continuous collision
-    int finer = 1; ///< steps of the scene are parted into so many each; one that its schedule changes before each step is refused
+    int finer = 1;         ///< steps of the scene are parted into so many each
     int disturbed = 0; ///< above 0: the quality is that of so many more runs, whose bodies start off their places by up to 0.1 mm
     std::function<void(const std::string&)> progress = [](const std::string&) {}; ///< may throw Interrupted
 };

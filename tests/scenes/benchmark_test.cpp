@@ -77,7 +77,7 @@ TEST_P(BenchmarkScene, HasAsManyBodiesShapesAndJointsAsTheirs)
     if (std::string_view(GetParam().name) == "rain")
         for (int i = 0; i < entry->frames; ++i)
         {
-            built.before_step(built.scene);
+            built.before_step(built.scene, entry->h);
             for (const BodyId id : built.scene.bodies())
                 built.scene.body(id).set_enabled(false);
             built.scene.step(entry->h);

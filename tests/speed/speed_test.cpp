@@ -188,14 +188,35 @@ TEST(Run, RepeatsAndThreadsEndInTheSameState)
 TEST(Run, FinerStepsAreShorterAndMore)
 {
     const SceneEntry* tumbler = carom::scenes::find_scene("tumbler");
-    const SceneEntry* scheduled = carom::scenes::find_scene("junkyard");
-    ASSERT_TRUE(tumbler != nullptr && scheduled != nullptr);
+    ASSERT_NE(tumbler, nullptr);
     const Contender carom = contenders().front();
     const double near = run(*tumbler, carom, {.steps = 60}).quality.near_pairs;
     const Result finer = run(*tumbler, carom, {.steps = 60, .finer = 4});
     EXPECT_EQ(finer.steps, 240);
     EXPECT_NEAR(finer.quality.near_pairs, near, 0.2 * near);
-    EXPECT_THROW(static_cast<void>(run(*scheduled, carom, {.steps = 10, .finer = 2})), std::invalid_argument);
+}
+
+// Rain makes figures every eighth step of 1/60 s, a pusher ploughs through the junkyard to and fro.
+TEST(Run, SchedulesKeepTheirTimeWithFinerSteps)
+{
+    const SceneEntry* rain = carom::scenes::find_scene("rain");
+    const SceneEntry* junkyard = carom::scenes::find_scene("junkyard");
+    ASSERT_TRUE(rain != nullptr && junkyard != nullptr);
+    const Contender carom = contenders().front();
+    EXPECT_EQ(run(*rain, carom, {.steps = 16}).bodies, 1 + 2 * 5 * 5 * 11);
+    EXPECT_EQ(run(*rain, carom, {.steps = 16, .finer = 2}).bodies, 1 + 2 * 5 * 5 * 11);
+    EXPECT_EQ(run(*rain, carom, {.steps = 17, .finer = 2}).bodies, 1 + 3 * 5 * 5 * 11);
+
+    const auto pusher_after = [&](int steps, float h)
+    {
+        carom::scenes::BuiltScene built = junkyard->create({});
+        for (int i = 0; i < steps; ++i)
+            built.step(h);
+        return built.scene.body(built.scene.bodies().back()).position().x;
+    };
+    const double x = pusher_after(10, junkyard->h); // where it is to be when the last of these steps begins
+    EXPECT_GT(x, 1.5);
+    EXPECT_NEAR(pusher_after(37, junkyard->h / 4), x, 1e-5);
 }
 
 TEST(Memory, TheHeapGrowsByWhatIsAllocated)
