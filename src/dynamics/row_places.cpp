@@ -15,6 +15,7 @@
 #include "dynamics/unit_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 #include <utility>
@@ -58,29 +59,55 @@ public:
 private:
     // --- parts of the plane -----------------------------------------------------------------------------------------------------------
 
-    // Of whole cells of the plane, and about as many bodies to each.
+    // Of whole cells of the plane, and about as much work to each.
     void find_parts()
     {
         if (m_unit.parts == 0)
             return;
         std::fill_n(m_scratch.parts.begin() + m_unit.first_state, m_unit.state_count, no_part);
-        const std::int32_t end = m_unit.first_state + 1 + m_unit.dynamic_count;
-        for (std::int32_t first = m_unit.first_state + 1; first < end;)
+        std::array<CellOfUnit, plane_cells> cells;
+        const std::size_t count = find_cells(cells);
+        std::int64_t all = 0;
+        for (const CellOfUnit& cell : std::span(cells).first(count))
+            all += cell.work;
+        std::int64_t before = 0;
+        auto to = m_scratch.parts.begin() + m_unit.first_state + 1;
+        for (const CellOfUnit& cell : std::span(cells).first(count))
         {
-            const std::uint8_t cell = cell_of(first);
-            std::int32_t last = first + 1;
-            while (last < end && cell_of(last) == cell)
-                ++last;
-            const std::int32_t middle = (first + last) / 2 - m_unit.first_state - 1;
-            const auto part = static_cast<std::uint16_t>(std::int64_t{middle} * m_unit.parts / m_unit.dynamic_count);
-            std::fill(m_scratch.parts.begin() + first, m_scratch.parts.begin() + last, part);
-            first = last;
+            to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_unit.parts / all));
+            before += cell.work;
         }
     }
 
-    [[nodiscard]] std::uint8_t cell_of(std::int32_t state) const
+    struct CellOfUnit
     {
-        return m_state.bodies[m_scratch.state_bodies[as_index(state)]].plane_cell;
+        std::int32_t states;
+        std::int64_t work;
+    };
+
+    // In the order in which the states stand. Says how many.
+    std::size_t find_cells(std::span<CellOfUnit> cells) const
+    {
+        std::size_t count = 0;
+        int last_cell = none;
+        for (std::int32_t i = 0; i < m_unit.dynamic_count; ++i)
+        {
+            const int body = m_scratch.state_bodies[as_index(m_unit.first_state + 1 + i)];
+            if (const int cell = m_state.bodies[body].plane_cell; cell != last_cell)
+            {
+                cells[count++] = {};
+                last_cell = cell;
+            }
+            ++cells[count - 1].states;
+            cells[count - 1].work += work_of(body);
+        }
+        return count;
+    }
+
+    // As many rows as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
+    [[nodiscard]] std::int64_t work_of(int body) const
+    {
+        return m_unit.parts > few_parts ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
     }
 
     // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.

@@ -23,7 +23,7 @@ namespace carom::internal {
 namespace {
 
 constexpr std::uint64_t steps_between = 32;
-constexpr std::size_t fewest_cells = 16;
+constexpr std::size_t fewest_cells = 32;
 constexpr std::size_t few_of = 8;     // less than one of so many
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
@@ -45,7 +45,7 @@ std::size_t cells_for(std::size_t bodies, std::size_t cells_now)
     return std::clamp(std::bit_floor(bodies / bodies_to_a_cell), fewest_cells, std::size_t{plane_cells});
 }
 
-// Into sixteenths, or more of what no cache holds, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are
+// Into 32 cells, or more of what no cache holds, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are
 // solved in another order then, and what is coming to rest is stirred by that.
 void part_bodies(StepContext& ctx)
 {

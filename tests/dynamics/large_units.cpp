@@ -46,7 +46,35 @@ float deepest(const Scene& scene)
     return depth;
 }
 
+// Groups of eight rows of each part of the largest unit.
+std::vector<std::int32_t> groups_of_parts(Scene& scene)
+{
+    const internal::Scratch& scratch = scene.data().scratch;
+    const internal::Unit& unit = *std::ranges::max_element(scratch.units, {}, &internal::Unit::link_count);
+    std::vector<std::int32_t> groups;
+    for (int part = 0; part < unit.parts; ++part)
+    {
+        const auto starts = scratch.bin_starts.begin() + unit.first_bin + part * unit.bin_count;
+        groups.push_back(starts[unit.bin_count] - starts[0]);
+    }
+    return groups;
+}
+
 } // namespace
+
+// Two balls to a pile's one lie in a single row beside it, and have a third of its rows.
+TEST(DynamicsLargeUnit, PartsHaveAboutAsMuchWorkEach)
+{
+    constexpr int in_row = 4000;
+    Scene scene = piled_balls({}, 80, 25, 0.98 * static_cast<double>(radius));
+    for (int i = 0; i < in_row; ++i)
+        add_dynamic(scene, {-0.199 * (i + 1), 0.98 * static_cast<double>(radius)}, Circle{.radius = radius}, {.friction = 0.6f});
+    for (int i = 0; i < 3; ++i)
+        scene.step(1.0f / 60);
+    const std::vector<std::int32_t> groups = groups_of_parts(scene);
+    ASSERT_GE(groups.size(), 4u);
+    EXPECT_LT(std::ranges::max(groups), 1.3 * std::ranges::min(groups));
+}
 
 TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutToHalfOfItsRadiusAtOnce)
 {

@@ -21,7 +21,7 @@ namespace carom::internal {
 inline constexpr std::int32_t none = -1;
 
 inline constexpr int plane_cells = 256;       ///< at most
-inline constexpr int bodies_to_a_cell = 2048; ///< where there are more than 16 cells
+inline constexpr int bodies_to_a_cell = 2048; ///< where there are more than 32 cells
 
 struct BodyRecord
 {
