@@ -25,6 +25,7 @@ namespace {
 constexpr std::uint64_t steps_between = 32;
 constexpr std::size_t fewest_cells = 32;
 constexpr std::size_t few_of = 8;     // less than one of so many
+constexpr std::size_t fewest_of = 4;  // a cell with more than one of so many is too full
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
 void sort_bodies(SceneState& state)
@@ -353,8 +354,14 @@ private:
 
 void tidy(StepContext& ctx)
 {
-    if (ctx.state.step_count % steps_between != 1 || ctx.state.awake_contacts.size() < worth_it)
+    if (ctx.state.awake_contacts.size() < worth_it)
         return;
+    if (ctx.state.step_count % steps_between != 1)
+    { // who has woken since is in no cell of its own
+        if (ctx.scratch.fullest_cell * fewest_of > ctx.state.awake_bodies.size())
+            part_bodies(ctx);
+        return;
+    }
     sort_bodies(ctx.state);
     part_bodies(ctx);
     if (ctx.scratch.kept_units.rows_stayed_for >= steps_between)

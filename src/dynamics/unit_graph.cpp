@@ -576,6 +576,7 @@ public:
         std::int32_t starts[plane_cells + 1] = {};
         for (const std::int32_t body : state.awake_bodies)
             ++starts[cell_of(body) + 1];
+        scratch.fullest_cell = static_cast<std::size_t>(*std::ranges::max_element(starts));
         for (int cell = 0; cell < plane_cells; ++cell)
             starts[cell + 1] += starts[cell];
         set_size(places, state.awake_bodies.size());

@@ -13,6 +13,7 @@ namespace carom::internal {
 
 void build_units(StepContext& ctx)
 {
+    ctx.scratch.fullest_cell = 0;
     if (ctx.scratch.kept_units.rows_stay)
     {
         refill_units(ctx);

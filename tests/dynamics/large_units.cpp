@@ -46,6 +46,16 @@ float deepest(const Scene& scene)
     return depth;
 }
 
+// Of the bodies that move, how many lie in the plane cell that has most.
+std::size_t fullest_cell(Scene& scene)
+{
+    const internal::SceneState& state = scene.data().state;
+    std::vector<std::size_t> counts(internal::plane_cells);
+    for (const std::int32_t body : state.awake_bodies)
+        ++counts[state.bodies[body].plane_cell];
+    return *std::ranges::max_element(counts);
+}
+
 // Groups of eight rows of each part of the largest unit.
 std::vector<std::int32_t> groups_of_parts(Scene& scene)
 {
@@ -74,6 +84,29 @@ TEST(DynamicsLargeUnit, PartsHaveAboutAsMuchWorkEach)
     const std::vector<std::int32_t> groups = groups_of_parts(scene);
     ASSERT_GE(groups.size(), 4u);
     EXPECT_LT(std::ranges::max(groups), 1.3 * std::ranges::min(groups));
+}
+
+// A wall that wakes from one end to the other, between the steps in which bodies are parted anyway.
+TEST(DynamicsLargeUnit, WhatWakesGetsCellsOfItsOwn)
+{
+    Scene scene;
+    for (int i = 0; i < 4000; ++i)
+    {
+        const BodyId brick = add_dynamic(scene, {0.4 * (i / 40), 0.4 * (i % 40)}, box(0.2f, 0.2f)).body;
+        scene.body(brick).set_awake(false);
+    }
+    const BodyId ram = add_dynamic(scene, {-3, 8}, box(2, 2), {.density = 8}, {60, 0}).body;
+    for (int i = 0; i < 20; ++i)
+    {
+        scene.step(1.0f / 60);
+        const std::size_t awake = scene.data().state.awake_bodies.size();
+        if (scene.contacts().size() > 2000)
+        {
+            EXPECT_LE(fullest_cell(scene), awake / 4 + 1) << "step " << i;
+        }
+    }
+    EXPECT_GT(scene.body(ram).position().x, 2);
+    EXPECT_GT(scene.data().state.awake_bodies.size(), 2000u);
 }
 
 TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutToHalfOfItsRadiusAtOnce)

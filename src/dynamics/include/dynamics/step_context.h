@@ -456,7 +456,8 @@ struct Scratch
     std::vector<std::int32_t> unit_of_link; ///< none: it gets no row
     std::vector<std::uint8_t> bounced;      ///< of a unit's begins, see commit.cpp
     std::vector<std::int32_t> in_plane;     ///< places in awake_bodies, in the order of the plane
-    std::vector<Link> solved_links;         ///< those that get rows, by unit
+    std::size_t fullest_cell = 0;   ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
+    std::vector<Link> solved_links; ///< those that get rows, by unit
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
     KeptUnits kept_units;
