@@ -4,6 +4,7 @@
 #include "dynamics/unit_bounces.h"
 
 #include "core/grow.h"
+#include "core/index.h"
 #include "core/nonzero.h"
 #include "core/prefetch.h"
 #include "dynamics/contact_store.h"
@@ -52,7 +53,7 @@ private:
             .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
     }
 
-    // What two parts of the plane have shares no body that gives way: members bounce what is in theirs side by side, then one what crosses.
+    // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
     void bounce_lanes(int k, Crew& crew)
     {
         find_struck_lanes();
@@ -61,12 +62,12 @@ private:
             bounce_groups(0, m_unit.wide_count, k, m_output);
             return;
         }
-        std::vector<Told>& others = m_output.told_by_others;
-        others.resize(std::max(others.size(), static_cast<std::size_t>(crew.members()) - 1));
-        const auto bounce_of_member = [&](int first, int last, int member)
-        { bounce_groups(first, last, k, member == 0 ? m_output : others[static_cast<std::size_t>(member) - 1]); };
-        const int crossing = contact_bins(m_scratch, m_unit).by_part(crew, bounce_of_member);
-        for (Told& told : others)
+        std::vector<Told>& in_parts = m_output.told_in_parts;
+        in_parts.resize(std::max(in_parts.size(), as_index(m_unit.parts)));
+        const int crossing =
+            contact_bins(m_scratch, m_unit)
+                .by_part(crew, [&](int first, int last, int part) { bounce_groups(first, last, k, in_parts[as_index(part)]); });
+        for (Told& told : std::span(in_parts).first(as_index(m_unit.parts)))
             take(told);
         bounce_groups(crossing, m_unit.wide_count, k, m_output);
     }

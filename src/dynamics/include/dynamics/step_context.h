@@ -373,7 +373,7 @@ struct UnitOutput : Told
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
     std::vector<std::int32_t> struck_lanes;   ///< of the unit, in this sub-step
     std::vector<std::int32_t> struck_states;  ///< that rows move and what flies has struck, in this sub-step
-    std::vector<Told> told_by_others;         ///< by all threads but the leader's, empty but for while they tell
+    std::vector<Told> told_in_parts;          ///< of the plane, empty but for while threads tell
     std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;               ///< of each of these
     std::vector<HoldSet> hold_sets;           ///< of fliers that something has held

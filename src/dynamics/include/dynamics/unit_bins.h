@@ -80,14 +80,11 @@ public:
                        });
     }
 
-    /// Calls work(first, last, member) for the groups of each member's parts, side by side: what members tell one after the other stands in the
-    /// order of parts. Returns where what crosses begins.
+    /// Calls work(first, last, part) for the groups of each part, side by side. Returns where what crosses begins.
     template <class Work>
     int by_part(Crew& crew, const Work& work) const
     {
-        if (m_parts > 0)
-            crew.in_parts([&](int member, int members)
-                          { work(start(bound(member, members)), start(bound(member + 1, members)), member); });
+        crew.in_pieces(m_parts, false, [&](int part) { work(start(part * m_bins), start((part + 1) * m_bins), part); });
         return start(m_parts * m_bins);
     }
 
@@ -118,8 +115,6 @@ private:
                    });
     }
 
-    // Where the bins of a member's parts begin.
-    [[nodiscard]] int bound(int member, int members) const { return Crew::bound(m_parts, member, members) * m_bins; }
     [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
 
     const std::int32_t* m_starts; ///< and where the last ends
