@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint64_t steps_between = 32;
 constexpr std::size_t fewest_cells = 32;
 constexpr std::size_t few_of = 8;     // less than one of so many
-constexpr std::size_t fewest_of = 4;  // a cell with more than one of so many is too full
+constexpr std::size_t full_of = 4;    // a cell that holds more than one of so many is too full
 constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
 
 void sort_bodies(SceneState& state)
@@ -358,7 +358,7 @@ void tidy(StepContext& ctx)
         return;
     if (ctx.state.step_count % steps_between != 1)
     { // who has woken since is in no cell of its own
-        if (ctx.scratch.fullest_cell * fewest_of > ctx.state.awake_bodies.size())
+        if (ctx.scratch.fullest_cell * full_of > ctx.state.awake_bodies.size())
             part_bodies(ctx);
         return;
     }
