@@ -1,5 +1,6 @@
 // Manifolds that are followed in a crowd must say what the narrow phase would say, were it asked.
 
+#include "core/index.h"
 #include "dynamics/contact_update.h"
 #include "dynamics/kept_manifold.h"
 #include "dynamics/scene_data.h"
@@ -30,9 +31,9 @@ Geometry piece(int i)
 }
 
 // A square room that turns, a third full.
-void build(Scene& scene)
+void build(Scene& scene, float turn_rate = 0.6f)
 {
-    const BodyId room = scene.create_body({.type = BodyType::Kinematic, .angular_velocity = 0.6f});
+    const BodyId room = scene.create_body({.type = BodyType::Kinematic, .angular_velocity = turn_rate});
     for (const Vec2 side : {Vec2{3.2f, 0}, Vec2{-3.2f, 0}})
         scene.create_shape(room, box(0.2f, 3.4f, side), {.friction = 0.5f});
     for (const Vec2 side : {Vec2{0, 3.2f}, Vec2{0, -3.2f}})
@@ -76,10 +77,13 @@ void compare(const SceneState& state, int index, Tally& tally)
     const Manifold found = world_manifold(state, contact, a, b, std::max(near, 0.0f) + 0.03f);
     ++(keeps_nearest(contact) ? tally.corners : tally.edges);
     ASSERT_GT(found.count, 0) << "a point that is not there, apart by " << near;
-    // Of two points another edge, or a corner, may be a little better, and is not looked for as long as bodies have moved little.
+    // Of two points, or of one that is deeper than its corner is round, another edge or corner may be a little better, and is not looked for as long as
+    // bodies have moved little.
     const float off = std::fabs(least_separation(found) - near);
-    ASSERT_LE(off, m.count == 2 ? 0.02f : 1e-4f) << "found at " << least_separation(found) << ", followed at " << near << ", "
-                                                 << m.count << " points, nearest corners: " << keeps_nearest(contact);
+    const bool is_surely_best =
+        m.count == 1 && (keeps_nearest(contact) || near + state.kept_manifolds[as_index(index)].radius > 0);
+    ASSERT_LE(off, is_surely_best ? 1e-4f : 0.02f) << "found at " << least_separation(found) << ", followed at " << near << ", "
+                                                   << m.count << " points, nearest corners: " << keeps_nearest(contact);
     tally.off += off > 1e-4f ? 1 : 0;
 }
 
@@ -87,19 +91,22 @@ void compare(const SceneState& state, int index, Tally& tally)
 
 TEST(DynamicsFollowedManifolds, AreWhatWouldBeFound)
 {
-    Scene scene(sleepless());
-    build(scene);
     Tally tally;
-    for (int i = 0; i < 400; ++i)
+    for (const float turn_rate : {0.36f, 0.48f, 0.6f, 0.72f})
     {
-        SCOPED_TRACE("step " + std::to_string(i));
-        scene.step(1.0f / 60);
-        const SceneState& state = scene.data().state;
-        for (const std::int32_t contact : state.awake_contacts)
+        Scene scene(sleepless());
+        build(scene, turn_rate);
+        for (int i = 0; i < 400; ++i)
         {
-            compare(state, contact, tally);
-            if (HasFatalFailure())
-                return;
+            SCOPED_TRACE("step " + std::to_string(i) + " of the room that turns at " + std::to_string(turn_rate));
+            scene.step(1.0f / 60);
+            const SceneState& state = scene.data().state;
+            for (const std::int32_t contact : state.awake_contacts)
+            {
+                compare(state, contact, tally);
+                if (HasFatalFailure())
+                    return;
+            }
         }
     }
     EXPECT_GT(tally.corners, 1000);
