@@ -241,10 +241,30 @@ private:
         std::erase_if(parts, [&](std::int32_t part) { return part >= m_unit.parts; }); // of what does not give way
         std::ranges::sort(parts);
         parts.erase(std::ranges::unique(parts).begin(), parts.end());
-        const auto relax = [this](int first, int last) { relax_lanes(first, last); };
+        const auto relax = [this](int first, int last)
+        {
+            take_from_sums(first, last);
+            relax_lanes(first, last);
+        };
         m_bins.crossing(m_crew, relax);
         m_crew.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_bins.of_part(parts[as_index(i)], relax); });
         solve_rows(m_view, late_rows(), false);
+    }
+
+    // What relaxing has added: it comes again.
+    void take_from_sums(int first, int last) const
+    {
+        for (int g = first; g < last; ++g)
+        {
+            for (WidePoint& p : std::span(m_wide[g].points).first(static_cast<std::size_t>(m_notes[g].count)))
+            {
+                for (int i = 0; i < lane_count; ++i)
+                {
+                    p.total_impulse.v[i] -= m_softness.share * p.normal_impulse.v[i];
+                    p.total_tangent.v[i] -= m_softness.share * p.tangent_impulse.v[i];
+                }
+            }
+        }
     }
 
     // Groups of one bin.

@@ -7,6 +7,9 @@
 #include "dynamics/step_context.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
 
 using namespace carom;
 using namespace carom::test;
@@ -68,6 +71,21 @@ std::vector<std::int32_t> groups_of_parts(Scene& scene)
         groups.push_back(starts[unit.bin_count] - starts[0]);
     }
     return groups;
+}
+
+// Of bodies, by slot: what contacts say that they gave along y in the last step.
+std::vector<double> upward_impulses(Scene& scene)
+{
+    std::vector<double> sums(static_cast<std::size_t>(scene.data().state.bodies.capacity()));
+    for (const ContactInfo& contact : scene.contacts())
+    {
+        double impulse = 0;
+        for (const ContactInfo::Point& point : std::span(contact.points).first(static_cast<std::size_t>(contact.point_count)))
+            impulse += static_cast<double>(point.normal_impulse * contact.normal.y + point.friction_impulse * contact.normal.x);
+        sums[scene.shape(contact.shape_a).body().slot - 1] -= impulse;
+        sums[scene.shape(contact.shape_b).body().slot - 1] += impulse;
+    }
+    return sums;
 }
 
 } // namespace
@@ -152,4 +170,30 @@ TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
     const std::vector<BodyId> bodies = scenes[0].bodies();
     for (std::size_t i = bodies.size() - 20; i < bodies.size(); ++i)
         EXPECT_GT(scenes[0].body(bodies[i]).position().y, 33.93) << "it has sunk in to its own center or deeper";
+}
+
+// m dv = impulses + m g dt, for all but the few that something has flown into.
+TEST(DynamicsLargeUnit, SumsOfImpulsesAreWhatNinetyThousandBallsGot)
+{
+    Scene scene = piled_balls({}, 450, 200, 0.98 * static_cast<double>(radius));
+    scene.step(1.0f / 60);
+    const std::vector<BodyId> bodies = scene.bodies();
+    for (int i = 0; i < 20; ++i)
+        add_dynamic(scene, {4.0 * i + 2, 34.5}, Circle{.radius = radius}, {}, {0, -30});
+    std::vector<float> before;
+    for (const BodyId body : bodies)
+        before.push_back(scene.body(body).velocity().y);
+    scene.step(1.0f / 60);
+    ASSERT_GE(scene.report().flight_impacts, 20);
+    const std::vector<double> impulses = upward_impulses(scene);
+    int wrong = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+    {
+        const Body body = scene.body(bodies[i]);
+        if (body.type() != BodyType::Dynamic)
+            continue;
+        const double given = static_cast<double>(body.velocity().y - before[i]) + 9.81 / 60;
+        wrong += std::fabs(impulses[bodies[i].slot - 1] / static_cast<double>(body.mass()) - given) > 0.05 * 9.81 / 60 ? 1 : 0;
+    }
+    EXPECT_LT(wrong, 300);
 }
