@@ -256,7 +256,7 @@ private:
     {
         for (int g = first; g < last; ++g)
         {
-            for (WidePoint& p : std::span(m_wide[g].points).first(static_cast<std::size_t>(m_notes[g].count)))
+            for (WidePoint& p : std::span(m_wide[g].points).first(as_index(m_notes[g].count)))
             {
                 for (int i = 0; i < lane_count; ++i)
                 {
