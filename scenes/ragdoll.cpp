@@ -43,11 +43,14 @@ constexpr std::array<Bone, 11> bones{Bone{hip, 0.95f, -0.02f, 0.02f, 0.095f, 0, 
                                      lower_arm(9)};
 
 constexpr float friction_torque = 0.05f; // N m
+constexpr float sleep_speed = 0.1f;      // m/s
 
 BodyId add_bone(Scene& scene, const Bone& bone, Vec2 feet, int number)
 {
-    const BodyId body = scene.create_body(
-        {.type = BodyType::Dynamic, .position = Position(feet) + Vec2{0, bone.y}, .linear_damping = bone.damping});
+    const BodyId body = scene.create_body({.type = BodyType::Dynamic,
+                                           .position = Position(feet) + Vec2{0, bone.y},
+                                           .linear_damping = bone.damping,
+                                           .sleep_speed = sleep_speed});
     ShapeDef def{.friction = 0.2f, .filter = {.category = 2, .mask = 1 | 2, .group = -number}};
     scene.create_shape(body, Capsule{{0, bone.bottom}, {0, bone.top}, bone.radius, bone.radius}, def);
     if (bone.foot)

@@ -119,7 +119,8 @@ BodyPlan plan_body(const carom::ConstBody& body, const carom::Scene& scene)
                           .spin = body.angular_velocity(),
                           .damping = body.linear_damping(),
                           .awake = body.type() != carom::BodyType::Dynamic || body.is_awake(),
-                          .can_sleep = body.can_sleep()}};
+                          .can_sleep = body.can_sleep(),
+                          .sleep_speed = body.sleep_speed()}};
     for (const carom::ShapeId id : body.shapes())
         std::visit(ShapePlanner{plan, material(scene.shape(id).def())}, scene.shape(id).geometry());
     return plan;

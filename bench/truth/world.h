@@ -36,6 +36,7 @@ struct BodyDef
     double damping = 0; ///< 1/s, of the linear velocity
     bool awake = true;
     bool can_sleep = true;
+    double sleep_speed = 0.05; ///< m/s, where an engine has one for each body
 };
 
 struct Disc

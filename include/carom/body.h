@@ -56,6 +56,9 @@ struct BodyDef
     bool enabled = true; ///< a disabled body stays in the scene and takes no part
     bool awake = true;
     bool can_sleep = true;
+    /// Slower than this for half a second (the centre of mass, and the farthest point as the body turns) it may fall asleep, m/s, >= 0; 0: 0.05 for each m of
+    /// SceneDef::length_scale.
+    float sleep_speed = 0;
     std::uint64_t user_data = 0; ///< yours; never read by the engine
 };
 
@@ -86,6 +89,7 @@ public:
     [[nodiscard]] bool is_enabled() const;
     [[nodiscard]] bool is_awake() const;
     [[nodiscard]] bool can_sleep() const;
+    [[nodiscard]] float sleep_speed() const; ///< m/s, > 0: the scene's where none was given
     [[nodiscard]] std::uint64_t user_data() const;
     [[nodiscard]] Position world_point(Vec2 local) const;
     [[nodiscard]] Vec2 local_point(Position world) const;
@@ -133,6 +137,7 @@ public:
     /// Waking or putting to sleep; sleep takes the bodies it touches along.
     void set_awake(bool awake);
     void set_can_sleep(bool can_sleep);
+    void set_sleep_speed(float speed); ///< as BodyDef::sleep_speed; wakes nothing
     void set_user_data(std::uint64_t user_data);
 
 private:

@@ -51,7 +51,7 @@ float quiet_speed(const StepContext& ctx, const BodyRecord& record)
 {
     if (record.type == BodyType::Kinematic)
         return 0;
-    const float limit = ctx.scene.tolerances.sleep_speed;
+    const float limit = sleep_speed_of(ctx.scene, record);
     return hangs_on_spring(ctx.state, record) ? 0.02f * limit : limit; // a damped spring creeps the last of its way
 }
 
@@ -60,7 +60,7 @@ float quiet_speed(const StepContext& ctx, const BodyRecord& record)
 void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
 {
     const float speed = std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent);
-    if (speed > ctx.scene.tolerances.sleep_speed)
+    if (speed > std::max(ctx.scene.tolerances.sleep_speed, ctx.state.greatest_sleep_speed))
     { // whatever it is
         sim.sleep_time = 0;
         return;

@@ -20,7 +20,8 @@ bool check_body_def(const BodyDef& def)
            check.finite("BodyDef::velocity", def.velocity) && check.finite("BodyDef::angular_velocity", def.angular_velocity) &&
            check.finite("BodyDef::gravity_scale", def.gravity_scale) &&
            check.not_negative("BodyDef::linear_damping", def.linear_damping) &&
-           check.not_negative("BodyDef::angular_damping", def.angular_damping);
+           check.not_negative("BodyDef::angular_damping", def.angular_damping) &&
+           check.not_negative("BodyDef::sleep_speed", def.sleep_speed);
 }
 
 BodySim make_sim(const BodyDef& def)
@@ -57,6 +58,8 @@ BodyId Scene::create_body(const BodyDef& def)
     record.locks = def.locks;
     record.enabled = def.enabled;
     record.can_sleep = def.can_sleep;
+    record.sleep_speed = def.sleep_speed;
+    state.greatest_sleep_speed = std::max(state.greatest_sleep_speed, def.sleep_speed);
     const int slot = state.bodies.create(record);
     const auto index = static_cast<std::size_t>(slot);
     grow(state.sims, index + 1);
@@ -201,6 +204,13 @@ bool ConstBody::can_sleep() const
     const BodyRecord* r = record_of(m_data, m_id, "Body::can_sleep");
     return r != nullptr && r->can_sleep;
 }
+
+float ConstBody::sleep_speed() const
+{
+    const BodyRecord* r = record_of(m_data, m_id, "Body::sleep_speed");
+    return r == nullptr ? 0 : sleep_speed_of(*m_data, *r);
+}
+
 std::uint64_t ConstBody::user_data() const
 {
     return record_of(m_data, m_id, "Body::user_data") != nullptr ? m_data->body_user_data[static_cast<std::size_t>(slot_of(m_id))]
@@ -565,6 +575,15 @@ void Body::set_can_sleep(bool can_sleep)
     t.record().can_sleep = can_sleep;
     if (!can_sleep)
         t.wake();
+}
+
+void Body::set_sleep_speed(float speed)
+{
+    const Target t(m_data, m_id, "Body::set_sleep_speed");
+    if (!t || !Checker{"Body::set_sleep_speed"}.not_negative("speed", speed))
+        return;
+    t.record().sleep_speed = speed;
+    m_data->state.greatest_sleep_speed = std::max(m_data->state.greatest_sleep_speed, speed);
 }
 
 void Body::set_user_data(std::uint64_t user_data)

@@ -56,6 +56,8 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
     h.add(s.linear_damping);
     h.add(s.angular_damping);
     h.add(s.sleep_time);
+    if (r.sleep_speed > 0)
+        h.add(r.sleep_speed);
 }
 
 void add_material(Hasher& h, const SceneState& state, const ShapeRecord& s)

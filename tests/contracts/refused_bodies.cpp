@@ -18,9 +18,11 @@ TEST_F(Contract, BodyDefinitions)
         body_refused({.gravity_scale = bad}, "gravity_scale");
         body_refused({.linear_damping = bad}, "linear_damping");
         body_refused({.angular_damping = bad}, "angular_damping");
+        body_refused({.sleep_speed = bad}, "sleep_speed");
     }
     body_refused({.linear_damping = -1}, "linear_damping");
     body_refused({.angular_damping = -1}, "angular_damping");
+    body_refused({.sleep_speed = -1}, "sleep_speed");
 }
 
 TEST_F(Contract, BodyVerbsThatSet)
@@ -34,6 +36,7 @@ TEST_F(Contract, BodyVerbsThatSet)
         verb_refused("Body::set_gravity_scale", "scale", [&](Body b) { b.set_gravity_scale(bad); });
         verb_refused("Body::set_linear_damping", "damping", [&](Body b) { b.set_linear_damping(bad); });
         verb_refused("Body::set_angular_damping", "damping", [&](Body b) { b.set_angular_damping(bad); });
+        verb_refused("Body::set_sleep_speed", "speed", [&](Body b) { b.set_sleep_speed(bad); });
         verb_refused("Body::set_mass", "mass", [&](Body b) { b.set_mass({.mass = bad, .inertia = 1}); });
         verb_refused("Body::set_mass", "center", [&](Body b) { b.set_mass({.mass = 1, .center = {bad, 0}, .inertia = 1}); });
         verb_refused("Body::set_mass", "inertia", [&](Body b) { b.set_mass({.mass = 1, .inertia = bad}); });
@@ -48,6 +51,7 @@ TEST_F(Contract, BodyVerbsThatSet)
     refused([&] { scene.body(fixed.body).set_target_pose({}, 0); }, {"Body::set_target_pose"});
     refused([&] { scene.body(ball.body).set_linear_damping(-1); }, {"Body::set_linear_damping", "damping", "-1"});
     refused([&] { scene.body(ball.body).set_angular_damping(-1); }, {"Body::set_angular_damping", "damping", "-1"});
+    refused([&] { scene.body(ball.body).set_sleep_speed(-1); }, {"Body::set_sleep_speed", "speed", "-1"});
 }
 
 TEST_F(Contract, BodyVerbsThatPushOrAsk)

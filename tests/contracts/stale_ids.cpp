@@ -96,6 +96,7 @@ TEST_F(StaleReference, ToABody)
     stale("Body::set_user_data", [&] { body.set_user_data(1); });
     stale("Body::set_locks", [&] { body.set_locks({}); });
     stale("Body::set_can_sleep", [&] { body.set_can_sleep(true); });
+    stale("Body::set_sleep_speed", [&] { body.set_sleep_speed(1); });
 }
 
 TEST_F(StaleReference, ToAShape)

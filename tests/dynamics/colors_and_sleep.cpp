@@ -116,6 +116,33 @@ TEST(DynamicsSleep, AStackFallsAsleepAndWakesOnTouch)
     EXPECT_FALSE(scene.body(alone).is_awake()) << "and nothing else";
 }
 
+TEST(DynamicsSleep, EachBodyAtItsOwnSpeed)
+{
+    Scene scene({.gravity = {}});
+    const auto drifting = [&](double y, float sleep_speed)
+    {
+        const BodyId body = scene.create_body(
+            {.type = BodyType::Dynamic, .position = {0, y}, .velocity = {0.08f, 0}, .sleep_speed = sleep_speed});
+        scene.create_shape(body, Circle{.radius = 0.5f});
+        return body;
+    };
+    const BodyId usual = drifting(0, 0);
+    const BodyId sleepy = drifting(3, 0.1f);
+    EXPECT_EQ(scene.body(usual).sleep_speed(), 0.05f) << "the scene's";
+    EXPECT_EQ(scene.body(sleepy).sleep_speed(), 0.1f);
+    steps(scene, 60);
+    EXPECT_TRUE(scene.body(usual).is_awake());
+    EXPECT_FALSE(scene.body(sleepy).is_awake());
+    scene.body(usual).set_sleep_speed(0.1f);
+    scene.body(sleepy).set_sleep_speed(0);
+    scene.body(sleepy).set_velocity({0.08f, 0});
+    steps(scene, 60);
+    EXPECT_FALSE(scene.body(usual).is_awake());
+    EXPECT_TRUE(scene.body(sleepy).is_awake());
+    Scene large({.length_scale = 4});
+    EXPECT_EQ(large.body(large.create_body({})).sleep_speed(), 0.2f);
+}
+
 TEST(DynamicsSleep, WakesWhenItsSupportGoes)
 {
     struct How

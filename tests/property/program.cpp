@@ -109,7 +109,7 @@ void print_body(std::ostream& out, const Scene& scene, BodyId id)
         << ", .position = " << text(body.position()) << ", .angle = " << number(body.angle())
         << ", .velocity = " << text(body.velocity()) << ", .angular_velocity = " << number(body.angular_velocity())
         << ", .locks = {" << text(locks.linear_x) << ", " << text(locks.linear_y) << ", " << text(locks.angular)
-        << "}, .can_sleep = " << text(body.can_sleep()) << "});\n";
+        << "}, .can_sleep = " << text(body.can_sleep()) << ", .sleep_speed = " << number(body.sleep_speed()) << "});\n";
     for (const ShapeId shape : body.shapes())
         print_shape(out, id, scene.shape(shape));
     if (locks.linear_x) // a bat: its mass was given

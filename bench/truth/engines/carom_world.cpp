@@ -73,6 +73,7 @@ public:
                                                 .linear_damping = static_cast<float>(def.damping),
                                                 .awake = def.awake,
                                                 .can_sleep = def.can_sleep,
+                                                .sleep_speed = static_cast<float>(def.sleep_speed),
                                                 .user_data = m_bodies.size()}));
         return static_cast<Body>(m_bodies.size()) - 1;
     }

@@ -105,6 +105,7 @@ public:
         made.linearDamping = narrow(def.damping);
         made.isAwake = def.awake;
         made.enableSleep = def.can_sleep;
+        made.sleepThreshold = narrow(def.sleep_speed);
         m_bodies.push_back(b2CreateBody(m_world, &made));
         return static_cast<Body>(m_bodies.size()) - 1;
     }
