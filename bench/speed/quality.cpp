@@ -112,6 +112,7 @@ void QualityMeter::sample_bodies(Contestant& contestant, const std::vector<truth
         if (body.type() != carom::BodyType::Dynamic)
             continue;
         m_awake += states[i].awake ? 1 : 0;
+        m_moving += length(states[i].velocity) > static_cast<double>(body.sleep_speed()) ? 1 : 0;
         m_energy += kinetic_energy(body, states[i]);
         if (!m_at_rest)
             continue;
@@ -130,6 +131,7 @@ Quality QualityMeter::result() const
             .speed = spread(m_speeds),
             .near_pairs = m_near_pairs / m_samples,
             .awake = m_awake / m_samples,
+            .moving = m_moving / m_samples,
             .energy = m_energy / m_samples};
 }
 

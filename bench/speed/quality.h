@@ -28,6 +28,7 @@ struct Quality
     Spread speed{};           ///< of the dynamic bodies, m/s; scenes that are built at rest
     double near_pairs = none; ///< mean number of pairs of shapes less than 2 cm apart
     double awake = none;      ///< mean number of dynamic bodies that are awake
+    double moving = none;     ///< of those whose centres are faster than they may fall asleep at
     double energy = none;     ///< mean kinetic energy of all of them, J
 };
 
@@ -56,6 +57,7 @@ private:
     std::vector<double> m_speeds{};
     double m_near_pairs = 0;
     double m_awake = 0;
+    double m_moving = 0;
     double m_energy = 0;
     int m_samples = 0;
 };

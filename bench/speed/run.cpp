@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <set>
+#include <utility>
 
 namespace speed {
 namespace {
@@ -101,21 +103,48 @@ Result describe(const carom::scenes::SceneEntry& entry, const Contender& contend
 
 SceneMaker maker_of(const carom::scenes::SceneEntry& entry) { return entry.create; }
 
+/// Puts what is new in a scene off its place by a hair's breadth.
+class Disturbance
+{
+public:
+    explicit Disturbance(std::uint64_t seed) : m_random(seed) {}
+
+    void disturb_new(carom::Scene& scene)
+    {
+        constexpr double most = 1e-4; // m
+        for (const carom::BodyId id : scene.bodies())
+        {
+            if (!m_seen.insert(id).second)
+                continue;
+            carom::Body body = scene.body(id);
+            const double dx = most * (2 * m_random.unit() - 1);
+            const double dy = most * (2 * m_random.unit() - 1);
+            if (body.type() == carom::BodyType::Dynamic)
+                body.teleport({body.position().x + dx, body.position().y + dy}, body.angle());
+        }
+    }
+
+private:
+    carom::SplitMix64 m_random;
+    std::set<carom::BodyId> m_seen{};
+};
+
 /// The same scene a hair's breadth beside itself: where it is chaotic it goes another way.
 SceneMaker disturbed(const carom::scenes::SceneEntry& entry, std::uint64_t seed)
 {
-    constexpr double most = 1e-4; // m
     return [&entry, seed](const carom::SceneDef& def)
     {
         carom::scenes::BuiltScene built = entry.create(def);
-        carom::SplitMix64 random(seed);
-        for (const carom::BodyId id : built.scene.bodies())
+        Disturbance disturbance(seed);
+        disturbance.disturb_new(built.scene);
+        if (built.before_step)
         {
-            carom::Body body = built.scene.body(id);
-            const double dx = most * (2 * random.unit() - 1);
-            const double dy = most * (2 * random.unit() - 1);
-            if (body.type() == carom::BodyType::Dynamic)
-                body.teleport({body.position().x + dx, body.position().y + dy}, body.angle());
+            built.before_step = [before = std::move(built.before_step), disturbance = std::move(disturbance)](carom::Scene& scene,
+                                                                                                              float h) mutable
+            {
+                before(scene, h);
+                disturbance.disturb_new(scene);
+            };
         }
         return built;
     };

@@ -140,6 +140,8 @@ TEST(Quality, MeasuresJointsDriftSpeedAndEnergy)
     EXPECT_NEAR(quality.speed.mean, 0.25, 1e-9);
     EXPECT_NEAR(quality.energy, 0.5 * (0.25 + 9.0 / 6), 1e-6); // 1 kg, 1/6 kg m²
     EXPECT_EQ(quality.near_pairs, 0);                          // they are joined
+    EXPECT_EQ(quality.awake, 2);
+    EXPECT_EQ(quality.moving, 1);
 }
 
 TEST(Run, EveryEngineTakesTheJunkyardsPusherWithIt)
@@ -182,6 +184,19 @@ TEST(Run, RepeatsAndThreadsEndInTheSameState)
     EXPECT_EQ(one.hash, run(*entry, carom, {.steps = 40, .threads = 3}).hash);
     EXPECT_EQ(one.hash, hashes(*entry, carom, {.steps = 40}).back());
     EXPECT_NE(one.hash, run(*entry, carom, {.steps = 41}).hash);
+}
+
+// Rain's figures come while it runs.
+TEST(Run, EachDisturbedRunIsOneOfItsOwn)
+{
+    const SceneEntry* rain = carom::scenes::find_scene("rain");
+    ASSERT_NE(rain, nullptr);
+    const Contender carom = contenders().front();
+    const auto energy = [&](int disturbed) { return run(*rain, carom, {.steps = 20, .disturbed = disturbed}).quality.energy; };
+    const double first = energy(1);
+    EXPECT_NE(first, energy(0));
+    EXPECT_NE(first, energy(2)) << "the mean of two";
+    EXPECT_NEAR(first, energy(2), 0.05 * first);
 }
 
 // As much of the scene's time has gone by: were the steps as long as before, four times as many pieces would lie together.
