@@ -56,7 +56,8 @@ struct TaskHooks
 };
 
 /// The instruction set that the engine's kernels use on this machine: "sse2", "avx2" or "avx512" on x86-64 (the environment variable
-/// CAROM_ISA may ask for a lesser one before the first step), "neon" on AArch64, "baseline" elsewhere. The results are the same bits with all.
+/// CAROM_ISA may ask for a lesser one before the first step), "neon" on AArch64, "wasm" in WebAssembly with
+/// 128-bit lanes, "baseline" elsewhere. The results are the same bits with all.
 [[nodiscard]] const char* instruction_set();
 
 /// Parameters of a new scene.

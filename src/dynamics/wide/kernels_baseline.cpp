@@ -4,6 +4,8 @@
 #define CAROM_ISA_NAME "sse2"
 #elif defined(__aarch64__)
 #define CAROM_ISA_NAME "neon"
+#elif defined(__wasm_simd128__)
+#define CAROM_ISA_NAME "wasm"
 #else
 #define CAROM_ISA_NAME "baseline"
 #endif
