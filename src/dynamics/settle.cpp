@@ -47,12 +47,12 @@ void slow_down(BodySim& sim, float by)
 }
 
 // What is slower is quiet.
-float quiet_speed(const StepContext& ctx, const BodyRecord& record)
+float quiet_speed(const SceneState& state, const BodyRecord& record)
 {
     if (record.type == BodyType::Kinematic)
         return 0;
-    const float limit = sleep_speed_of(ctx.scene, record);
-    return hangs_on_spring(ctx.state, record) ? 0.02f * limit : limit; // a damped spring creeps the last of its way
+    return hangs_on_spring(state, record) ? 0.02f * record.sleep_speed
+                                          : record.sleep_speed; // a damped spring creeps the last of its way
 }
 
 // In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
@@ -60,13 +60,13 @@ float quiet_speed(const StepContext& ctx, const BodyRecord& record)
 void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
 {
     const float speed = std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent);
-    if (speed > std::max(ctx.scene.tolerances.sleep_speed, ctx.state.greatest_sleep_speed))
+    if (speed > ctx.state.greatest_sleep_speed)
     { // whatever it is
         sim.sleep_time = 0;
         return;
     }
     const BodyRecord& record = ctx.state.bodies[body];
-    const float limit = quiet_speed(ctx, record);
+    const float limit = quiet_speed(ctx.state, record);
     const bool is_quiet = speed <= limit && record.can_sleep && !record.has_target;
     sim.sleep_time = is_quiet ? sim.sleep_time + ctx.dt : 0;
     if (sim.sleep_time >= time_to_sleep && speed < creeping * limit && record.type == BodyType::Dynamic &&

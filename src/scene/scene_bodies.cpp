@@ -41,6 +41,13 @@ BodySim make_sim(const BodyDef& def)
     return sim;
 }
 
+// 0: the scene's.
+void give_sleep_speed(SceneData& data, BodyRecord& record, float speed)
+{
+    record.sleep_speed = speed > 0 ? speed : data.tolerances.sleep_speed;
+    data.state.greatest_sleep_speed = std::max(data.state.greatest_sleep_speed, record.sleep_speed);
+}
+
 void remove_from_broad_phase(SceneData& data, int body)
 {
     for_each_leaf(data.state, body, [&](int shape) { data.state.broad_phase.remove(shape); });
@@ -58,8 +65,7 @@ BodyId Scene::create_body(const BodyDef& def)
     record.locks = def.locks;
     record.enabled = def.enabled;
     record.can_sleep = def.can_sleep;
-    record.sleep_speed = def.sleep_speed;
-    state.greatest_sleep_speed = std::max(state.greatest_sleep_speed, def.sleep_speed);
+    give_sleep_speed(*m_data, record, def.sleep_speed);
     const int slot = state.bodies.create(record);
     const auto index = static_cast<std::size_t>(slot);
     grow(state.sims, index + 1);
@@ -208,7 +214,7 @@ bool ConstBody::can_sleep() const
 float ConstBody::sleep_speed() const
 {
     const BodyRecord* r = record_of(m_data, m_id, "Body::sleep_speed");
-    return r == nullptr ? 0 : sleep_speed_of(*m_data, *r);
+    return r == nullptr ? 0 : r->sleep_speed;
 }
 
 std::uint64_t ConstBody::user_data() const
@@ -582,8 +588,7 @@ void Body::set_sleep_speed(float speed)
     const Target t(m_data, m_id, "Body::set_sleep_speed");
     if (!t || !Checker{"Body::set_sleep_speed"}.not_negative("speed", speed))
         return;
-    t.record().sleep_speed = speed;
-    m_data->state.greatest_sleep_speed = std::max(m_data->state.greatest_sleep_speed, speed);
+    give_sleep_speed(*m_data, t.record(), speed);
 }
 
 void Body::set_user_data(std::uint64_t user_data)

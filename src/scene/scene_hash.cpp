@@ -56,8 +56,6 @@ void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
     h.add(s.linear_damping);
     h.add(s.angular_damping);
     h.add(s.sleep_time);
-    if (r.sleep_speed > 0)
-        h.add(r.sleep_speed);
 }
 
 void add_material(Hasher& h, const SceneState& state, const ShapeRecord& s)
@@ -154,9 +152,13 @@ std::uint64_t Scene::state_hash() const
     h.add(state.ignored.hash());
     for (int i = 0; i < state.bodies.capacity(); ++i)
     {
-        if (state.bodies.is_live(i))
-            add_body(h, state.bodies[i], state.sims[static_cast<std::size_t>(i)]);
-        if (state.bodies.is_live(i) && state.bodies[i].has_target)
+        if (!state.bodies.is_live(i))
+            continue;
+        const BodyRecord& body = state.bodies[i];
+        add_body(h, body, state.sims[static_cast<std::size_t>(i)]);
+        if (body.sleep_speed != m_data->tolerances.sleep_speed)
+            h.add(body.sleep_speed);
+        if (body.has_target)
         {
             add(h, state.targets[static_cast<std::size_t>(i)].center);
             add(h, state.targets[static_cast<std::size_t>(i)].rotation);

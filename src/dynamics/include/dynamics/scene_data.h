@@ -23,7 +23,7 @@ struct Tolerances
     float keep = 0;        ///< in crowds manifolds are followed until bodies have moved so far against each other
     float box_margin = 0;  ///< how fat boxes are
     float push_speed = 0;  ///< overlap is removed no faster
-    float sleep_speed = 0; ///< of bodies that have none of their own
+    float sleep_speed = 0; ///< of bodies that are given none of their own
     float rest_speed = 0;  ///< approach slower than this is not an impact
 };
 
@@ -94,10 +94,5 @@ struct SceneData
     bool stepping = false;
     bool keep_forces = false; ///< inside update(): forces act in every step of the frame
 };
-
-[[nodiscard]] inline float sleep_speed_of(const SceneData& scene, const BodyRecord& body)
-{
-    return body.sleep_speed > 0 ? body.sleep_speed : scene.tolerances.sleep_speed;
-}
 
 } // namespace carom::internal

@@ -39,7 +39,7 @@ struct BodyRecord
     std::int32_t first_joint = none; ///< edge: joint * 2 + side
     std::int32_t joint_count = 0;
     std::int32_t first_contact = none; ///< edge: contact * 2 + side
-    float sleep_speed = 0;             ///< m/s; 0: the scene's
+    float sleep_speed = 0;             ///< m/s, > 0
 };
 static_assert(sizeof(BodyRecord) == 40);
 
@@ -341,7 +341,7 @@ struct SceneState
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
     bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since units were built
     Vec2 gravity{};
-    float greatest_sleep_speed = 0; ///< that any body has ever been given
+    float greatest_sleep_speed = 0; ///< that any body has had; the scene's, or more
     double time = 0;
     std::uint64_t step_count = 0;
     double accumulator = 0;
