@@ -33,6 +33,8 @@ std::vector<truth::Vec> positions(const std::vector<truth::State>& states)
     return list;
 }
 
+double mean_of(double sum, int count) { return count == 0 ? none : sum / count; }
+
 Spread spread(std::vector<double> values)
 {
     if (values.empty())
@@ -111,8 +113,6 @@ void QualityMeter::sample_bodies(Contestant& contestant, const std::vector<truth
         const carom::Body body = contestant.scene().body(bodies[i]);
         if (body.type() != carom::BodyType::Dynamic)
             continue;
-        m_awake += states[i].awake ? 1 : 0;
-        m_moving += length(states[i].velocity) > static_cast<double>(body.sleep_speed()) ? 1 : 0;
         m_energy += kinetic_energy(body, states[i]);
         if (!m_at_rest)
             continue;
@@ -121,18 +121,31 @@ void QualityMeter::sample_bodies(Contestant& contestant, const std::vector<truth
     }
 }
 
+void QualityMeter::count(Contestant& contestant)
+{
+    ++m_counts;
+    const std::vector<truth::State> states = contestant.states();
+    const std::vector<carom::BodyId> bodies = contestant.scene().bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+    {
+        const carom::Body body = contestant.scene().body(bodies[i]);
+        if (body.type() != carom::BodyType::Dynamic)
+            continue;
+        m_awake += states[i].awake ? 1 : 0;
+        m_moving += length(states[i].velocity) > static_cast<double>(body.sleep_speed()) ? 1 : 0;
+    }
+}
+
 Quality QualityMeter::result() const
 {
-    if (m_samples == 0)
-        return {};
     return {.overlap = spread(m_overlaps),
             .joint = spread(m_joints),
             .drift = spread(m_drifts),
             .speed = spread(m_speeds),
-            .near_pairs = m_near_pairs / m_samples,
-            .awake = m_awake / m_samples,
-            .moving = m_moving / m_samples,
-            .energy = m_energy / m_samples};
+            .near_pairs = mean_of(m_near_pairs, m_samples),
+            .awake = mean_of(m_awake, m_counts),
+            .moving = mean_of(m_moving, m_counts),
+            .energy = mean_of(m_energy, m_samples)};
 }
 
 } // namespace speed

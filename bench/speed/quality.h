@@ -27,8 +27,8 @@ struct Quality
     Spread drift{};           ///< of bodies from where they were built; scenes that are built at rest
     Spread speed{};           ///< of the dynamic bodies, m/s; scenes that are built at rest
     double near_pairs = none; ///< mean number of pairs of shapes less than 2 cm apart
-    double awake = none;      ///< mean number of dynamic bodies that are awake
-    double moving = none;     ///< of those whose centres are faster than they may fall asleep at
+    double awake = none;      ///< mean number of dynamic bodies that are awake, over the whole run
+    double moving = none;     ///< of those whose centres are faster than they may fall asleep at, over the whole run
     double energy = none;     ///< mean kinetic energy of all of them, J
 };
 
@@ -40,6 +40,8 @@ public:
     /// At the start of a run, where everything is as built.
     void start(Contestant& contestant);
     void sample(Contestant& contestant);
+    /// How many are awake and move now.
+    void count(Contestant& contestant);
     [[nodiscard]] Quality result() const;
     /// What it holds itself.
     [[nodiscard]] std::size_t bytes() const;
@@ -60,6 +62,7 @@ private:
     double m_moving = 0;
     double m_energy = 0;
     int m_samples = 0;
+    int m_counts = 0;
 };
 
 } // namespace speed

@@ -119,11 +119,12 @@ void print_quality(std::ostream& out, const std::vector<Result>& results)
     out << "\nLast half of the run: mean, 99th percentile and worst of overlaps, of the gaps of hinges, of how far what is built "
            "at rest has\n"
            "strayed (mm) and of its speed (mm/s);\n"
-           "mean numbers of pairs nearer than 2 cm and of bodies that are awake and that move, and their mean kinetic energy "
-           "(kJ)\n";
+           "mean number of pairs nearer than 2 cm and mean kinetic energy (kJ). Of the whole run: mean numbers of bodies that "
+           "are "
+           "awake and that move\n";
     Line header;
     for (const char* title : {"scene", "engine", "overlap", "99 %", "worst", "hinge", "99 %", "worst", "drift", "99 %", "worst",
-                              "speed", "99 %", "worst", "near", "awake", "moving", "energy"})
+                              "speed", "99 %", "worst", "near", "energy", "awake", "moving"})
         header.add(title);
     header.print(out);
     for (const Result& r : results)
@@ -133,7 +134,7 @@ void print_quality(std::ostream& out, const std::vector<Result>& results)
         line.add(r.scene).add(r.engine);
         for (const Spread& s : {q.overlap, q.joint, q.drift, q.speed})
             line.add(s.mean * 1000, 3).add(s.p99 * 1000, 3).add(s.worst * 1000, 3);
-        line.add(q.near_pairs, 0).add(q.awake, 0).add(q.moving, 0).add(q.energy / 1000, 3).print(out);
+        line.add(q.near_pairs, 0).add(q.energy / 1000, 3).add(q.awake, 0).add(q.moving, 0).print(out);
     }
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int samples = 10;
+constexpr int counts = 100;
 
 double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -63,6 +64,13 @@ bool is_sample(int step, int steps)
 {
     const int spacing = std::max(1, steps / (2 * samples));
     return step >= steps / 2 && (steps - 1 - step) % spacing == 0;
+}
+
+/// A hundred times in all of them.
+bool is_count(int step, int steps)
+{
+    const int spacing = std::max(1, steps / counts);
+    return (steps - 1 - step) % spacing == 0;
 }
 
 std::string position(const Contender& contender, const carom::scenes::SceneEntry& entry, int step, int steps)
@@ -173,6 +181,8 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
         watch.step(step > 0);
         if (meter != nullptr && is_sample(step, steps))
             meter->sample(*contestant);
+        if (meter != nullptr && is_count(step, steps))
+            meter->count(*contestant);
     }
     Result result = describe(entry, contender, options, *contestant, watch);
     weigh(result, *contestant, bodies_built, bytes_built, meter != nullptr ? meter->bytes() : 0);

@@ -134,14 +134,18 @@ TEST(Quality, MeasuresJointsDriftSpeedAndEnergy)
     still.placed[1].velocity = {0.3, 0.4};
     still.placed[1].spin = 3;
     meter.sample(still);
+    meter.count(still);
+    still.placed[1].awake = false;
+    still.placed[1].velocity = {};
+    meter.count(still);
     const Quality quality = meter.result();
     EXPECT_NEAR(quality.joint.worst, std::hypot(0.1, 0.2), 1e-9);
     EXPECT_NEAR(quality.drift.worst, std::hypot(0.1, 0.2), 1e-9);
     EXPECT_NEAR(quality.speed.mean, 0.25, 1e-9);
     EXPECT_NEAR(quality.energy, 0.5 * (0.25 + 9.0 / 6), 1e-6); // 1 kg, 1/6 kg m²
     EXPECT_EQ(quality.near_pairs, 0);                          // they are joined
-    EXPECT_EQ(quality.awake, 2);
-    EXPECT_EQ(quality.moving, 1);
+    EXPECT_EQ(quality.awake, 1.5);
+    EXPECT_EQ(quality.moving, 0.5);
 }
 
 TEST(Run, EveryEngineTakesTheJunkyardsPusherWithIt)
