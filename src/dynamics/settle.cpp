@@ -18,12 +18,17 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float creeping = 0.2f;                 // of the sleep speed
-constexpr float creep_time = 0.5f;               // s
-constexpr float time_to_sleep = 0.5f;            // s: long enough for a body at the top of its flight not to fall asleep
-constexpr std::uint64_t steps_between_sleep = 8; // to look for islands in each costs a pile of which some never rest a twentieth
+constexpr float creeping = 0.2f;      // of the sleep speed
+constexpr float creep_time = 0.5f;    // s
+constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
 
-bool looks_for_islands(const SceneState& state) { return state.step_count % steps_between_sleep == 0; }
+// Twice in the time it takes to fall asleep: to look in each step of 1/60 s costs a pile of which some never rest a twentieth.
+bool looks_for_islands(const StepContext& ctx)
+{
+    const double steps_between = 0.5 * static_cast<double>(time_to_sleep) / static_cast<double>(ctx.dt);
+    const auto steps = static_cast<std::uint64_t>(std::clamp(std::round(steps_between), 1.0, 1e9));
+    return ctx.state.step_count % steps == 0;
+}
 
 bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
 {
@@ -99,12 +104,10 @@ void forget_target(SceneState& state, int body)
     state.bodies[body].has_target = false;
 }
 
-// Often enough that nothing carried grows tired.
 void settle_kinematic_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    const bool is_time = looks_for_islands(state) || ctx.dt * static_cast<float>(steps_between_sleep) >= time_to_sleep;
-    const bool keeps_awake = ctx.scene.def.sleeping && is_time;
+    const bool keeps_awake = ctx.scene.def.sleeping && looks_for_islands(ctx);
     for (const std::int32_t body : state.awake_bodies)
     {
         if (state.bodies[body].type != BodyType::Kinematic)
@@ -232,7 +235,7 @@ void settle_bodies(StepContext& ctx)
                       });
     if (ctx.scratch.has_kinematic)
         settle_kinematic_bodies(ctx);
-    if (ctx.scene.def.sleeping && any_tired && looks_for_islands(state))
+    if (ctx.scene.def.sleeping && any_tired && looks_for_islands(ctx))
         TiredIslands(ctx).put_to_sleep();
 }
 

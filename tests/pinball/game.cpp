@@ -106,7 +106,7 @@ TEST(Game, KeepsAsManyBallsInPlayAsAskedFor)
 {
     HeadlessRun run(momentum(), 3, 4);
     int steps_of_four = 0;
-    constexpr int steps = 30'000;
+    constexpr int steps = 60'000;
     for (int i = 0; i < steps; ++i)
     {
         run.step();
