@@ -33,6 +33,19 @@ std::vector<truth::Vec> positions(const std::vector<truth::State>& states)
     return list;
 }
 
+/// `visit` takes a dynamic body, its state and its place among all bodies.
+template <typename Visit>
+void for_each_dynamic(Contestant& contestant, const std::vector<truth::State>& states, const Visit& visit)
+{
+    const std::vector<carom::BodyId> bodies = contestant.scene().bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+    {
+        const carom::Body body = contestant.scene().body(bodies[i]);
+        if (body.type() == carom::BodyType::Dynamic)
+            visit(body, states[i], i);
+    }
+}
+
 double mean_of(double sum, int count) { return count == 0 ? none : sum / count; }
 
 Spread spread(std::vector<double> values)
@@ -107,33 +120,26 @@ void QualityMeter::sample_joints(Contestant& contestant, const std::vector<truth
 
 void QualityMeter::sample_bodies(Contestant& contestant, const std::vector<truth::State>& states)
 {
-    const std::vector<carom::BodyId> bodies = contestant.scene().bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-    {
-        const carom::Body body = contestant.scene().body(bodies[i]);
-        if (body.type() != carom::BodyType::Dynamic)
-            continue;
-        m_energy += kinetic_energy(body, states[i]);
-        if (!m_at_rest)
-            continue;
-        m_speeds.push_back(length(states[i].velocity));
-        m_drifts.push_back(length(states[i].position - m_built[i]));
-    }
+    for_each_dynamic(contestant, states,
+                     [this](const carom::Body& body, const truth::State& state, std::size_t i)
+                     {
+                         m_energy += kinetic_energy(body, state);
+                         if (!m_at_rest)
+                             return;
+                         m_speeds.push_back(length(state.velocity));
+                         m_drifts.push_back(length(state.position - m_built[i]));
+                     });
 }
 
 void QualityMeter::count(Contestant& contestant)
 {
     ++m_counts;
-    const std::vector<truth::State> states = contestant.states();
-    const std::vector<carom::BodyId> bodies = contestant.scene().bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-    {
-        const carom::Body body = contestant.scene().body(bodies[i]);
-        if (body.type() != carom::BodyType::Dynamic)
-            continue;
-        m_awake += states[i].awake ? 1 : 0;
-        m_moving += length(states[i].velocity) > static_cast<double>(body.sleep_speed()) ? 1 : 0;
-    }
+    for_each_dynamic(contestant, contestant.states(),
+                     [this](const carom::Body& body, const truth::State& state, std::size_t)
+                     {
+                         m_awake += state.awake ? 1 : 0;
+                         m_moving += length(state.velocity) > static_cast<double>(body.sleep_speed()) ? 1 : 0;
+                     });
 }
 
 Quality QualityMeter::result() const

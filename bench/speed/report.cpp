@@ -119,9 +119,8 @@ void print_quality(std::ostream& out, const std::vector<Result>& results)
     out << "\nLast half of the run: mean, 99th percentile and worst of overlaps, of the gaps of hinges, of how far what is built "
            "at rest has\n"
            "strayed (mm) and of its speed (mm/s);\n"
-           "mean number of pairs nearer than 2 cm and mean kinetic energy (kJ). Of the whole run: mean numbers of bodies that "
-           "are "
-           "awake and that move\n";
+           "mean number of pairs nearer than 2 cm and mean kinetic energy (kJ).\n"
+           "Whole run: mean numbers of bodies that are awake and that move\n";
     Line header;
     for (const char* title : {"scene", "engine", "overlap", "99 %", "worst", "hinge", "99 %", "worst", "drift", "99 %", "worst",
                               "speed", "99 %", "worst", "near", "energy", "awake", "moving"})

@@ -15,8 +15,8 @@ namespace speed {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int samples = 10;
-constexpr int counts = 100;
+constexpr int samples = 10; // in the second half of the steps
+constexpr int counts = 100; // in all of them
 
 double processor_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -59,19 +59,14 @@ private:
     float m_h;
 };
 
-/// Ten times in the second half of the steps.
-bool is_sample(int step, int steps)
+/// So many times in all steps, at even distances, the last of them at the end.
+bool is_one_of(int times, int step, int steps)
 {
-    const int spacing = std::max(1, steps / (2 * samples));
-    return step >= steps / 2 && (steps - 1 - step) % spacing == 0;
-}
-
-/// A hundred times in all of them.
-bool is_count(int step, int steps)
-{
-    const int spacing = std::max(1, steps / counts);
+    const int spacing = std::max(1, steps / times);
     return (steps - 1 - step) % spacing == 0;
 }
+
+bool is_sample(int step, int steps) { return step >= steps / 2 && is_one_of(2 * samples, step, steps); }
 
 std::string position(const Contender& contender, const carom::scenes::SceneEntry& entry, int step, int steps)
 {
@@ -181,7 +176,7 @@ Result run_once(const carom::scenes::SceneEntry& entry, const Contender& contend
         watch.step(step > 0);
         if (meter != nullptr && is_sample(step, steps))
             meter->sample(*contestant);
-        if (meter != nullptr && is_count(step, steps))
+        if (meter != nullptr && is_one_of(counts, step, steps))
             meter->count(*contestant);
     }
     Result result = describe(entry, contender, options, *contestant, watch);

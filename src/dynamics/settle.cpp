@@ -56,8 +56,8 @@ float quiet_speed(const SceneState& state, const BodyRecord& record)
 {
     if (record.type == BodyType::Kinematic)
         return 0;
-    return hangs_on_spring(state, record) ? 0.02f * record.sleep_speed
-                                          : record.sleep_speed; // a damped spring creeps the last of its way
+    const float share = hangs_on_spring(state, record) ? 0.02f : 1; // a damped spring creeps the last of its way
+    return share * record.sleep_speed;
 }
 
 // In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
@@ -104,10 +104,8 @@ void forget_target(SceneState& state, int body)
     state.bodies[body].has_target = false;
 }
 
-void settle_kinematic_bodies(StepContext& ctx)
+void settle_kinematic_bodies(SceneState& state, bool keeps_awake)
 {
-    SceneState& state = ctx.state;
-    const bool keeps_awake = ctx.scene.def.sleeping && looks_for_islands(ctx);
     for (const std::int32_t body : state.awake_bodies)
     {
         if (state.bodies[body].type != BodyType::Kinematic)
@@ -233,9 +231,10 @@ void settle_bodies(StepContext& ctx)
                               sim.torque = 0;
                           }
                       });
+    const bool looks = ctx.scene.def.sleeping && looks_for_islands(ctx);
     if (ctx.scratch.has_kinematic)
-        settle_kinematic_bodies(ctx);
-    if (ctx.scene.def.sleeping && any_tired && looks_for_islands(ctx))
+        settle_kinematic_bodies(state, looks);
+    if (looks && any_tired)
         TiredIslands(ctx).put_to_sleep();
 }
 
