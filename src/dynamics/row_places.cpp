@@ -15,7 +15,6 @@
 #include "dynamics/unit_layout.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <span>
 #include <utility>
@@ -40,8 +39,7 @@ public:
         m_unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
         m_unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
         m_unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
-        m_is_wide = is_wide(m_unit);
-        m_is_uniform = m_is_wide && is_uniform(m_ctx, m_unit);
+        m_is_uniform = m_unit.wide && is_uniform(m_ctx, m_unit);
         find_parts();
         name_copies();
         const std::span<SomePlaces> tasks = count_links();
@@ -65,43 +63,51 @@ private:
         if (m_unit.parts == 0)
             return;
         std::fill_n(m_scratch.parts.begin() + m_unit.first_state, m_unit.state_count, no_part);
-        std::array<CellOfUnit, plane_cells> cells;
-        const std::size_t count = find_cells(cells);
+        std::vector<CellOfUnit>& cells = find_cells();
         std::int64_t all = 0;
-        for (const CellOfUnit& cell : std::span(cells).first(count))
+        for (const CellOfUnit& cell : cells)
             all += cell.work;
         std::int64_t before = 0;
         auto to = m_scratch.parts.begin() + m_unit.first_state + 1;
-        for (const CellOfUnit& cell : std::span(cells).first(count))
+        for (const CellOfUnit& cell : cells)
         {
             to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_unit.parts / all));
             before += cell.work;
         }
     }
 
-    struct CellOfUnit
+    // In the order in which the states stand; on all threads, and then those that lie in two tasks become one.
+    [[nodiscard]] std::vector<CellOfUnit>& find_cells() const
     {
-        std::int32_t states;
-        std::int64_t work;
-    };
-
-    // In the order in which the states stand. Says how many.
-    std::size_t find_cells(std::span<CellOfUnit> cells) const
-    {
-        std::size_t count = 0;
-        int last_cell = none;
-        for (std::int32_t i = 0; i < m_unit.dynamic_count; ++i)
+        using Some = std::vector<CellOfUnit>;
+        const std::span<Some> tasks =
+            find_in_parts(m_ctx.scene.def.tasks, as_index(m_unit.dynamic_count), bodies_per_task, m_scratch.cells_of_task,
+                          [&](std::size_t first, std::size_t last, Some& cells)
+                          {
+                              cells.clear();
+                              for (std::size_t i = first; i < last; ++i)
+                              {
+                                  const int body = m_scratch.state_bodies[as_index(m_unit.first_state + 1) + i];
+                                  add_to_cells(cells, {m_state.bodies[body].plane_cell, 1, work_of(body)});
+                              }
+                          });
+        for (const Some& cells : tasks.subspan(1))
         {
-            const int body = m_scratch.state_bodies[as_index(m_unit.first_state + 1 + i)];
-            if (const int cell = m_state.bodies[body].plane_cell; cell != last_cell)
-            {
-                cells[count++] = {};
-                last_cell = cell;
-            }
-            ++cells[count - 1].states;
-            cells[count - 1].work += work_of(body);
+            for (const CellOfUnit& cell : cells)
+                add_to_cells(tasks[0], cell);
         }
-        return count;
+        return tasks[0];
+    }
+
+    static void add_to_cells(std::vector<CellOfUnit>& cells, const CellOfUnit& more)
+    {
+        if (cells.empty() || cells.back().cell != more.cell)
+        {
+            append(cells, more);
+            return;
+        }
+        cells.back().states += more.states;
+        cells.back().work += more.work;
     }
 
     // As many rows as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
@@ -211,7 +217,7 @@ private:
     {
         const int color = l.color();
         const bool in_lane =
-            m_is_wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
+            m_unit.wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
         l.about = static_cast<std::uint16_t>(l.about | (in_lane ? link_flag::in_lane : 0));
         l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
         ++some.place_for(l);
@@ -319,7 +325,6 @@ private:
     SceneState& m_state;
     Scratch& m_scratch;
     Unit& m_unit;
-    bool m_is_wide = false;
     bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
 };
 
@@ -329,7 +334,7 @@ int parts_of(const Unit& unit)
     const int few = std::min(unit.link_count / links_to_a_part, few_parts);
     const int many = std::min({unit.link_count / links_to_a_huge_part, unit.dynamic_count / bodies_to_a_cell, most_parts});
     const int parts = std::max(few, many);
-    return is_wide(unit) && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
+    return unit.wide && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
 } // namespace

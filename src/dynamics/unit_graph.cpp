@@ -89,17 +89,27 @@ public:
     {
         for (const std::int32_t place : scratch.flying)
             ++tally_of(place).unloaded;
-        std::erase_if(scratch.flying,
-                      [&](std::int32_t place)
-                      {
-                          const bool grounds = tally_of(place).unloaded > precise_limit && !shoots(body_at(place));
-                          if (grounds)
-                              std::swap(scratch.flight[static_cast<std::size_t>(place)],
-                                        scratch.grounded[static_cast<std::size_t>(place)]);
-                          else
-                              ++tally_of(place).fliers;
-                          return grounds;
-                      });
+        set_size(scratch.is_grounded, scratch.flying.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              scratch.is_grounded[i] =
+                                  tally_of(place).unloaded > precise_limit && !shoots(body_at(place)) ? 1 : 0;
+                          });
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < scratch.flying.size(); ++i)
+        {
+            const std::int32_t place = scratch.flying[i];
+            const bool grounded = scratch.is_grounded[i] != 0;
+            std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
+            if (grounded)
+                scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
+            tally_of(place).fliers += grounded ? 0 : 1;
+            scratch.flying[count] = place;
+            count += grounded ? 0 : 1;
+        }
+        scratch.flying.resize(count);
     }
 
     // Goes half its size or more in a sub-step, also as its neighbours see it.
@@ -160,8 +170,9 @@ public:
             t.hangs |= j.a < 0 || j.b < 0;
             t.damped += j.damped ? 1 : 0;
             t.swing = std::max(t.swing, scratch.swings[i]);
-            t.slices = std::max(t.slices, slices_for(scratch.swings[i], slice_swing, slice_limit));
         }
+        for (UnitTally& t : scratch.tallies)
+            t.slices = std::max(t.slices, slices_for(t.swing, slice_swing, slice_limit));
     }
 
     [[nodiscard]] std::int32_t slices_for(float rate, float most_turn, int limit) const

@@ -29,6 +29,13 @@ namespace {
 
 constexpr std::int32_t places_per_task = 512;
 
+// Are its contacts solved in lanes? Not what is looked at anew within the step, sliced, or watched for its energy.
+bool is_wide(const Unit& unit)
+{
+    return unit.heap ||
+           (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
+}
+
 class UnitLayout
 {
 public:
@@ -54,20 +61,26 @@ public:
         run_tasks(m_ctx.scene.def.tasks, state_tasks(), [&](int task) { fill_some_states(task); });
     }
 
-    // Side by side: neither reads what the other writes.
-    void fill_states_and_place_rows()
+    // Side by side: none reads what another writes.
+    void fill_states_and_place_rows_and_joints()
     {
-        run_tasks(m_ctx.scene.def.tasks, 1 + state_tasks(),
+        run_tasks(m_ctx.scene.def.tasks, 2 + state_tasks(),
                   [&](int task)
                   {
                       if (task == 0)
                           place_rows_of_small_units(m_ctx);
+                      else if (task == 1)
+                          place_joints();
                       else
-                          fill_some_states(task - 1);
+                          fill_some_states(task - 2);
                   });
         place_rows_of_large_units(m_ctx);
-        unbind_those([&](std::size_t s)
-                     { return m_scratch.state_bodies[s] != none && colors_of(m_state, m_scratch.state_bodies[s]) != 0; });
+        unbind_those(
+            [&](std::size_t s)
+            {
+                const int body = m_scratch.state_bodies[s];
+                return m_scratch.bound_by_joint[s] != 0 || (body != none && colors_of(m_state, body) != 0);
+            });
     }
 
     // --- fliers and laws --------------------------------------------------------------------------------------------------------------
@@ -103,19 +116,6 @@ public:
         }
     }
 
-    // --- joints -----------------------------------------------------------------------------------------------------------------------
-
-    void place_joints()
-    {
-        m_scratch.joint_places.clear();
-        m_scratch.joint_lanes.clear();
-        m_scratch.joint_bin_starts.clear();
-        set_size(m_scratch.joint_colors, m_scratch.state_bodies.size());
-        m_groups = 0;
-        for (Unit& unit : m_scratch.units)
-            place_joints_of(unit);
-    }
-
     // For what unit_rows.cpp fills.
     void make_room()
     {
@@ -147,7 +147,7 @@ private:
                           [&](std::size_t s)
                           {
                               if (is_bound(s))
-                                  unbind(static_cast<std::int32_t>(s));
+                                  m_scratch.states[s].flags &= ~body_flag::unbound;
                           });
     }
 
@@ -188,6 +188,7 @@ private:
         const std::int32_t first = unit.first_state;
         unit.first_state = add_state(none);
         unit.precise = unit.dynamic_count <= precise_limit && !unit.heap && !unit.alone;
+        unit.wide = is_wide(unit);
         unit.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
         for (std::int32_t i = first; i < first + unit.dynamic_count; ++i)
         {
@@ -320,6 +321,20 @@ private:
             m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
     }
 
+    // --- joints -----------------------------------------------------------------------------------------------------------------------
+
+    void place_joints()
+    {
+        m_scratch.joint_places.clear();
+        m_scratch.joint_lanes.clear();
+        m_scratch.joint_bin_starts.clear();
+        m_scratch.bound_by_joint.assign(m_scratch.state_bodies.size(), 0);
+        set_size(m_scratch.joint_colors, m_scratch.state_bodies.size());
+        m_groups = 0;
+        for (Unit& unit : m_scratch.units)
+            place_joints_of(unit);
+    }
+
     // Marks it as taken.
     int free_color(const Unit& unit, std::int32_t a, std::int32_t b)
     {
@@ -333,14 +348,12 @@ private:
         return color;
     }
 
-    void unbind(std::int32_t s) { m_scratch.states[as_index(s)].flags &= ~body_flag::unbound; }
-
     // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.
     void place_joints_of(Unit& unit)
     {
         const std::int32_t first = unit.first_joint;
         const std::int32_t count = unit.joint_count;
-        const bool wide = is_wide(unit) && (unit.heap || count > DirectSolve::most_rows / 2);
+        const bool wide = unit.wide && (unit.heap || count > DirectSolve::most_rows / 2);
         const bool uniform = wide && is_uniform(m_ctx, unit);
         unit.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
         unit.first_wide_joint = m_groups;
@@ -353,10 +366,7 @@ private:
             if (!wide || !place_joint_in_lane(unit, j, uniform))
                 m_scratch.joint_places.push_back({j.joint, j.a, j.b});
             if (j.binds)
-            {
-                unbind(j.a);
-                unbind(j.b);
-            }
+                m_scratch.bound_by_joint[as_index(j.a)] = m_scratch.bound_by_joint[as_index(j.b)] = 1;
         }
         group_joints(unit, first_lane);
         unit.first_joint_lane = static_cast<std::int32_t>(first_lane);
@@ -430,12 +440,6 @@ private:
 
 } // namespace
 
-bool is_wide(const Unit& unit)
-{
-    return unit.heap ||
-           (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
-}
-
 bool is_uniform(const StepContext& ctx, const Unit& unit)
 {
     for (std::int32_t s = unit.first_state; ctx.scratch.has_uneven && s < unit.first_state + unit.state_count; ++s)
@@ -470,10 +474,9 @@ void lay_out_units(StepContext& ctx)
 {
     UnitLayout layout(ctx);
     run_both(ctx.scene.def.tasks, [&] { layout.place_states(); }, [&] { sort_links(ctx); });
-    layout.fill_states_and_place_rows();
+    layout.fill_states_and_place_rows_and_joints();
     layout.add_fliers();
     layout.add_laws();
-    layout.place_joints();
     layout.make_room();
     layout.count();
 }

@@ -72,17 +72,21 @@ public:
                           });
     }
 
-    // A body that a contact loads does not fly.
+    // A body that a contact loads does not fly. No branch asks which do: it would be guessed wrong.
     void list_fliers()
     {
-        scratch.flying.clear();
+        set_size(scratch.flying, scratch.flight.size());
+        std::size_t count = 0;
         for (std::size_t i = 0; i < scratch.flight.size(); ++i)
         {
-            if (scratch.is_loaded[i] != 0)
-                scratch.grounded[i] = std::exchange(scratch.flight[i], earthbound);
-            if (scratch.flight[i] != earthbound)
-                scratch.flying.push_back(static_cast<std::int32_t>(i));
+            const bool loaded = scratch.is_loaded[i] != 0;
+            const std::int32_t flight = scratch.flight[i];
+            scratch.grounded[i] = loaded ? flight : scratch.grounded[i];
+            scratch.flight[i] = loaded ? earthbound : flight;
+            scratch.flying[count] = static_cast<std::int32_t>(i);
+            count += scratch.flight[i] != earthbound ? 1 : 0;
         }
+        scratch.flying.resize(count);
     }
 
     // But for what may fly, they say nothing that a step changes.

@@ -65,6 +65,7 @@ struct Unit
     bool alone = false;               ///< bodies with nothing near, each by itself: they fall
     bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
     bool heap = false;                ///< figures that are held softly, of several islands
+    bool wide = false;                ///< its contacts, and its hinges if there are many, go side by side
     bool traced = false;              ///< paths of some of its bodies are recorded
 };
 
@@ -202,6 +203,14 @@ struct UnitTally
     std::int32_t damped = 0;  ///< of the joints, those that brake or damp what they hold
     bool hangs = false;       ///< a joint holds to what does not move
     std::int32_t slices = 1;  ///< of each sub-step
+};
+
+/// What a unit has in a cell of the plane.
+struct CellOfUnit
+{
+    std::int32_t cell;
+    std::int32_t states;
+    std::int64_t work;
 };
 
 /// Neighbours in a list that are of one unit.
@@ -437,6 +446,7 @@ struct Scratch
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
+    std::vector<std::uint8_t> is_grounded;   ///< beside flying: as one of a crowd
     std::vector<std::uint8_t> is_loaded;     ///< by a contact, by place in awake_bodies; the last is nobody's
     bool has_kinematic = false;              ///< a kinematic body is awake
     bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
@@ -453,6 +463,7 @@ struct Scratch
     std::vector<UnitTally> tallies;
     std::vector<std::int32_t> unit_starts;
     std::vector<std::vector<UnitRun>> runs_of_task;
+    std::vector<std::vector<CellOfUnit>> cells_of_task;
     std::vector<std::int32_t> unit_of_link; ///< none: it gets no row
     std::vector<std::uint8_t> bounced;      ///< of a unit's begins, see commit.cpp
     std::vector<std::int32_t> in_plane;     ///< places in awake_bodies, in the order of the plane
@@ -497,6 +508,7 @@ struct Scratch
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
     std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit, then by link
     std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
+    std::vector<std::uint8_t> bound_by_joint;              ///< by state
     std::vector<std::uint16_t> parts;                      ///< of the states of units that have some
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;

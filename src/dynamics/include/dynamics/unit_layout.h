@@ -12,9 +12,6 @@ void lay_out_units(StepContext& ctx);
 /// The same for units whose places are those of the last step.
 void refill_units(StepContext& ctx);
 
-/// Are its contacts solved in lanes? Not what is looked at anew within the step, sliced, or watched for its energy.
-[[nodiscard]] bool is_wide(const Unit& unit);
-
 /// May all of its bodies move along every axis, or along none?
 [[nodiscard]] bool is_uniform(const StepContext& ctx, const Unit& unit);
 [[nodiscard]] bool gives_evenly(const StepContext& ctx, std::int32_t state);
