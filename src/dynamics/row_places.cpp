@@ -63,7 +63,7 @@ private:
         if (m_unit.parts == 0)
             return;
         std::fill_n(m_scratch.parts.begin() + m_unit.first_state, m_unit.state_count, no_part);
-        std::vector<CellOfUnit>& cells = find_cells();
+        const std::vector<CellOfUnit>& cells = find_cells();
         std::int64_t all = 0;
         for (const CellOfUnit& cell : cells)
             all += cell.work;
@@ -77,7 +77,7 @@ private:
     }
 
     // In the order in which the states stand; on all threads, and then those that lie in two tasks become one.
-    [[nodiscard]] std::vector<CellOfUnit>& find_cells() const
+    [[nodiscard]] const std::vector<CellOfUnit>& find_cells() const
     {
         using Some = std::vector<CellOfUnit>;
         const std::span<Some> tasks =

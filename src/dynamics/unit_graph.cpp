@@ -89,27 +89,18 @@ public:
     {
         for (const std::int32_t place : scratch.flying)
             ++tally_of(place).unloaded;
-        set_size(scratch.is_grounded, scratch.flying.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
                               const std::int32_t place = scratch.flying[i];
-                              scratch.is_grounded[i] =
-                                  tally_of(place).unloaded > precise_limit && !shoots(body_at(place)) ? 1 : 0;
+                              std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
+                              if (tally_of(place).unloaded > precise_limit && !shoots(body_at(place)))
+                                  scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
                           });
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < scratch.flying.size(); ++i)
-        {
-            const std::int32_t place = scratch.flying[i];
-            const bool grounded = scratch.is_grounded[i] != 0;
-            std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
-            if (grounded)
-                scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
-            tally_of(place).fliers += grounded ? 0 : 1;
-            scratch.flying[count] = place;
-            count += grounded ? 0 : 1;
-        }
-        scratch.flying.resize(count);
+        std::erase_if(scratch.flying,
+                      [&](std::int32_t place) { return scratch.flight[static_cast<std::size_t>(place)] == earthbound; });
+        for (const std::int32_t place : scratch.flying)
+            ++tally_of(place).fliers;
     }
 
     // Goes half its size or more in a sub-step, also as its neighbours see it.

@@ -446,7 +446,6 @@ struct Scratch
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
-    std::vector<std::uint8_t> is_grounded;   ///< beside flying: as one of a crowd
     std::vector<std::uint8_t> is_loaded;     ///< by a contact, by place in awake_bodies; the last is nobody's
     bool has_kinematic = false;              ///< a kinematic body is awake
     bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
