@@ -37,7 +37,7 @@ struct Load
 /// sub-step on top of gravity, fields and applied forces. It is not called for a body that is asleep, disabled, static or
 /// kinematic, and does not wake it.
 ///
-/// It is called in the middle of a step, from the thread that solves the body: it must not call the scene, and may change
+/// It is called in the middle of a step, from the thread that solves the body: it must not throw or call the scene, and may change
 /// what `user` points to only if that belongs to this body alone. With that, and if it depends on nothing but its arguments and
 /// what it keeps, results do not depend on the threads.
 ///

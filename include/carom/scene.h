@@ -41,8 +41,8 @@ enum class MixedValue : std::uint8_t
     Restitution,
 };
 
-/// Your own rule; called while contacts are prepared, from any thread: it must depend on its arguments alone.
-/// The two values come with the user data of their shapes.
+/// Your own rule; called while contacts are prepared, from any thread: it must depend on its arguments alone, and must not throw.
+/// The two values come with the user data of their shapes. What is negative or no number counts as 0; friction is at most 1e6, restitution 1.
 using MixFunction = float (*)(MixedValue what, float a, std::uint64_t user_data_a, float b, std::uint64_t user_data_b);
 
 /// Your own job system. The engine calls run() with a number of tasks; it must have run task(context, 0 ... count - 1),
