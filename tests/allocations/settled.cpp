@@ -1,6 +1,7 @@
 // Stepping a scene that has come to rest takes no memory, whatever lies on what.
 
 #include "support/test_scene.h"
+#include "support/threads.h"
 
 #include <cstdlib>
 #include <new>
@@ -34,21 +35,87 @@ void* operator new(std::size_t size, std::align_val_t alignment) { return alloca
 
 namespace {
 
+SceneDef awake(TaskHooks tasks = {})
+{
+    SceneDef def = sleepless();
+    def.tasks = tasks;
+    return def;
+}
+
+// In the second half of so many steps.
+long allocations_late(Scene& scene, int steps)
+{
+    long before = 0;
+    for (int i = 0; i < steps; ++i)
+    {
+        if (i == steps / 2)
+            before = allocations;
+        scene.step(1.0f / 60);
+    }
+    return allocations - before;
+}
+
+BodyId add_floor(Scene& scene, BodyType type = BodyType::Static)
+{
+    const BodyId floor = scene.create_body({.type = type});
+    scene.create_shape(floor, box(100, 0.5f, {0, -0.5f}));
+    return floor;
+}
+
 // Stacks of three on a body of that type that does not move, all awake.
 long allocations_at_rest(BodyType floor, int stacks)
 {
-    Scene scene(sleepless());
-    scene.create_shape(scene.create_body({.type = floor}), box(100, 0.5f, {0, -0.5f}));
+    Scene scene(awake());
+    add_floor(scene, floor);
     for (int i = 0; i < stacks; ++i)
         for (int k = 0; k < 3; ++k)
             add_dynamic(scene, {2.5 * i - 90, 0.5 + k}, box(0.5f, 0.5f));
-    for (int i = 0; i < 300; ++i)
-        scene.step(1.0f / 60);
-    const long before = allocations;
-    for (int i = 0; i < 100; ++i)
-        scene.step(1.0f / 60);
-    return allocations - before;
+    return allocations_late(scene, 600);
 }
+
+// One unit, solved in lanes and by parts of the plane; with so many rows it has 3 (rows + 1) / 2 contacts a row.
+long allocations_in_pyramid(TaskHooks tasks, int rows)
+{
+    Scene scene(awake(tasks));
+    add_floor(scene);
+    for (int row = 0; row < rows; ++row)
+        for (int i = row; i < rows; ++i)
+            add_dynamic(scene, {i - 0.5 * (row + rows), 0.5 + row}, box(0.5f, 0.5f));
+    return allocations_late(scene, 400);
+}
+
+// Hinges in lanes, their contacts filtered away: a net that hangs from its corners, and has swung out.
+long allocations_in_net(TaskHooks tasks, int size)
+{
+    Scene scene(awake(tasks));
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < size * size; ++i)
+    {
+        const bool held = i == 0 || i == size - 1;
+        const BodyId body = scene.create_body({.type = held ? BodyType::Static : BodyType::Dynamic,
+                                               .position = {i % size * 1.0, i / size * -1.0},
+                                               .linear_damping = 2});
+        scene.create_shape(body, Circle{.radius = 0.3f}, {.filter = {.group = -1}});
+        bodies.push_back(body);
+    }
+    const auto hinge = [&](int a, int b, Vec2 to)
+    {
+        scene.create_joint(RevoluteDef{.body_a = bodies[static_cast<std::size_t>(a)],
+                                       .body_b = bodies[static_cast<std::size_t>(b)],
+                                       .anchor_a = 0.5f * to,
+                                       .anchor_b = -0.5f * to});
+    };
+    for (int i = 0; i < size * size; ++i)
+    {
+        if (i % size + 1 < size)
+            hinge(i, i + 1, {1, 0});
+        if (i + size < size * size)
+            hinge(i, i + size, {0, -1});
+    }
+    return allocations_late(scene, 1000);
+}
+
+constexpr TaskHooks many_tasks{.worker_count = 8, .run = run_backwards};
 
 } // namespace
 
@@ -56,4 +123,16 @@ TEST(Allocations, NoneInSmallUnitsAtRest)
 {
     EXPECT_EQ(allocations_at_rest(BodyType::Static, 40), 0);
     EXPECT_EQ(allocations_at_rest(BodyType::Kinematic, 40), 0);
+}
+
+TEST(Allocations, NoneInALargeUnitAtRest)
+{
+    EXPECT_EQ(allocations_in_pyramid({}, 60), 0);
+    EXPECT_EQ(allocations_in_pyramid(many_tasks, 60), 0);
+}
+
+TEST(Allocations, NoneInManyHingesAtRest)
+{
+    EXPECT_EQ(allocations_in_net({}, 24), 0);
+    EXPECT_EQ(allocations_in_net(many_tasks, 24), 0);
 }
