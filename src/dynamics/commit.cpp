@@ -134,6 +134,7 @@ void commit_state(const StepContext& ctx, std::int32_t index)
     const double part = crowded || may_have_passed(ctx, s, body) ? free_part_of_path(ctx, body, x, y) : 1;
     if (part < 1)
     {
+        s.flags |= body_flag::stopped;
         s.velocity *= without_work(ctx, s, index, (1 - part) * x, (1 - part) * y);
         x *= part;
         y *= part;
@@ -159,6 +160,15 @@ void commit_hinge(StepContext& ctx, const Flier& flier)
     const float per_time = static_cast<float>(joint.body_b == flier.body ? 1 : -1) / ctx.dt;
     joint.force += per_time * flier.reaction;
     joint.torque += per_time * flier.limit_reaction;
+}
+
+// A wall has opened the joints of what it stopped: that is nobody's work.
+void forget_errors_of_stopped(StepContext& ctx)
+{
+    const auto is_stopped = [&](std::int32_t state)
+    { return (ctx.scratch.states[static_cast<std::size_t>(state)].flags & body_flag::stopped) != 0; };
+    for (const JointWork& work : ctx.scratch.joints)
+        ctx.state.joints[work.joint].knows_errors = !is_stopped(work.a) && !is_stopped(work.b);
 }
 
 // --- what flight left to be done in order ------------------------------------------------------------------------------------------------
@@ -270,6 +280,7 @@ void commit(StepContext& ctx)
         commit_kinematic_bodies(ctx);
     forget_surroundings(ctx);
     std::atomic<bool> any_unsound{false};
+    std::atomic<bool> any_stopped{false};
     for_each_in_parts(ctx.scene.def.tasks, scratch.state_of.size(), bodies_per_task,
                       [&](std::size_t place)
                       {
@@ -277,14 +288,19 @@ void commit(StepContext& ctx)
                           if (i == none)
                               return;
                           commit_state(ctx, i);
-                          if ((scratch.states[static_cast<std::size_t>(i)].flags & body_flag::unsound) != 0)
+                          const std::uint32_t flags = scratch.states[static_cast<std::size_t>(i)].flags;
+                          if ((flags & body_flag::unsound) != 0)
                               raise(any_unsound);
+                          if ((flags & body_flag::stopped) != 0)
+                              raise(any_stopped);
                       });
     for (std::size_t i = 0; any_unsound && i < scratch.states.size(); ++i)
     {
         if ((scratch.states[i].flags & body_flag::unsound) != 0)
             scratch.unsound.push_back(scratch.state_bodies[i]);
     }
+    if (any_stopped)
+        forget_errors_of_stopped(ctx);
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
     note_untold_impacts(ctx);

@@ -2,6 +2,7 @@
 
 #include "core/trigonometry.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::internal {
@@ -88,6 +89,19 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
         work.rows.inverse_mass = JointBodies(view, work).couple(work.rows.axis, work.rows.axis);
         work.rows.mass = work.rows.inverse_mass > 0 ? 1 / work.rows.inverse_mass : 0;
     }
+}
+
+JointErrors JointWork::errors() const
+{
+    JointErrors found{};
+    for (int i = 0; i < rows.held_count; ++i)
+        found[static_cast<std::size_t>(i)] = rows.held[i].error;
+    for (const FreeRow& row : rows.acts())
+    {
+        if (row.kind == FreeKind::Limit)
+            found[row.slot == slot_upper ? 3 : 2] = std::min(row.error, 0.0f);
+    }
+    return found;
 }
 
 void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)

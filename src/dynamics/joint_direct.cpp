@@ -44,7 +44,7 @@ bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::
 
 } // namespace
 
-void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints)
+void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
     m_view = view;
     m_state = &state;
@@ -134,7 +134,7 @@ bool DirectSolve::place()
         held.work = &m_joints[held.joint];
         held.record = &m_state->joints[held.work->joint];
         const JointPose& pose = held.work->pose;
-        longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb)});
+        longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb), dot(pose.gap, pose.gap)});
         note_stretch(held);
         if (held.take_lines())
         {
@@ -208,6 +208,18 @@ void DirectSolve::keep_together()
     note_speeds();
     find_impulses();
     apply();
+}
+
+// A blow, not a load: it is no part of what the rows are warm started with.
+void DirectSolve::take_forbidden_speeds()
+{
+    note_speeds();
+    find_impulses();
+    for (std::size_t i = 0; i < m_held.size(); ++i)
+    {
+        push(i, m_impulse[i]);
+        m_held[i].note_blow(m_joints[m_held[i].joint], m_impulse[i]);
+    }
 }
 
 // Newton's steps lead nowhere where a sub-step turns a body so far that no straight way ends in the right place.
@@ -327,6 +339,13 @@ void DirectSolve::Held::add(const RowPair& change) const
     impulse(0) += static_cast<float>(change.x);
     if (rows == 2)
         impulse(1) += static_cast<float>(change.y);
+}
+
+void DirectSolve::Held::note_blow(JointWork& told, const RowPair& impulse) const
+{
+    told.add(work->rows.held[0], static_cast<float>(impulse.x));
+    if (rows == 2)
+        told.add(work->rows.held[1], static_cast<float>(impulse.y));
 }
 
 void DirectSolve::push(std::size_t joint, const RowPair& impulse)

@@ -285,16 +285,10 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
             continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointPose& pose = work.pose;
-        const auto add = [&](const JointRow& row, float impulse)
-        {
-            work.force_sum += impulse * row.d;
-            if (row.d == Vec2{})
-                work.torque_sum += impulse * row.arm_b;
-        };
         for (const JointRow& row : work.rows.holds())
-            add(row, joint.impulses[row.slot]);
+            work.add(row, joint.impulses[row.slot]);
         if (work.rows.free_count > 0)
-            add(work.rows.axis, free_impulse(joint, work.rows));
+            work.add(work.rows.axis, free_impulse(joint, work.rows));
         if (joint.kind == JointType::Spring && length(pose.gap) > 0)
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
         if (joint.kind != JointType::Revolute || !joint.enable_limit)

@@ -12,6 +12,17 @@ namespace carom::internal {
 
 namespace {
 
+// A push may have given the center of mass a velocity that the pivot forbids. The pivot takes it plastically: the angular momentum about the pivot is kept.
+void take_up_velocity(const BodySim& sim, Flier& f)
+{
+    const double mass = sim.mass;
+    const double vx = sim.velocity.x;
+    const double vy = sim.velocity.y;
+    const double spin = static_cast<double>(sim.inertia) * static_cast<double>(sim.angular_velocity);
+    f.w = f.inverse_inertia * (spin + mass * (f.arm_x * vy - f.arm_y * vx));
+    f.reaction += Vec2{static_cast<float>(mass * (-f.w * f.arm_y - vx)), static_cast<float>(mass * (f.w * f.arm_x - vy))};
+}
+
 // About the pivot: the hinge's angle at the start of the step, and how far its limits let the body turn from there.
 void hinge(const StepContext& ctx, int index, const BodySim& sim, Flier& f)
 {
@@ -27,6 +38,7 @@ void hinge(const StepContext& ctx, int index, const BodySim& sim, Flier& f)
     f.inverse_mass_x = f.inverse_mass_y = 0;
     f.inverse_inertia =
         1 / (static_cast<double>(sim.inertia) + static_cast<double>(sim.mass) * (f.arm_x * f.arm_x + f.arm_y * f.arm_y));
+    take_up_velocity(sim, f);
     if (!joint.enable_limit)
         return;
     const auto angle = static_cast<double>(hinge_angle(ctx.state, joint));

@@ -9,12 +9,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double rounding = 2e-6; // of the energy, in the slices of a sub-step together
-// What contacts may push out against the forces in a sub-step, as parts of the slop: for a body that moves it is noise, one at rest may not creep.
-// What overlaps by more than `deep` slops, a fifth of the length scale, was put there and is to come out.
-constexpr double moving_push_out = 0.05;
-constexpr double resting_push_out = 0.004;
-constexpr float deep = 40;
+constexpr double rounding = 2e-6;  // of the energy, in the slices of a sub-step together
+constexpr double noise_way = 0.05; // of the slop, in a sub-step: what moves so far against the forces has gained nothing
+constexpr double rest_way = 0.004; // and what has no energy: it may not creep
 
 double as_double(float x) { return static_cast<double>(x); }
 
@@ -75,15 +72,17 @@ void UnitEnergy::Drift::add_spin(const Body& body, const BodyState& s, const Arm
             body.mass_x * (dx * (as_double(s.velocity.y) - vy()) - dy * (as_double(s.velocity.x) - vx()));
 }
 
-void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<const JointWork> joints, const Unit& unit)
+void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Unit& unit)
 {
     m_view = view;
     m_state = &ctx.state;
     m_joints = joints;
     m_slop = ctx.scene.tolerances.slop;
+    m_rest_speed = ctx.rest_speed;
     m_slices = unit.slices;
     m_first = unit.first_state + 1;
     m_count = std::min(unit.dynamic_count, most_bodies);
+    m_has_held_back = false;
     m_all_driven = all_driven();
     if (m_all_driven)
         return;
@@ -328,9 +327,31 @@ void UnitEnergy::join(std::int32_t own, std::int32_t other)
         group.is_passive = false;
 }
 
-void UnitEnergy::note_joint(const JointWork& work)
+// Impulse times the way on which a row has made good what others had moved.
+double UnitEnergy::take_work(JointWork& work) const
 {
     const JointRecord& joint = m_state->joints[work.joint];
+    const JointErrors errors = work.errors();
+    const auto make_good = [&](std::size_t i, JointSlot slot)
+    {
+        const float change = errors[i] - work.errors_before[i];
+        const float made_good =
+            work.moved[i] > 0 ? std::clamp(change, -work.moved[i], 0.0f) : std::clamp(change, 0.0f, -work.moved[i]);
+        work.moved[i] += made_good;
+        return as_double(joint.impulses[slot]) * as_double(made_good);
+    };
+    double sum = make_good(2, slot_lower) + make_good(3, slot_upper);
+    for (int i = 0; i < work.rows.held_count; ++i)
+        sum += make_good(static_cast<std::size_t>(i), work.rows.held[i].slot);
+    return sum * as_double(m_view.inverse_h);
+}
+
+void UnitEnergy::note_joint(JointWork& work)
+{
+    const JointRecord& joint = m_state->joints[work.joint];
+    Group& first = group_of(is_ours(work.a) ? work.a : work.b);
+    first.is_passive &= std::max(std::fabs(work.moved[0]), std::fabs(work.moved[1])) <= m_slop; // farther, it is a blow
+    first.row_work += take_work(work);
     for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
     {
         if (!is_ours(own))
@@ -350,18 +371,23 @@ void UnitEnergy::note_rows(std::span<const ContactRow> rows)
     }
 }
 
-bool UnitEnergy::is_deep(const ContactRow& row) const
+// Load times the way on which it has pushed an overlap out; the impulse of a blow is no load.
+double UnitEnergy::push_out_of(const ContactRow& row) const
 {
+    double work = 0;
     for (int i = 0; i < row.count; ++i)
     {
-        if (row_separation(m_view, row, row.points[i]) < -deep * m_slop)
-            return true;
+        const RowPoint& p = row.points[i];
+        const float out = std::min(row_separation(m_view, row, p), 0.0f) - std::min(p.separation_before, 0.0f);
+        if (p.approach <= m_rest_speed)
+            work += as_double(p.normal_impulse) * as_double(m_view.inverse_h) * as_double(std::max(out, 0.0f));
     }
-    return false;
+    return work;
 }
 
 void UnitEnergy::note_row(const ContactRow& row)
 {
+    group_of(is_ours(row.a) ? row.a : row.b).push_out += push_out_of(row);
     for (const auto& [own, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}})
     {
         if (!is_ours(own))
@@ -370,7 +396,6 @@ void UnitEnergy::note_row(const ContactRow& row)
         group_of(own).is_passive &= row.surface_speed == 0;
         group_of(own).may_lose = true;
         group_of(own).touches = true;
-        group_of(own).is_deep |= is_deep(row);
     }
 }
 
@@ -382,7 +407,7 @@ void UnitEnergy::note_load(std::span<const ContactRow> rows, std::span<const Con
         connect(work.a, work.b);
     connect_rows(rows);
     connect_rows(late_rows);
-    for (const JointWork& work : m_joints)
+    for (JointWork& work : m_joints)
         note_joint(work);
     note_rows(rows);
     note_rows(late_rows);
@@ -404,7 +429,7 @@ void UnitEnergy::restore(bool exact)
         group.first += body(i).first;
         group.work += body(i).work;
         if (group.touches)
-            group.push_out += as_double(m_slop) / m_slices * force_on(i);
+            group.slop_work += as_double(m_slop) / m_slices * force_on(i);
         group.is_passive &= !decays(m_view.constants[i]) && !flies(i) && !(group.is_carried && group.is_anchored);
         group.is_passive &= !group.is_carried || body(i).mass_x == body(i).mass_y;
     }
@@ -430,8 +455,6 @@ UnitEnergy::Drift UnitEnergy::drift_of(int index)
         if (body(i).group == index)
             drift.add(body(i), m_view.states[i], place_of(i));
     }
-    if (!m_joints.empty())
-        return drift; // chains whirl about so fast that the turn of the whole is as wrong as the rest
     drift.center();
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
@@ -460,26 +483,37 @@ UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, 
     return {drift.vx() - drift.w() * (at.y - drift.y), drift.vy() + drift.w() * (at.x - drift.x), drift.w()};
 }
 
-void UnitEnergy::scale(int index, bool exact)
+double UnitEnergy::inner_energy(int index, const Drift& drift)
 {
-    const Group& group = m_groups[static_cast<std::size_t>(index)];
-    const double missing = group.of(group.missing);
-    const double work = group.of(group.work);
-    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
-    const bool may_stay = !(exact && !group.is_carried) &&
-                          missing >= -rounding / m_slices * std::fabs(group.of(group.first)) - moving_push_out * group.push_out;
-    const bool may_rise = group.may_lose && work < 0 && missing < 0;
-    if (may_stay && !may_rise)
-        return;
-    const Drift drift = drift_of(index);
-    double inner = 0;
+    double energy = 0;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (body(i).group == index)
-            inner += 0.5 * body(i).twice_kinetic(m_view.states[i], frame_of(group, drift, i));
+            energy +=
+                0.5 * body(i).twice_kinetic(m_view.states[i], frame_of(m_groups[static_cast<std::size_t>(index)], drift, i));
     }
-    const double share = group.is_deep ? moving_push_out : resting_push_out;
-    if (const double rise = -(inner + missing) - share * group.push_out; may_rise && rise > 0)
+    return energy;
+}
+
+void UnitEnergy::scale(int index, bool exact)
+{
+    const Group& group = m_groups[static_cast<std::size_t>(index)];
+    const double missing = group.of(group.missing) + group.row_work;
+    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
+    const double work = group.of(group.work);
+    const bool may_rise = group.may_lose && work < 0 && missing < 0;
+    const bool may_stay = !(exact && !group.is_carried) &&
+                          missing >= -rounding / m_slices * std::fabs(group.of(group.first)) - noise_way * group.slop_work;
+    if (may_stay && !may_rise)
+        return;
+    Drift drift = drift_of(index);
+    double inner = inner_energy(index, drift);
+    if (inner + missing < 0)
+    { // more than they have against each other: of the turn of the whole as well
+        drift.inertia = 0;
+        inner = inner_energy(index, drift);
+    }
+    if (const double rise = -(inner + missing) - group.push_out - rest_way * group.slop_work; may_rise && rise > 0)
         hold_back(index, std::min(rise / -work, 1.0));
     if (may_stay || !(inner > 0))
         return;
@@ -496,9 +530,10 @@ void UnitEnergy::scale(int index, bool exact)
     }
 }
 
-// What contacts push out against the forces with more energy than there is goes so much less far.
+// Bodies that go against the forces without energy for it go so much less far.
 void UnitEnergy::hold_back(int index, double share)
 {
+    m_has_held_back = true;
     const bool is_carried = m_groups[static_cast<std::size_t>(index)].is_carried;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {

@@ -8,6 +8,7 @@
 #include "core/task_pool.h"
 #include "dynamics/body_store.h"
 #include "dynamics/joint_bodies.h"
+#include "dynamics/joint_solver.h"
 #include "dynamics/kept_units.h"
 #include "dynamics/task_sizes.h"
 #include "dynamics/wide_prepare.h"
@@ -21,10 +22,18 @@ namespace carom::internal {
 
 namespace {
 
-// The hinge's two points must be in one place; flight does not pull them together.
+constexpr float limit_rounding = 1e-4f; // rad: flight stops a body that close to its limit
+
+// Flight keeps a hinge as it is: its two points must be in one place, and its angle within its limits.
 bool is_closed(const StepContext& ctx, int index, int body)
 {
     const JointRecord& joint = ctx.state.joints[index];
+    if (joint.enable_limit)
+    {
+        const float angle = hinge_angle(ctx.state, joint);
+        if (angle < joint.lower - limit_rounding || angle > joint.upper + limit_rounding)
+            return false;
+    }
     const auto world = [&](int b, Vec2 anchor)
     { return b == none ? Position(anchor) : transform(ctx.state.sims[static_cast<std::size_t>(b)].pose(), anchor); };
     const Vec2 gap = world(joint.body_b, joint.anchor_b) - world(joint.body_a, joint.anchor_a);

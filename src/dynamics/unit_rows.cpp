@@ -9,6 +9,7 @@
 #include "dynamics/wide_prepare.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace carom::internal {
@@ -142,6 +143,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
     JointRecord& joint = ctx.state.joints[work.joint];
     joint.force = (1 / ctx.dt) * work.force_sum;
     joint.torque = work.torque_sum / ctx.dt;
+    std::ranges::transform(work.errors(), work.moved, joint.left_errors, std::minus<>());
 }
 
 } // namespace

@@ -88,7 +88,8 @@ public:
     {
         place_joints(m_view, m_ctx.state, m_joints);
         if (!m_joints.empty())
-            direct_solve().look_again();
+            take_forbidden_speeds();
+        note_moved_joints();
         add_rows_beyond_seams();
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
@@ -137,8 +138,7 @@ private:
             return;
         }
         note_approaches();
-        if (m_watches_energy)
-            m_energy.begin(m_view, m_ctx, m_joints, m_unit);
+        begin_energy();
         integrate_velocities(k);
         warm_start_all();
         predict_bends();
@@ -184,12 +184,27 @@ private:
         advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
         if (!is_airborne())
         {
-            if (m_watches_energy)
-                m_energy.begin(m_view, m_ctx, m_joints, m_unit);
+            begin_energy();
             relax();
             bounce_and_restore(k);
         }
         finish_substep(k);
+    }
+
+    // And how far joints and contacts are from what they are to hold: they do work on the way there.
+    void begin_energy()
+    {
+        if (!m_watches_energy)
+            return;
+        for_each_row(
+            [this](ContactRow& row)
+            {
+                for (int i = 0; i < row.count; ++i)
+                    row.points[i].separation_before = row_separation(m_view, row, row.points[i]);
+            });
+        for (JointWork& work : m_joints)
+            work.errors_before = work.errors();
+        m_energy.begin(m_view, m_ctx, m_joints, m_unit);
     }
 
     void bounce_and_restore(int k)
@@ -199,6 +214,8 @@ private:
         const bool kicked = bounce(k);
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
+        if (m_watches_energy && m_energy.has_held_back())
+            place_joints(m_view, m_ctx.state, m_joints);
     }
 
     // Nothing but lanes is solved, and nothing comes between solving and relaxing. In a huge unit something always flies: there it flies after both.
@@ -430,6 +447,31 @@ private:
         if (!m_output.direct)
             m_output.direct = std::make_unique<DirectSolve>();
         return *m_output.direct;
+    }
+
+    // Pushes and given velocities, new joints and new lengths may ask for speeds that joints forbid.
+    void take_forbidden_speeds()
+    {
+        direct_solve().look_again();
+        prepare_direct();
+        if (is_direct())
+            m_output.direct->take_forbidden_speeds();
+    }
+
+    // Whoever has moved a limit or an anchor since the last step, it shows in what the joint is off by.
+    void note_moved_joints()
+    {
+        const float tiny = 1e-4f * m_ctx.scene.tolerances.slop;
+        for (JointWork& work : m_joints)
+        {
+            const JointErrors errors = work.errors();
+            const JointRecord& joint = m_ctx.state.joints[work.joint];
+            for (std::size_t i = 0; joint.knows_errors && i < errors.size(); ++i)
+            {
+                const float moved = errors[i] - joint.left_errors[i];
+                work.moved[i] = std::fabs(moved) > tiny ? moved : 0;
+            }
+        }
     }
 
     // At the present pose.

@@ -101,6 +101,7 @@ private:
     using Pairs = std::map<std::pair<ShapeId, ShapeId>, std::pair<int, int>>;
 
     [[nodiscard]] Sums sums();
+    [[nodiscard]] double pressed_work(const Sums& now) const;
     void add_body(ConstBody body, Sums& sums) const;
     void add_springs(Sums& sums);
     void print_state(int step);
@@ -131,6 +132,8 @@ private:
     Sums m_start{};
     Sums m_least{}; // at the moment of the least energy so far
     double m_least_net = 0;
+    bool m_is_least = true; // after the last step
+    double m_pressed = 0;   // J, the most in overlaps since then
     std::map<std::pair<ShapeId, ShapeId>, int> m_inside;
     std::map<std::pair<ShapeId, ShapeId>, int> m_touching;
 };

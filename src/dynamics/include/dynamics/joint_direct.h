@@ -20,11 +20,13 @@ public:
     /// Once a step, and after a body has taken off or landed: who hangs on whom is found anew.
     void look_again() { m_looks_again = true; }
     /// At the present pose. Not ready where there is nothing to hold, too much of it, or loops: then the soft rows have to do.
-    void prepare(const SolverView& view, SceneState& state, std::span<const JointWork> joints);
+    void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints);
     [[nodiscard]] bool is_ready() const { return m_ready; }
     void warm_start();
     void solve(bool use_bias);
     void keep_together(); ///< J v = 0
+    /// The same for speeds that others than the solver have given the bodies, before any load is known.
+    void take_forbidden_speeds();
     /// No straight way leads to where the joints want the bodies: let them drift, then close the gaps.
     [[nodiscard]] bool turns_too_far() const { return m_turns_too_far; }
     /// Moves the bodies and leaves their velocities: one step of Newton's.
@@ -56,6 +58,7 @@ private:
         [[nodiscard]] float& impulse(int row) const;
         [[nodiscard]] RowPair impulses() const;
         void add(const RowPair& change) const;
+        void note_blow(JointWork& told, const RowPair& impulse) const;
     };
 
     /// A body that joints hold; all that do not move are one.
@@ -91,7 +94,7 @@ private:
 
     SolverView m_view{};
     SceneState* m_state = nullptr;
-    std::span<const JointWork> m_joints;
+    std::span<JointWork> m_joints;
     bool m_looks_again = true;
     bool m_is_forest = false; ///< and not too large
     bool m_ready = false;

@@ -5,6 +5,7 @@
 
 #include "dynamics/rows.h"
 
+#include <array>
 #include <span>
 
 namespace carom::internal {
@@ -66,6 +67,8 @@ struct JointPose
     float angle = 0;
 };
 
+using JointErrors = std::array<float, joint_errors>;
+
 /// A joint in the solver: its record and the states of its bodies.
 struct JointWork
 {
@@ -77,14 +80,27 @@ struct JointWork
     Softness softness{}; ///< the joint's own, of limits or of the spring along the free axis
     Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
-    Vec2 axis0{};           ///< slider's axis at the start of the step
-    Vec2 gap0{};            ///< anchor b - anchor a at the start of the step
-    float angle0 = 0;       ///< joint angle at the start of the step
-    float approach[2] = {}; ///< towards the lower and upper limit, before a sub-step's forces
-    Vec2 force_sum{};       ///< impulses over the step
+    Vec2 axis0{};                ///< slider's axis at the start of the step
+    Vec2 gap0{};                 ///< anchor b - anchor a at the start of the step
+    float angle0 = 0;            ///< joint angle at the start of the step
+    float approach[2] = {};      ///< towards the lower and upper limit, before a sub-step's forces
+    JointErrors errors_before{}; ///< when the sub-step began
+    JointErrors moved{};         ///< of these, what others than the solver have moved and it has not made good yet
+    Vec2 force_sum{};            ///< impulses over the step
     float torque_sum = 0;
     JointPose pose{}; ///< as the bodies stand, since place_joints
     JointRows rows{};
+
+    /// As the rows stand.
+    [[nodiscard]] JointErrors errors() const;
+
+    /// To the sums over the step, which are told as on body b.
+    void add(const JointRow& row, float impulse)
+    {
+        force_sum += impulse * row.d;
+        if (row.d == Vec2{})
+            torque_sum += impulse * row.arm_b;
+    }
 };
 
 /// C of the rows that are held: of one alone, the second is 0.

@@ -70,8 +70,9 @@ struct RowPoint
     float tangent_impulse = 0;
     float normal_mass = 0;
     float tangent_mass = 0;
-    float approach = 0;      ///< speed at the start of the sub-step, of rows that bear nothing yet
-    float total_impulse = 0; ///< over the step
+    float separation_before = 0; ///< at the start of the sub-step, in units that are watched for their energy
+    float approach = 0;          ///< speed at the start of the sub-step, of rows that bear nothing yet
+    float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
 };
 

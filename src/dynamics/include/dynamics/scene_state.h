@@ -87,6 +87,7 @@ inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning 
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
 inline constexpr std::uint32_t traced = 32;   ///< its path is recorded: it is near a trigger
 inline constexpr std::uint32_t unsound = 64;  ///< its force law gave what is no force: it is put aside after the step
+inline constexpr std::uint32_t stopped = 256; ///< short of where the solver had it, by a wall on the way
 inline constexpr std::uint32_t alone = 128;   ///< free, with nothing near that it could meet in this step
 } // namespace body_flag
 
@@ -285,12 +286,16 @@ enum JointSlot
     joint_slots
 };
 
+/// What a joint may be off by: its held rows, then how far it has passed its lower and upper limit, as numbers below 0.
+inline constexpr int joint_errors = 4;
+
 struct JointRecord
 {
     JointType kind = JointType::Spring;
     bool collide_connected = true;
     bool enable_limit = false;
     bool enable_motor = false;
+    bool knows_errors = true;   ///< left_errors are those of the bodies as they stand
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
     float torque = 0; ///< over the last step, to be read; so is force
@@ -312,6 +317,8 @@ struct JointRecord
     float max_motor = 0;
     float damping_ratio = 0;
     float spring_target = 0;
+    float left_errors[joint_errors] =
+        {}; ///< that are its own when the last step was done with it; what differs from them, others have moved
 };
 
 inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }

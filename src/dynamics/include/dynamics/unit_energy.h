@@ -19,7 +19,7 @@ public:
     static constexpr int most_bodies = 64;
 
     /// Before the forces of a sub-step.
-    void begin(const SolverView& view, const StepContext& ctx, std::span<const JointWork> joints, const Unit& unit);
+    void begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Unit& unit);
     /// Around what happens in flight: energy that impacts took or gave stays so; what the solver had put into joints and impacts stopped does not.
     void before_impacts();
     void after_impacts(std::span<const StoppedJoint> stopped);
@@ -27,6 +27,8 @@ public:
     void note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows);
     /// At the end. `exact`: the joints were solved to the end; else they may only have put in too much.
     void restore(bool exact);
+    /// It has moved bodies.
+    [[nodiscard]] bool has_held_back() const { return m_has_held_back; }
 
 private:
     /// Energies against what stands and against the carrier.
@@ -102,9 +104,10 @@ private:
         Energy missing{};
         Energy first{};
         Energy work{};
-        double push_out = 0;
+        double push_out = 0;  ///< that contacts have done, for bodies overlapped: it gives them no speed
+        double row_work = 0;  ///< that joints have done, for others moved them
+        double slop_work = 0; ///< of the forces along the slop
         bool touches = false;
-        bool is_deep = false;     ///< some contact overlaps far
         bool is_joined = false;   ///< by joints or contacts
         bool is_anchored = false; ///< to what does not move
         bool is_carried = false;  ///< by the carrier
@@ -129,28 +132,32 @@ private:
     [[nodiscard]] double driven_outwards(const Body& body, const Arm& arm) const;
     void connect(std::int32_t a, std::int32_t b);
     void join(std::int32_t own, std::int32_t other);
-    void note_joint(const JointWork& work);
+    void note_joint(JointWork& work);
     void connect_rows(std::span<const ContactRow> rows);
     void note_rows(std::span<const ContactRow> rows);
     void note_row(const ContactRow& row);
-    [[nodiscard]] bool is_deep(const ContactRow& row) const;
+    [[nodiscard]] double push_out_of(const ContactRow& row) const;
+    [[nodiscard]] double take_work(JointWork& work) const;
     void add_kinetic(double sign);
     void add_work();
     [[nodiscard]] double force_on(std::int32_t state);
     void add_springs(double sign);
+    [[nodiscard]] double inner_energy(int group, const Drift& drift); ///< against the motion of the whole
     void scale(int group, bool exact);
+    void hold_back(int group, double share);
+    void hold_back_body(std::int32_t state, float rest, bool is_carried);
     [[nodiscard]] Arm place_of(std::int32_t state);
     [[nodiscard]] Drift drift_of(int group);
     [[nodiscard]] Motion frame_of(const Group& group, const Drift& drift, std::int32_t state);
-    void hold_back(int group, double share);
-    void hold_back_body(std::int32_t state, float rest, bool is_carried);
 
     SolverView m_view{};
     const SceneState* m_state = nullptr;
-    std::span<const JointWork> m_joints;
+    std::span<JointWork> m_joints;
     float m_slop = 0;
+    float m_rest_speed = 0;
     int m_slices = 1;
     bool m_all_driven = false; ///< nothing to watch
+    bool m_has_held_back = false;
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
     std::int32_t m_carrier = none; ///< state of the one kinematic body that moves
