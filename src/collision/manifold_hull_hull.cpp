@@ -67,7 +67,8 @@ struct Reference
     bool flipped; ///< the reference is b
 };
 
-void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& out)
+// `only_before`: what is not before the edge does not touch it.
+void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& out, bool only_before = false)
 {
     // Reference edge: between the points where it touches its two circles.
     const Vec2 n = ref.hull.normal(edge);
@@ -81,6 +82,9 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
     // Where corners overlap deeply nothing of the incident edge may be left: then its own lowest corner is the contact.
     const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));
+    out.clipped.radius = -1;
+    if (!left && only_before)
+        return;
     if (!left)
     {
         const int lowest_corner = lowest(ref.other, n);
@@ -254,12 +258,12 @@ void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float 
 {
     const Vec2 tangent = normalize(edge.point(1) - edge.point(0));
     const float side = cross(tangent, hull.center() - edge.point(0));
-    if (is_beside_solid_side(piece, static_cast<double>(side)))
+    if (is_beside_solid_side(piece, static_cast<double>(side)) || is_behind_seam(piece, side, hull.center()))
         out.count = 0;
     if (out.count == 0 || !leans_over_seam(piece, out.normal, tangent, {}))
         return;
     out.count = 0;
-    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out);
+    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out, true); // beyond the seam the neighbour has it
 }
 
 } // namespace

@@ -149,13 +149,16 @@ public:
     {
         const Vec2 tangent = rotate(m_pose.rotation, perp(m_b.normal(0)));
         const float side = cross(tangent, m_a.center() - m_corners_b.at[0]);
-        if (is_beside_solid_side(piece, static_cast<double>(side)))
+        const Vec2 center = m_pose.to_b(m_a.center());
+        if (is_beside_solid_side(piece, static_cast<double>(side)) || is_behind_seam(piece, side, center))
             out.count = 0;
         if (out.count == 0 || !leans_over_seam(piece, -out.normal, tangent, m_pose.rotation))
             return;
         out.count = 0;
+        out.clipped.radius = -1;
         const Facing own(*this, true, side > 0 ? 1 : 0);
-        own.left ? own.add_points(margin, out) : own.add_lowest(margin, out);
+        if (own.left) // else none of the outline is before the piece: beyond the seam the neighbour has it
+            own.add_points(margin, out);
     }
 
 private:
@@ -219,14 +222,6 @@ private:
             const Vec2 on_reference = on_other - at * n;
             out.normal = flipped ? -n : n;
             out.add(flipped ? on_other : on_reference, flipped ? on_reference : on_other, at, feature_id(flipped, edge, p.id));
-        }
-
-        void add_lowest(float margin, LocalManifold& out) const
-        {
-            const int i = lowest();
-            if (separation(others.at[i]) <= margin)
-                add({others.at[i], i}, out);
-            out.clipped.radius = -1;
         }
 
         void add_points(float margin, LocalManifold& out) const

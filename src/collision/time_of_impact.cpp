@@ -141,7 +141,7 @@ public:
             sight.hollow_radius = -1 / surface->curvature;
             sight.bend += 2 * sight.speed * sight.speed / sight.hollow_radius;
         }
-        if (!sight.faces || !faces_probe(sight, turn_probe))
+        if (!sight.faces || !faces_probe(sight, turn_probe) || is_behind_seam(*surface, {r.x - q.x, r.y - q.y}, turn_frame))
         {
             sight.faces = false;
             sight.distance = std::fabs(sight.distance);
@@ -223,6 +223,19 @@ private:
         if (cross(from, to) < -1e-3 || l < 0.1)
             return std::nullopt;
         return Vector{middle.x / l, middle.y / l};
+    }
+
+    // A corner that has sunk a little into the piece before meets this one from behind: its body is before neither.
+    [[nodiscard]] bool is_behind_seam(const Surface<double>& surface, Vector carrier, SinCos turn_frame) const
+    {
+        const Leaf& leaf = *m_leaf.leaf;
+        if (leaf.type != LeafType::Segment || leaf.sides != Sides::Both || surface.feature != 0 ||
+            (!leaf.has_previous && !leaf.has_next))
+            return false;
+        const Vector center = place_in_leaf(turn_frame, carrier);
+        const Vec2 along = leaf.p1 - leaf.p0;
+        const bool from_left = surface.ny * static_cast<double>(along.x) - surface.nx * static_cast<double>(along.y) > 0;
+        return is_left_of_chain(leaf, center.x, center.y) != from_left;
     }
 
     // Only part of the probe may be surface; and what has been inside an arc's circle is not met by its bulge.

@@ -69,6 +69,14 @@ template <class Point>
            (piece.has_next && leans(-tangent, rotate(turn, piece.next_tangent)));
 }
 
+/// Has a hull its center, in the piece's frame and `side` to the left of its line, behind that line but before the neighbour, over a convex corner? Then
+/// the neighbour has it.
+[[nodiscard]] inline bool is_behind_seam(const Leaf& piece, float side, Vec2 center)
+{
+    return piece.sides == Sides::Both && (piece.has_previous || piece.has_next) &&
+           is_left_of_chain(piece, center.x, center.y) != (side > 0);
+}
+
 /// Between two corners, or of a surface without edges: no edge's normal.
 [[nodiscard]] inline bool is_of_edge(std::uint32_t feature) { return (feature & (0x4000u << 16)) == 0; }
 [[nodiscard]] inline bool edge_is_of_b(std::uint32_t feature) { return (feature & (1u << 31)) != 0; }

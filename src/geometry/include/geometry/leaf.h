@@ -57,6 +57,29 @@ struct Leaf
     return (piece.sides == Sides::Left && left < 0) || (piece.sides == Sides::Right && left > 0);
 }
 
+/// Is the center of a body, in the leaf's frame, on the left of a straight piece as the chain runs? On the convex side of a seam it is so before either of the
+/// two pieces; on the hollow side it is before both.
+template <class R>
+[[nodiscard]] bool is_left_of_chain(const Leaf& piece, R x, R y)
+{
+    const auto turns = [](Vec2 tangent, R dx, R dy) { return static_cast<R>(tangent.x) * dy - static_cast<R>(tangent.y) * dx; };
+    const Vec2 own = piece.p1 - piece.p0;
+    const R from_start_x = x - static_cast<R>(piece.p0.x);
+    const R from_start_y = y - static_cast<R>(piece.p0.y);
+    bool left = turns(own, from_start_x, from_start_y) > 0;
+    const auto at_seam = [&](Vec2 tangent, float bend, R dx, R dy)
+    {
+        const bool before_neighbour = turns(tangent, dx, dy) > 0;
+        left = bend < 0 ? left || before_neighbour : left && before_neighbour;
+    };
+    if (piece.has_previous)
+        at_seam(piece.previous_tangent, cross(piece.previous_tangent, own), from_start_x, from_start_y);
+    if (piece.has_next)
+        at_seam(piece.next_tangent, cross(own, piece.next_tangent), x - static_cast<R>(piece.p1.x),
+                y - static_cast<R>(piece.p1.y));
+    return left;
+}
+
 /// From where to where an arc runs about its center.
 struct ArcSpan
 {
