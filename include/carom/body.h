@@ -24,7 +24,7 @@ enum class BodyType : std::uint8_t
     Dynamic,   ///< moved by forces, contacts and joints
 };
 
-/// Directions in which a dynamic body does not move; its mass there is infinite. World axes.
+/// Directions in which a dynamic body does not move; its mass there is infinite, and a speed that it is given there is left out. World axes.
 struct MotionLocks
 {
     bool linear_x = false;
@@ -54,6 +54,7 @@ struct BodyDef
     float angular_damping = 0;  ///< 1/s, >= 0
     MotionLocks locks{};
     bool enabled = true; ///< a disabled body stays in the scene and takes no part
+    /// A body made asleep stays so while it gets shapes, until something wakes it: what touches it, what is made or moved into it, or a verb.
     bool awake = true;
     bool can_sleep = true;
     /// Slower than this for half a second (the centre of mass, and the farthest point as the body turns) it may fall asleep, m/s, >= 0; 0: 0.05 for each m of

@@ -146,6 +146,7 @@ struct Field
     Vec2 acceleration{};               ///< m/s², world axes
     float drag = 0;                    ///< 1/s: slows the velocity as exp(-drag t)
     bool only_if_moving_along = false; ///< force and acceleration act only on what moves along their direction
+    friend constexpr bool operator==(const Field&, const Field&) = default;
 };
 
 /// Parameters of a new shape besides its geometry.

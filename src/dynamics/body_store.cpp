@@ -77,6 +77,14 @@ void update_inverse_mass(SceneState& state, int body)
     state.graph_dirty = true;                                                        // and so have those of hinges
 }
 
+void obey_locks(const BodyRecord& record, BodySim& sim)
+{
+    if (record.type != BodyType::Dynamic)
+        return;
+    sim.velocity = {record.locks.linear_x ? 0 : sim.velocity.x, record.locks.linear_y ? 0 : sim.velocity.y};
+    sim.angular_velocity = record.locks.angular ? 0 : sim.angular_velocity;
+}
+
 namespace {
 
 void measure(const LeafView& leaf, BodySim& sim)
@@ -107,6 +115,7 @@ void update_mass(SceneState& state, int body)
         move_center(state, body, {static_cast<float>(total.center_x), static_cast<float>(total.center_y)});
     }
     update_inverse_mass(state, body);
+    obey_locks(record, sim); // a center that moves takes up the turn of its body
     sim.extent = 0;
     sim.size = 1e30f;
     for_each_leaf(state, body, [&](int shape) { measure(leaf_view(state, shape), sim); });

@@ -79,7 +79,7 @@ void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
         slow_down(sim, std::max(1 - ctx.dt / creep_time, 0.0f));
 }
 
-// What leans on a moving kinematic body is carried by it, however slowly.
+// What leans on a moving kinematic body, or is joined to it, is carried by it, however slowly.
 void keep_carried_awake(SceneState& state, int body)
 {
     const BodySim& carrier = state.sims[static_cast<std::size_t>(body)];
@@ -93,6 +93,11 @@ void keep_carried_awake(SceneState& state, int body)
                          if (kind == contact_flag::touching)
                              state.sims[static_cast<std::size_t>(other_body(contact, body))].sleep_time = 0;
                      });
+    for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
+    {
+        if (const int other = other_body(state.joints[edge >> 1], body); other != none)
+            state.sims[static_cast<std::size_t>(other)].sleep_time = 0;
+    }
 }
 
 // A target is for one step, in which it has been reached.

@@ -262,6 +262,7 @@ bool sweep_all(StepContext& ctx)
 
 void sweep_paths(StepContext& ctx)
 {
+    wake_overlapped(ctx);
     while (!sweep_all(ctx))
     { // without those that were put aside
     }

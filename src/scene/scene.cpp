@@ -193,8 +193,13 @@ void Scene::restore_pair(BodyId a, BodyId b)
 {
     if (!check_live(*m_data, "Scene::restore_pair", "a", a) || !check_live(*m_data, "Scene::restore_pair", "b", b))
         return;
-    m_data->state.ignored.erase(pair_key(slot_of(a), slot_of(b)));
+    const std::uint64_t key = pair_key(slot_of(a), slot_of(b));
+    if (!m_data->state.ignored.contains(key))
+        return;
+    m_data->state.ignored.erase(key);
     refresh_boxes(*m_data, slot_of(a));
+    wake_body(*m_data, slot_of(a));
+    wake_body(*m_data, slot_of(b));
 }
 
 } // namespace carom

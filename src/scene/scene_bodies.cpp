@@ -276,9 +276,12 @@ struct Target
             enter_awake(data, slot);
         wake_body(data, slot);
     }
+    // What touches it or may, and what joints hold to it: static and kinematic bodies wake them only so.
     void wake_neighbours() const
     {
         for_each_contact(data.state, slot, [&](int contact) { wake_body(data, other_body(data.state.contacts[contact], slot)); });
+        for (int edge = record().first_joint; edge != none; edge = data.state.joints[edge >> 1].next[edge & 1])
+            wake_body(data, other_body(data.state.joints[edge >> 1], slot));
     }
 };
 
@@ -324,6 +327,7 @@ void Body::set_type(BodyType type)
     update_mass(m_data->state, t.slot);
     if (type != BodyType::Static && t.record().enabled)
         enter_awake(*m_data, t.slot);
+    t.wake_neighbours();
     refresh_boxes(*m_data, t.slot);
 }
 
@@ -352,10 +356,7 @@ void Body::teleport(Position position, float angle)
     refresh_boxes(*m_data, t.slot);
     t.wake();
     if (t.record().type == BodyType::Static)
-    {
-        for_each_contact(m_data->state, t.slot,
-                         [&](int contact) { wake_body(*m_data, other_body(m_data->state.contacts[contact], t.slot)); });
-    }
+        t.wake_neighbours();
 }
 
 void Body::set_target_pose(Position position, float angle)
@@ -383,6 +384,7 @@ void Body::set_velocity(Vec2 velocity)
     if (t.sim().velocity == velocity)
         return;
     t.sim().velocity = velocity;
+    obey_locks(t.record(), t.sim());
     t.wake();
     if (t.record().type == BodyType::Kinematic)
         t.wake_neighbours();
@@ -396,6 +398,7 @@ void Body::set_angular_velocity(float w)
     if (t.sim().angular_velocity == w)
         return;
     t.sim().angular_velocity = w;
+    obey_locks(t.record(), t.sim());
     t.wake();
     if (t.record().type == BodyType::Kinematic)
         t.wake_neighbours();
@@ -490,10 +493,8 @@ void Body::set_locks(MotionLocks locks)
     if (!t)
         return;
     t.record().locks = locks;
-    BodySim& sim = t.sim();
-    sim.velocity = {locks.linear_x ? 0 : sim.velocity.x, locks.linear_y ? 0 : sim.velocity.y};
-    sim.angular_velocity = locks.angular ? 0 : sim.angular_velocity;
     update_inverse_mass(m_data->state, t.slot);
+    obey_locks(t.record(), t.sim());
     t.wake();
 }
 
@@ -534,11 +535,7 @@ void Body::set_enabled(bool enabled)
     if (!enabled)
     {
         destroy_contacts_of_body(*m_data, t.slot);
-        for (int edge = t.record().first_joint; edge != none; edge = m_data->state.joints[edge >> 1].next[edge & 1])
-        {
-            const JointRecord& joint = m_data->state.joints[edge >> 1];
-            wake_body(*m_data, joint.body_a == t.slot ? joint.body_b : joint.body_a);
-        }
+        t.wake_neighbours();
         leave_awake(*m_data, t.slot);
         remove_from_broad_phase(*m_data, t.slot);
         t.record().enabled = false;
@@ -550,6 +547,7 @@ void Body::set_enabled(bool enabled)
     for_each_leaf(m_data->state, t.slot, [&](int shape) { add_to_broad_phase(*m_data, shape); });
     if (t.record().type != BodyType::Static)
         enter_awake(*m_data, t.slot);
+    t.wake_neighbours();
 }
 
 void Body::set_awake(bool awake)

@@ -2,6 +2,7 @@
 
 #include "carom/scene.h"
 #include "dynamics/body_store.h"
+#include "dynamics/fields.h"
 #include "dynamics/wake.h"
 #include "geometry/limits.h"
 #include "geometry/surface.h"
@@ -35,8 +36,6 @@ bool check_curve(const Checker& check, const RestitutionCurve& curve)
     return true;
 }
 
-bool is_field(const Field& field) { return field.force != Vec2{} || field.acceleration != Vec2{} || field.drag != 0; }
-
 bool check_def(const char* function, const ShapeDef& def)
 {
     const Checker check{function};
@@ -47,7 +46,7 @@ bool check_def(const char* function, const ShapeDef& def)
            check.not_negative("Kick::speed", def.kick.speed) && check.not_negative("Kick::threshold", def.kick.threshold) &&
            check.not_negative("Kick::cooldown", def.kick.cooldown) && check.finite("Field::force", def.field.force) &&
            check.finite("Field::acceleration", def.field.acceleration) && check.not_negative("Field::drag", def.field.drag) &&
-           check.holds(def.trigger || !is_field(def.field), "ShapeDef::field", "set on a shape that is not a trigger",
+           check.holds(def.trigger || !acts(def.field), "ShapeDef::field", "set on a shape that is not a trigger",
                        "acts inside triggers only");
 }
 
@@ -85,7 +84,7 @@ void write_def(ShapeRecord& record, const ShapeDef& def)
 
 bool has_rare_traits(const ShapeDef& def)
 {
-    return def.restitution_curve.count > 0 || is_field(def.field) || def.one_way != Vec2{} || def.kick != Kick{};
+    return def.restitution_curve.count > 0 || acts(def.field) || def.one_way != Vec2{} || def.kick != Kick{};
 }
 
 void drop_rare_traits(SceneState& state, std::int32_t& place)
@@ -266,7 +265,6 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     grow(m_data->shape_user_data, static_cast<std::size_t>(state.shapes.capacity()));
     m_data->shape_user_data[static_cast<std::size_t>(slot)] = def.user_data;
     include_mass(state, body_slot, slot);
-    wake_body(*m_data, body_slot);
     return shape_id(state, slot);
 }
 
@@ -398,6 +396,7 @@ void Shape::set_def(const ShapeDef& def)
     // A change of what may meet what ends the contacts; a change of material only mixes them anew.
     const bool meets_others =
         old.filter != def.filter || old.trigger != def.trigger || rare_traits_of(state, old).one_way != normalize(def.one_way);
+    const bool acts_on_others = acts(def.field) && rare_traits_of(state, old).field != def.field;
     write_def(state.shapes[slot], def);
     write_rare_traits(state, state.shapes[slot].rare_traits, def);
     for_each_own_leaf(state, slot,
@@ -410,8 +409,9 @@ void Shape::set_def(const ShapeDef& def)
                               destroy_contacts_of_shape(*m_data, leaf);
                               state.broad_phase.set_trigger(leaf, def.trigger);
                               state.broad_phase.set_filter(leaf, filter_bits(def.filter));
-                              look_again(state, leaf);
                           }
+                          if (meets_others || acts_on_others)
+                              look_again(state, leaf);
                       });
     for_each_contact(state, old.body,
                      [&](int contact)

@@ -36,6 +36,9 @@ void include_mass(SceneState& state, int body, int shape);
 /// Another center of mass: the velocity of the material stays, and kept manifolds are found anew.
 void move_center(SceneState& state, int body, Vec2 local_center);
 
+/// Takes the speeds that its locks forbid; a kinematic body has no locks.
+void obey_locks(const BodyRecord& record, BodySim& sim);
+
 /// Inverse masses alone, after a change of type or locks.
 void update_inverse_mass(SceneState& state, int body);
 

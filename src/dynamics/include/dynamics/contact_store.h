@@ -84,6 +84,12 @@ inline void forget_impulses(SceneState& state, int contact)
     return contact.body_a == body ? contact.body_b : contact.body_a;
 }
 
+/// None for the world.
+[[nodiscard]] inline int other_body(const JointRecord& joint, int body)
+{
+    return joint.body_a == body ? joint.body_b : joint.body_a;
+}
+
 /// Pieces of a chain are one shape to the user: does another contact of the same two public shapes touch (or, of a trigger, hold inside)?
 [[nodiscard]] bool touches_elsewhere(const SceneState& state, int contact);
 

@@ -9,6 +9,9 @@ namespace carom::internal {
 
 const StepReport& step(SceneData& scene, float dt);
 
+/// Sleepers that a fresh shape overlaps.
+void wake_overlapped(StepContext& ctx);
+
 /// Velocities of kinematic bodies with a target; boxes of what moves, wide enough for its path in this step.
 void sweep_paths(StepContext& ctx);
 

@@ -46,8 +46,7 @@ void for_each_neighbour(const SceneState& state, int body, Visit&& visit)
     }
     for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
     {
-        const JointRecord& joint = state.joints[edge >> 1];
-        look_at(joint.body_a == body ? joint.body_b : joint.body_a);
+        look_at(other_body(state.joints[edge >> 1], body));
     }
 }
 
