@@ -67,8 +67,10 @@ struct Reference
     bool flipped; ///< the reference is b
 };
 
-// `only_before`: what is not before the edge does not touch it.
-void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& out, bool only_before = false)
+constexpr float lowest_if_none = -1;
+
+// `beyond`: what is not before the edge, or so far beyond its ends, does not touch it.
+void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& out, float beyond = lowest_if_none)
 {
     // Reference edge: between the points where it touches its two circles.
     const Vec2 n = ref.hull.normal(edge);
@@ -81,7 +83,9 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     const int i1 = ref.other.next(i0);
     ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
     // Where corners overlap deeply nothing of the incident edge may be left: then its own lowest corner is the contact.
-    const bool left = clip(points, tangent, dot(tangent, start)) && clip(points, -tangent, -dot(tangent, end));
+    const bool only_before = beyond >= 0;
+    const float more = only_before ? beyond : 0;
+    const bool left = clip(points, tangent, dot(tangent, start) - more) && clip(points, -tangent, -dot(tangent, end) - more);
     out.clipped.radius = -1;
     if (!left && only_before)
         return;
@@ -263,10 +267,33 @@ void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float 
     if (out.count == 0 || !leans_over_seam(piece, out.normal, tangent, {}))
         return;
     out.count = 0;
-    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out, true); // beyond the seam the neighbour has it
+    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out, 0); // beyond the seam the neighbour has it
 }
 
 } // namespace
+
+void clip_to_own_edge(const LeafView& a, int edge, const LeafView& b, const RelativePose& pose, float margin, float beyond,
+                      LocalManifold& out)
+{
+    const Hull hull(a);
+    if (b.leaf->type != LeafType::Circle)
+    {
+        const HullSeen other(b, pose);
+        clip_to_edge({hull, other, false}, edge, margin, out, beyond);
+        return;
+    }
+    const Vec2 n = hull.normal(edge);
+    const int next = hull.next(edge);
+    const Vec2 start = hull.point(edge) + hull.radius(edge) * n;
+    const Vec2 end = hull.point(next) + hull.radius(next) * n;
+    const Vec2 tangent = normalize(end - start);
+    const Vec2 center = pose.to_a(b.leaf->p0);
+    const float at = dot(tangent, center - start);
+    const float separation = dot(n, center - start) - b.leaf->r0;
+    out.normal = n;
+    if (at >= -beyond && at <= length(end - start) + beyond && separation <= margin)
+        out.add(center - (separation + b.leaf->r0) * n, center - b.leaf->r0 * n, separation, feature_id(false, edge, 0));
+}
 
 void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {

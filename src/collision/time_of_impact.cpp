@@ -6,6 +6,7 @@
 
 #include "collision/time_of_impact.h"
 
+#include "collision/flush.h"
 #include "collision/probes.h"
 #include "core/trigonometry.h"
 #include "geometry/surface.h"
@@ -41,7 +42,9 @@ struct Sight
     double distance; ///< gap between probe and surface
     Vector n;        ///< from the surface to the probe, world
     Vector point;    ///< on the probe
-    double rate;     ///< of the gap along the fixed normal
+    Vector v;        ///< of the probe, as the turning frame sees it
+    Vector a;
+    double rate; ///< of the gap along the fixed normal
     double acceleration;
     double bend;          ///< M: bound on minus its second derivative
     double speed;         ///< bound on the relative speed over the rest of the time
@@ -124,6 +127,7 @@ public:
             sight.n = n.value_or(sight.n);
         }
         sight.point = {to_carrier.x + q.x - m_probe.radius * sight.n.x, to_carrier.y + q.y - m_probe.radius * sight.n.y};
+        sight.v = v;
         sight.rate = dot(v, sight.n);
         sight.curvature = surface->curvature;
         sight.feature = surface->feature;
@@ -131,6 +135,7 @@ public:
         // The gap's own acceleration: of the probe, as the turning frame sees it, and the bend of the surface under its slide.
         const Vector a = {m_a.x - m_carrier.alpha * q.y - wp * wp * q.x + 2 * wf * v.y + wf * wf * r.x + m_frame.alpha * r.y,
                           m_a.y + m_carrier.alpha * q.x - wp * wp * q.y - 2 * wf * v.x + wf * wf * r.y - m_frame.alpha * r.x};
+        sight.a = a;
         const double slide = v.y * sight.n.x - v.x * sight.n.y;
         sight.push = dot(a, sight.n);
         sight.acceleration = sight.push + surface->curvature * slide * slide;
@@ -149,7 +154,58 @@ public:
         return sight;
     }
 
+    /// What the union of flush leaves says of a touch: turned, the sight has another normal; false where there is none.
+    [[nodiscard]] bool keep_to_union(double t, Sight& sight, const LeafView& probe_leaf, const FlushNeighbours& of_probe,
+                                     const FlushNeighbours& of_surface) const
+    {
+        const SinCos turn_probe = rotation_at(m_carrier, t);
+        const SinCos turn_frame = rotation_at(m_frame, t);
+        const CenterPath& f = m_frame.center;
+        const Vector frame_center = {f.x + t * f.vx + 0.5 * t * t * f.ax, f.y + t * f.vy + 0.5 * t * t * f.ay};
+        const CenterPath& c = m_carrier.center;
+        const Vector carrier_center = {c.x + t * c.vx + 0.5 * t * t * c.ax, c.y + t * c.vy + 0.5 * t * t * c.ay};
+        const Vector to_origin =
+            turned(turn_probe, {static_cast<double>(m_carrier.local_center.x), static_cast<double>(m_carrier.local_center.y)});
+        const auto narrow = [](Vector v) { return Vec2{static_cast<float>(v.x), static_cast<float>(v.y)}; };
+        const Vector origin = place_in_leaf(
+            turn_frame, {carrier_center.x - to_origin.x - frame_center.x, carrier_center.y - to_origin.y - frame_center.y});
+        const RelativePose pose{narrow(origin),
+                                {static_cast<float>(turn_frame.cos * turn_probe.cos + turn_frame.sin * turn_probe.sin),
+                                 static_cast<float>(turn_frame.cos * turn_probe.sin - turn_frame.sin * turn_probe.cos)}};
+        const RelativePose back{pose.to_b({}), inverse(pose.rotation)};
+        if (!is_in_own_cone(turned_back(turn_probe, {-sight.n.x, -sight.n.y})))
+            return false;
+        const Vec2 n = narrow(turned_back(turn_frame, sight.n));
+        const Vec2 on_probe = narrow(place_in_leaf(turn_frame, {sight.point.x - frame_center.x, sight.point.y - frame_center.y}));
+        const Vec2 on_surface = on_probe - static_cast<float>(sight.distance) * n;
+        const Vec2 in_probe = pose.to_b(on_probe);
+        const FlushAnswer by_surface = ask_flush(m_leaf, of_surface, probe_leaf, pose, {&on_surface, 1}, n);
+        const FlushAnswer by_probe =
+            ask_flush(probe_leaf, of_probe, m_leaf, back, {&in_probe, 1}, -inverse_rotate(pose.rotation, n));
+        if (by_surface.verdict == FlushVerdict::Hidden || by_probe.verdict == FlushVerdict::Hidden)
+            return false;
+        const auto turn = [&](Vec2 normal)
+        {
+            sight.n = turned(turn_frame, {static_cast<double>(normal.x), static_cast<double>(normal.y)});
+            sight.rate = dot(sight.v, sight.n);
+            sight.acceleration = sight.push = dot(sight.a, sight.n);
+            sight.curvature = 0;
+        };
+        if (by_surface.verdict == FlushVerdict::Turned)
+            turn(edge_normal(m_leaf, by_surface.edge));
+        else if (by_probe.verdict == FlushVerdict::Turned)
+            turn(-rotate(pose.rotation, edge_normal(probe_leaf, by_probe.edge)));
+        return true;
+    }
+
 private:
+    // Out of a polygon's vertex, in its frame: else an edge that has sunk a little meets the side of what it lies on.
+    [[nodiscard]] bool is_in_own_cone(Vector out) const
+    {
+        const auto cross = [](Vec2 a, Vector b) { return static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x; };
+        return m_probe.before == Vec2{} || (cross(m_probe.before, out) >= -1e-3 && cross(m_probe.after, out) <= 1e-3);
+    }
+
     // Of a point seen from the center that the frame turns about.
     [[nodiscard]] Vector place_in_leaf(SinCos turn_frame, Vector r) const
     {
@@ -366,13 +422,30 @@ double patience_at(const Sight& sight, double least_approach, double duration)
     return std::max({slack / sight.bend, kept, std::min(soon, 5e-3 * duration), 1e-6 * duration});
 }
 
+/// Of the probe's leaf and of the surface.
+struct FlushBeside
+{
+    const LeafView& probe_leaf;
+    const FlushNeighbours* of_probe;
+    const FlushNeighbours* of_surface;
+
+    FlushBeside(const Flush& flush, bool probe_on_a, const LeafView& a, const LeafView& b)
+        : probe_leaf(probe_on_a ? a : b), of_probe(probe_on_a ? flush.of_a : flush.of_b),
+          of_surface(probe_on_a ? flush.of_b : flush.of_a)
+    {}
+    [[nodiscard]] bool leave(const Approach& approach, double t, Sight& sight) const
+    {
+        return of_probe == nullptr || approach.keep_to_union(t, sight, probe_leaf, *of_probe, *of_surface);
+    }
+};
+
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
-                                          double least_approach, const Press& press)
+                                          double least_approach, const Press& press, const FlushBeside& flush)
 {
     double t = 0;
     for (int i = 0; i < max_looks && t <= duration; ++i)
     {
-        const Sight sight = approach.look(t);
+        Sight sight = approach.look(t);
         if (!sight.faces)
         {
             t += sight.speed > 0 ? std::max(sight.distance, blind_step * length) / sight.speed : duration + 1;
@@ -381,7 +454,12 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
         const bool near = sight.distance <= (i < max_looks - 1 ? touch : nearly_touch) * length;
         const double least = std::max(least_approach, pressed_speed(sight.acceleration, press, length));
         if (near && sight.rate < -least)
-            return touch_of(sight, t, probe_on_a);
+        {
+            if (flush.leave(approach, t, sight) && sight.rate < -least)
+                return touch_of(sight, t, probe_on_a);
+            t += blind_step * length / sight.speed;
+            continue;
+        }
         if (near && sight.end_of_arc)
         {
             t += blind_step * length / sight.speed;
@@ -623,7 +701,8 @@ Axis line_of_centers(const FramePath& a, const FramePath& b)
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach, const Press& press, const ProbeSet& held, Axis axis)
+                                 double duration, double least_approach, const Press& press, const ProbeSet& held, Axis axis,
+                                 const Flush& flush)
 {
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Interval> interval;
@@ -641,7 +720,8 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
                 return;
             const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
             const double left = first ? first->time : duration;
-            const std::optional<Touch> hit = first_touch_of_probe(approach, length, on_a, left, least_approach, press);
+            const std::optional<Touch> hit =
+                first_touch_of_probe(approach, length, on_a, left, least_approach, press, FlushBeside(flush, on_a, a, b));
             if (hit && (!first || hit->time < first->time))
                 first = hit;
         });
@@ -677,28 +757,29 @@ void add_touch(Touches& touches, const Touch& t, double length)
 
 } // namespace
 
-Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double tolerance)
+Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double tolerance,
+                    const Flush& flush)
 {
     const double length = std::min(probe_size(a), probe_size(b));
     const Faces faces_of_a(a, path_a, path_b, 0, tolerance);
     const Faces faces_of_b(b, path_b, path_a, 0, tolerance);
     Touches touches;
-    for_each_probe_pair(a, b,
-                        [&](const Probe& probe, int number, bool on_a)
-                        {
-                            if ((on_a ? faces_of_b : faces_of_a).are_out_of_reach(probe))
-                                return;
-                            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0,
-                                                    length);
-                            if (approach.starts_beyond(tolerance))
-                                return;
-                            const Sight sight = approach.look(0);
-                            if (!sight.faces || sight.distance > tolerance)
-                                return;
-                            Touch t = touch_of(sight, 0, on_a);
-                            t.probes.add(number, on_a);
-                            add_touch(touches, t, length);
-                        });
+    for_each_probe_pair(
+        a, b,
+        [&](const Probe& probe, int number, bool on_a)
+        {
+            if ((on_a ? faces_of_b : faces_of_a).are_out_of_reach(probe))
+                return;
+            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, 0, length);
+            if (approach.starts_beyond(tolerance))
+                return;
+            Sight sight = approach.look(0);
+            if (!sight.faces || sight.distance > tolerance || !FlushBeside(flush, on_a, a, b).leave(approach, 0, sight))
+                return;
+            Touch t = touch_of(sight, 0, on_a);
+            t.probes.add(number, on_a);
+            add_touch(touches, t, length);
+        });
     return touches;
 }
 

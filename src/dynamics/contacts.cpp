@@ -7,6 +7,7 @@
 #include "dynamics/contact_links.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
+#include "dynamics/flush_pair.h"
 #include "dynamics/kept_manifold.h"
 #include "dynamics/kept_rows.h"
 #include "dynamics/material.h"
@@ -22,8 +23,15 @@ namespace carom::internal {
 
 LocalManifold local_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
 {
-    return collide(leaf_view(state, contact.shape_a), leaf_view(state, contact.shape_b), relative_pose(a.frame(), b.frame()),
-                   margin);
+    const LeafView leaf_a = leaf_view(state, contact.shape_a);
+    const LeafView leaf_b = leaf_view(state, contact.shape_b);
+    const RelativePose pose = relative_pose(a.frame(), b.frame());
+    LocalManifold found = collide(leaf_a, leaf_b, pose, margin);
+    if (found.count == 0 || (contact.flags & contact_flag::trigger) != 0)
+        return found;
+    if (const FlushPair flush(state, contact, pose, found); !flush.is_empty())
+        found.is_of_union = keep_to_union(leaf_a, flush.of_a, leaf_b, flush.of_b, pose, margin, found);
+    return found;
 }
 
 Manifold in_world(const LocalManifold& local, const BodyPose& a, const BodyPose& b)
@@ -89,10 +97,14 @@ void find_manifold(const StepContext& ctx, int index)
     SceneState& state = ctx.state;
     Contact& contact = state.contacts[index];
     const Manifold old = contact.manifold;
-    contact.manifold = world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b),
-                                      ctx.scene.tolerances.speculation + relative_motion(state, contact));
+    const BodyPose pose_a = pose_at_start(state, contact.body_a);
+    const BodyPose pose_b = pose_at_start(state, contact.body_b);
+    const LocalManifold found =
+        local_manifold(state, contact, pose_a, pose_b, ctx.scene.tolerances.speculation + relative_motion(state, contact));
+    contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold, impulses_of(state, index));
-    contact.flags &= ~(contact_flag::all_kept | contact_flag::followed);
+    contact.flags &= ~(contact_flag::all_kept | contact_flag::followed | contact_flag::of_union);
+    contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
 }
 
 void update_manifold(const StepContext& ctx, int index)

@@ -23,8 +23,8 @@ bool can_keep(const SceneState& state, const Contact& contact, const LocalManifo
         const bool is_line = type == LeafType::Segment && (contact.flags & contact_flag::plain) != 0;
         return type == LeafType::Polygon || type == LeafType::Capsule || type == LeafType::Circle || is_line;
     };
-    return (contact.flags & contact_flag::one_way) == 0 && has_edges(contact.shape_a) && has_edges(contact.shape_b) &&
-           (found.count == 0 || found.clipped.radius >= 0 || found.nearest.radii[0] >= 0);
+    return (contact.flags & contact_flag::one_way) == 0 && !found.is_of_union && has_edges(contact.shape_a) &&
+           has_edges(contact.shape_b) && (found.count == 0 || found.clipped.radius >= 0 || found.nearest.radii[0] >= 0);
 }
 
 const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
@@ -315,7 +315,8 @@ void follow_manifold(const StepContext& ctx, int index)
     const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
     contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold, impulses_of(state, index));
-    contact.flags &= ~contact_flag::all_kept;
+    contact.flags &= ~(contact_flag::all_kept | contact_flag::of_union);
+    contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
     if (!can_keep(state, contact, found))
         return;
     contact.flags |= contact_flag::kept | (is_of_b(state, contact, found) ? contact_flag::edge_of_b : 0u) |

@@ -288,8 +288,7 @@ public:
         for (int edge = record.first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
         {
             const Contact& contact = state.contacts[edge >> 1];
-            if (contact.manifold.count > 0 ||
-                (contact.flags & (contact_flag::trigger | contact_flag::plain)) != contact_flag::plain)
+            if (contact.manifold.count > 0 || !tells_apart(contact) || (contact.flags & contact_flag::trigger) != 0)
                 return false;
         }
         return true;

@@ -54,6 +54,7 @@ Scene::Scene(const SceneDef& def) : m_data(std::make_unique<SceneData>())
     m_data->def = sound;
     m_data->tolerances = tolerances_of(sound);
     m_data->state.gravity = sound.gravity;
+    m_data->state.slop = m_data->tolerances.slop;
     m_data->state.greatest_sleep_speed = m_data->tolerances.sleep_speed;
 }
 

@@ -4,6 +4,7 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/flight/hold.h"
 #include "dynamics/flight/impact_set.h"
+#include "dynamics/flush_pair.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/material.h"
 
@@ -206,7 +207,8 @@ void ImpactSet::add_touches(int member, std::int32_t own, std::int32_t other, st
     const double near = nearness(member, own, other, other_body) * size;
     if (are_apart(other_leaf, other_path, own_leaf, own_path, line_of_centers(other_path, own_path), near))
         return;
-    const Touches touches = touches_now(other_leaf, other_path, own_leaf, own_path, near);
+    const FlushPair flush(m_state, other, own);
+    const Touches touches = touches_now(other_leaf, other_path, own_leaf, own_path, near, flush.flush());
     for (const Touch& t : touches)
     {
         if (lets_pass(m_span.ctx.scene, other, own, {static_cast<float>(t.nx), static_cast<float>(t.ny)}))

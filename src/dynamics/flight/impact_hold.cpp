@@ -3,6 +3,7 @@
 #include "dynamics/body_store.h"
 #include "dynamics/flight/hold.h"
 #include "dynamics/flight/impact_set.h"
+#include "dynamics/flush_pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +138,8 @@ double ImpactSet::gap_acceleration(std::size_t i)
     const double size = std::min(probe_size(own_leaf), probe_size(other_leaf));
     double g = 0;
     double nearest = 1e300;
-    for (const Touch& t : touches_now(other_leaf, other, own_leaf, own, 2 * still_held * size))
+    const FlushPair flush(m_state, s.other, s.own);
+    for (const Touch& t : touches_now(other_leaf, other, own_leaf, own, 2 * still_held * size, flush.flush()))
     {
         const double d = length_of(t.x - s.touch.x, t.y - s.touch.y);
         if (d < nearest)

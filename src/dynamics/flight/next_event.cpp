@@ -3,6 +3,7 @@
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
+#include "dynamics/flush_pair.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/material.h"
 #include "geometry/surface.h"
@@ -198,10 +199,18 @@ private:
         const Axis normal = normal_at_start(shape, contact);
         if (stays_apart_along(line, a, target, b, own_path, left) || stays_apart_along(normal, a, target, b, own_path, left))
             return;
-        const std::optional<Touch> hit =
-            first_touch(a, target, b, own_path, left, m_span.least_approach,
-                        state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : Press{},
-                        held_corners(m_span.holds_of(m_flier), own, shape), normal.is_none() ? line : normal);
+        const auto find = [&](const Flush& flush)
+        {
+            return first_touch(a, target, b, own_path, left, m_span.least_approach,
+                               state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : Press{},
+                               held_corners(m_span.holds_of(m_flier), own, shape), normal.is_none() ? line : normal, flush);
+        };
+        std::optional<Touch> hit = find({});
+        if (hit)
+        {
+            if (const FlushPair flush(state, shape, own); !flush.is_empty())
+                hit = find(flush.flush());
+        }
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
         // The flier is b as the material sees it: the normal runs from the shape to the flier.

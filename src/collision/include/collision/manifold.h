@@ -67,6 +67,7 @@ struct LocalManifold
     float reach = 0;
     /// Without a point, the direction from a to b, in a's frame, along which they are that far apart; 0: none is known.
     Vec2 parting{};
+    bool is_of_union = false; ///< flush neighbours have turned or emptied it
 
     void part(Vec2 direction, float separation)
     {
@@ -100,6 +101,10 @@ using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const Rel
 
 /// The whole contact of two leaves; an empty manifold where they do not meet.
 [[nodiscard]] LocalManifold collide(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin);
+
+/// What of b lies before an edge of a, a polygon, capsule or segment, or so far beyond its ends, with that edge's normal; empty where nothing does.
+void clip_to_own_edge(const LeafView& a, int edge, const LeafView& b, const RelativePose& pose, float margin, float beyond,
+                      LocalManifold& out);
 
 // The implementations, one file each.
 void collide_surface_circle(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out);

@@ -93,12 +93,24 @@ struct Press
 /// How fast the gap closes by then, or once it is pressed as deep as nearly_touch; acceleration of the gap as in Touch.
 [[nodiscard]] double pressed_speed(double acceleration, const Press& press, double length);
 
+struct FlushNeighbours;
+
+/// What lies flush with either leaf, if anything: see flush.h.
+struct Flush
+{
+    const FlushNeighbours* of_a = nullptr;
+    const FlushNeighbours* of_b = nullptr;
+
+    [[nodiscard]] bool is_empty() const { return of_a == nullptr; }
+};
+
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
 /// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew by `press`. The corners of
 /// `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach,
-                                               const Press& press = {}, const ProbeSet& held = {}, Axis axis = {});
+                                               const Press& press = {}, const ProbeSet& held = {}, Axis axis = {},
+                                               const Flush& flush = {});
 
 /// True where nothing of the two can meet in that time: along an axis from a to b they stay apart. False says nothing.
 [[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
@@ -122,7 +134,7 @@ struct Touches
     [[nodiscard]] const Touch* end() const { return list + count; }
 };
 [[nodiscard]] Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                  double tolerance);
+                                  double tolerance, const Flush& flush = {});
 
 /// The nearest of a leaf's probes to zero size: what tolerances of distance are measured by.
 [[nodiscard]] double probe_size(const LeafView& v);

@@ -60,10 +60,16 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
     return second < first ? second : first;
 }
 
+/// Without points its shapes are apart.
+[[nodiscard]] inline bool tells_apart(const Contact& contact)
+{
+    return (contact.flags & (contact_flag::plain | contact_flag::of_union)) == contact_flag::plain;
+}
+
 /// On the ways that both set out on they do not meet within the step.
 [[nodiscard]] inline bool stays_apart(const StepContext& ctx, const Contact& contact)
 {
-    return (contact.flags & contact_flag::plain) != 0 &&
+    return tells_apart(contact) &&
            (contact.manifold.count == 0 ||
             least_separation(contact.manifold) > relative_motion(ctx.state, contact) + 0.1f * ctx.scene.tolerances.speculation);
 }

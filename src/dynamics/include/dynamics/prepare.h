@@ -3,6 +3,7 @@
 // From records to what the solver iterates over.
 
 #include "core/trigonometry.h"
+#include "dynamics/contact_update.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
@@ -61,7 +62,7 @@ inline void follow_closely(const Contact& contact, const Unit& unit, ContactRow&
 /// units such contacts have rows without points, that are looked at anew.
 [[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Unit& unit)
 {
-    return unit.precise && (contact.flags & (contact_flag::plain | contact_flag::round)) == 0;
+    return unit.precise && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
 }
 
 /// All impulses of the last sub-step, for a sub-step of another length.

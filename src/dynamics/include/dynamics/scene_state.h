@@ -167,6 +167,8 @@ inline constexpr std::uint32_t edge_of_b = 2048; ///< what is kept is seen from 
 inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
 inline constexpr std::uint32_t sleeper = 8192;   ///< one of the bodies sleeps, or both
 inline constexpr std::uint32_t piece = 16384; ///< of a chain or the like: others may touch for the same two shapes of the user's
+inline constexpr std::uint32_t of_union =
+    32768; ///< flush neighbours have turned or emptied its manifold: no points are not apart
 inline constexpr std::uint32_t all_kept = kept | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
     1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
@@ -348,6 +350,7 @@ struct SceneState
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
     bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since units were built
     Vec2 gravity{};
+    float slop = 0;                 ///< the scene's, see Tolerances
     float greatest_sleep_speed = 0; ///< that any body has had; the scene's, or more
     double time = 0;
     std::uint64_t step_count = 0;
