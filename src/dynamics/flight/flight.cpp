@@ -118,6 +118,10 @@ void note_all_reaches(const FlightSpan& span)
         span.output.reaches[i] = reach_of(span, span.scratch.fliers[static_cast<std::size_t>(span.output.deflected[i])].body);
 }
 
+// In a sub-step: what is left over then stays where it is until the next. Some milliseconds; impacts that come out take a hundredth.
+constexpr std::int64_t work_of_unit = 20'000;
+constexpr std::int64_t work_of_flier = 500;
+
 constexpr int fliers_per_share = 16;
 constexpr int enough_fliers = 32; // to share
 
@@ -272,6 +276,7 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     if (unit.flier_count == 0)
         return;
     const FlightSpan span(ctx, unit, k, output);
+    output.impact_work.left = (work_of_unit + work_of_flier * unit.flier_count) / ctx.slices;
     output.struck_states.clear();
     for (Flier& f : span.fliers())
         start_flight(span, f);

@@ -20,8 +20,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int crowd_limit = 8;    // impacts of a body in a sub-step
-constexpr double deep_in = 0.002; // of the size
+constexpr std::size_t work_of_an_impact = 50; // beside its rows: who takes part, and when they meet next
+constexpr int crowd_limit = 8;                // impacts of a body in a sub-step
+constexpr double deep_in = 0.002;             // of the size
 
 } // namespace
 
@@ -35,7 +36,9 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
 {
     gather();
     note_before();
-    const bool is_jammed = !reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); });
+    m_span.output.impact_work.spend(work_of_an_impact);
+    const bool is_jammed = !reflect(
+        m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, m_span.output.impact_work);
     note_stopped_joints();
     for (std::size_t i = 0; i < m_members.size(); ++i)
         write_back(i, changed);

@@ -64,6 +64,7 @@ struct Demand
 };
 
 constexpr int pass_limit = 100;
+constexpr int least_passes = 4; // when the work is spent
 
 bool are_a_pair(const std::vector<ImpactRow>& rows, int i, int j)
 {
@@ -162,7 +163,8 @@ private:
     const std::vector<ImpactRow>& m_rows;
 };
 
-void satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Demand>& demands)
+// False where the work was spent before the rows agreed.
+bool satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
 {
     double scale = 0;
     for (const Demand& d : demands)
@@ -173,9 +175,32 @@ void satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Dem
         passes.worst = 0;
         for (std::size_t i = 0; i < demands.size();)
             i += passes.take(demands, i);
+        work.spend(demands.size());
         if (passes.worst <= 1e-12 * scale)
-            return;
+            return true;
+        if (work.is_spent() && pass + 1 >= least_passes)
+            return false;
     }
+    return true;
+}
+
+// v M u
+double product(const Bodies& v, const Bodies& u)
+{
+    double sum = 0;
+    const auto over = [](double value, double inverse_mass) { return inverse_mass > 0 ? value / inverse_mass : 0; };
+    for (std::size_t i = 0; i < v.size(); ++i)
+        sum += over(v[i].vx * u[i].vx, v[i].inverse_mass_x) + over(v[i].vy * u[i].vy, v[i].inverse_mass_y) +
+               over(v[i].w * u[i].w, v[i].inverse_inertia);
+    return sum;
+}
+
+// A change that is not exact goes as far in its direction as it gives no energy: beyond twice the way to the least energy it would. The whole way is the
+// reflection without loss.
+double part_without_gain(const Bodies& bodies, const Bodies& change)
+{
+    const double square = product(change, change);
+    return square > 0 ? std::clamp(-2 * product(bodies, change) / square, 0.0, 1.0) : 0;
 }
 
 Bodies at_rest(const Bodies& bodies)
@@ -207,10 +232,15 @@ void give(Bodies& bodies, std::vector<ImpactRow>& rows, const std::vector<Demand
 }
 
 // What brings the rates that are demanded.
-void answer(Bodies& bodies, std::vector<ImpactRow>& rows, std::vector<Demand>& demands)
+void answer(Bodies& bodies, std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
 {
     Bodies change = at_rest(bodies);
-    satisfy(change, rows, demands);
+    if (!satisfy(change, rows, demands, work))
+    {
+        const double part = part_without_gain(bodies, change);
+        for (Demand& d : demands)
+            d.impulse *= part;
+    }
     give(bodies, rows, demands);
 }
 
@@ -221,7 +251,7 @@ enum class Asked : std::uint8_t
 };
 
 // A round of reflections; false where nothing approaches.
-bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law,
+bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work,
                   Asked asked = Asked::Approaching)
 {
     std::vector<Demand> demands;
@@ -255,7 +285,7 @@ bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, co
     }
     if (!approaching)
         return false;
-    answer(bodies, rows, demands);
+    answer(bodies, rows, demands, work);
     return true;
 }
 
@@ -299,7 +329,7 @@ constexpr int round_limit = 64;
 constexpr int one_by_one = 8; // rounds in which only what approaches is asked: more, and they pass it to and fro
 
 // Joints that the solver pulls together close at some rate; kept through an impact, it would do work.
-void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
+void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
 {
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -308,7 +338,7 @@ void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows)
             demands.push_back({static_cast<int>(i), -gap_rate(bodies, rows[i])});
     }
     if (!demands.empty())
-        answer(bodies, rows, demands);
+        answer(bodies, rows, demands, work);
 }
 
 double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& rows)
@@ -330,31 +360,33 @@ double slip_rate(const Bodies& bodies, const ImpactRow& row)
     return rate_along(bodies, row, tangent_of(row)) - row.surface_speed;
 }
 
-bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law)
+bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work)
 {
     const BounceLaw still = [](int, double) { return Bounce{}; };
-    stop_holds(bodies, rows);
+    stop_holds(bodies, rows, work);
     int round = 0;
-    while (round < round_limit && reflect_once(bodies, rows, least, law))
+    while (round < round_limit && reflect_once(bodies, rows, least, law, work) && !work.is_spent())
         ++round;
     // A ball between two that close in bounces for ever: what is left is taken without bounce.
     // A long row only takes its time; what is jammed gets nowhere.
     double half_way = 0;
-    while (round < 2 * round_limit && reflect_once(bodies, rows, least, still, Asked::All))
+    while (round < 2 * round_limit && !work.is_spent() && reflect_once(bodies, rows, least, still, work, Asked::All))
     {
         if (++round == round_limit + round_limit / 2)
             half_way = greatest_approach(bodies, rows);
     }
+    if (work.is_spent())
+        return false;
     if (round == 2 * round_limit && greatest_approach(bodies, rows) > 0.99 * half_way)
         return false;
     rub(bodies, rows);
     // Friction on an arm may press another point in.
     for (round = 0; round < round_limit; ++round)
     {
-        if (!reflect_once(bodies, rows, least, still, round < one_by_one ? Asked::Approaching : Asked::All))
+        if (!reflect_once(bodies, rows, least, still, work, round < one_by_one ? Asked::Approaching : Asked::All))
             break;
     }
-    return true;
+    return !work.is_spent();
 }
 
 // In a wedge steep enough to hold by friction alone force and friction raise each other without end; with limits that stay, they agree.

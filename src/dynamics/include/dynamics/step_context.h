@@ -8,6 +8,7 @@
 #include "core/blank_array.h"
 #include "core/union_find.h"
 #include "dynamics/contact_colors.h"
+#include "dynamics/flight/reflect.h"
 #include "dynamics/joint_rows.h"
 #include "dynamics/rows.h"
 #include "dynamics/scene_state.h"
@@ -391,6 +392,7 @@ struct UnitOutput : Told
     std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
     std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where a unit of this place in the order has had any
     int flight_impacts = 0;
+    ImpactWork impact_work{}; ///< left in this sub-step
     bool capped = false;
     bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
 

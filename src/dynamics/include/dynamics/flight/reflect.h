@@ -68,9 +68,19 @@ struct Bounce
 /// Asked for each row when it approaches, with its speed.
 using BounceLaw = std::function<Bounce(int row, double approach)>;
 
-/// Changes the velocities of the bodies and fills in the rows. Approaches slower than `least` count as none. False where they are jammed: between
-/// what closes in on them there is no way to go.
-[[nodiscard]] bool reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law);
+/// What impacts may cost, in rows that are solved.
+struct ImpactWork
+{
+    std::int64_t left = std::int64_t{1} << 60;
+
+    void spend(std::size_t rows) { left -= static_cast<std::int64_t>(rows); }
+    [[nodiscard]] bool is_spent() const { return left <= 0; }
+};
+
+/// Changes the velocities of the bodies and fills in the rows. Approaches slower than `least` count as none. False where they are jammed, for between
+/// what closes in on them there is no way to go, or the work is spent: energy has not risen, but some still approach.
+[[nodiscard]] bool reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law,
+                           ImpactWork& work);
 
 /// How a row that no longer parts would accelerate without the forces asked for.
 struct Pressing
