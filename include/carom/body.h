@@ -118,7 +118,7 @@ public:
     void set_target_pose(Position position, float angle);
     void set_velocity(Vec2 velocity); ///< m/s
     void set_angular_velocity(float radians_per_second);
-    /// Forces act through the next step and are then cleared (see Scene::update for several steps a frame). Dynamic
+    /// Forces act through the next step, or for the time of the frame that Scene::update is next given, and are then cleared. Dynamic
     /// bodies only, others ignore them. N, N m.
     void apply_force(Vec2 force, Position world_point);
     void apply_force(Vec2 force); ///< at the centre of mass

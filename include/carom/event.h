@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// What happened in a step. Spans of events are valid until the next step; ids in them may be stale where the object was
-/// destroyed since. All events of a step are sorted by (time, shape_a, shape_b). Normals point from shape_a to shape_b.
+/// What happened in a step, or in all steps of Scene::update. Spans of events are valid until the next step or update; ids in them may be stale where the object was
+/// destroyed since. All events of a step are sorted by (step, time, shape_a, shape_b). Normals point from shape_a to shape_b.
 
 #include "carom/id.h"
 #include "carom/math.h"
@@ -23,6 +23,7 @@ struct ContactBeginEvent
     Position point{};
     Vec2 normal{};
     float time = 0; ///< within the step, s
+    int step = 0;   ///< which of those of the last Scene::update, from 0
 };
 
 /// Two shapes no longer touch; every begin has its end, also when a shape or body is destroyed or disabled.
@@ -33,6 +34,7 @@ struct ContactEndEvent
     BodyId body_a{};
     BodyId body_b{};
     float time = 0; ///< within the step, s
+    int step = 0;   ///< which of those of the last Scene::update, from 0
 };
 
 /// A collision. The terms of the impulse are given, so that it can be checked by hand:
@@ -51,6 +53,7 @@ struct ImpactEvent
     float friction_impulse = 0; ///< along perp(normal) on b, N s
     float energy_lost = 0;      ///< kinetic energy before minus after, J; negative where a kick added some
     float time = 0;             ///< within the step, s
+    int step = 0;               ///< which of those of the last Scene::update, from 0
     float speed_a = 0;          ///< m/s
     float speed_b = 0;          ///< m/s
     float effective_mass_a = 0; ///< kg; 0 means infinite
@@ -68,6 +71,7 @@ struct TriggerEvent
     BodyId trigger_body{};
     BodyId visitor_body{};
     float time = 0; ///< within the step, s
+    int step = 0;   ///< which of those of the last Scene::update, from 0
 };
 
 /// Called at the end of the step from the same events, in the order of the spans: contact begins, impacts, contact ends,

@@ -16,6 +16,7 @@
 #include "carom/step_report.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -87,6 +88,11 @@ struct SceneDef
     TaskHooks tasks{};
 };
 
+class Scene;
+
+/// Called by Scene::update before each of its steps.
+using BeforeStep = std::function<void(Scene&)>;
+
 /// What Scene::update did.
 struct UpdateResult
 {
@@ -144,9 +150,10 @@ public:
 
     /// Advances the scene by h seconds, h > 0. Not from inside a callback.
     const StepReport& step(float h);
-    /// Adds a frame's time to the scene's own accumulator and takes as many fixed steps as fit. Forces applied before
-    /// the call act in all of them.
-    UpdateResult update(float frame_time);
+    /// Adds a frame's time to the scene's own accumulator and takes as many fixed steps as fit. Events are those of all its steps, one step after the other, and
+    /// none where it takes no step. Forces applied since the last call act for the frame's time, at any frame rate; what of it no step covers yet acts in the next.
+    /// `before_step` is called before each step and may change the scene; forces that it applies act in that step.
+    UpdateResult update(float frame_time, const BeforeStep& before_step = {});
     [[nodiscard]] const StepReport& report() const;
     [[nodiscard]] std::uint64_t step_count() const;
     [[nodiscard]] double time() const; ///< s since the scene was made

@@ -230,11 +230,8 @@ void settle_bodies(StepContext& ctx)
                           settle_or_stir(ctx, body, sim);
                           if (sim.sleep_time >= time_to_sleep)
                               raise(any_tired);
-                          if (!ctx.scene.keep_forces)
-                          {
-                              sim.force = {};
-                              sim.torque = 0;
-                          }
+                          sim.force = {};
+                          sim.torque = 0;
                       });
     const bool looks = ctx.scene.def.sleeping && looks_for_islands(ctx);
     if (ctx.scratch.has_kinematic)

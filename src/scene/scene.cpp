@@ -68,6 +68,20 @@ bool Scene::is_valid(JointId id) const { return is_live(m_data->state, id); }
 
 namespace {
 
+void number_events(Events& events, int step)
+{
+    const auto number = [step](auto& list)
+    {
+        for (auto& e : list)
+            e.step = step;
+    };
+    number(events.begins);
+    number(events.ends);
+    number(events.impacts);
+    number(events.enters);
+    number(events.exits);
+}
+
 // Set while a step runs, also when a callback throws out of it.
 class InStep
 {
@@ -90,37 +104,10 @@ const StepReport& Scene::step(float h)
         return m_data->report;
     const InStep in_step(m_data->stepping);
     internal::step(*m_data, h);
+    if (m_data->frame_step > 0)
+        number_events(m_data->events, m_data->frame_step);
     Stopwatch().time(m_data->report.ms.events, [&] { run_callbacks(*m_data, *this); });
     return m_data->report;
-}
-
-UpdateResult Scene::update(float frame_time)
-{
-    const Checker check{"Scene::update"};
-    if (!check.not_negative("frame_time", frame_time) ||
-        !check.holds(!m_data->stepping, "the scene", "in a step", "callbacks must not step it"))
-        return {};
-    const SceneDef& def = m_data->def;
-    double& accumulator = m_data->state.accumulator;
-    const bool dropped = frame_time > def.max_frame_time;
-    accumulator += static_cast<double>(dropped ? def.max_frame_time : frame_time);
-    // A frame of exactly n steps gives n steps, whatever the rounding of the sum.
-    const double step_time = def.fixed_step;
-    const double rounding = 1e-6 * step_time;
-    UpdateResult result;
-    while (accumulator + rounding >= step_time)
-    {
-        accumulator -= step_time;
-        m_data->keep_forces = accumulator + rounding >= step_time;
-        step(def.fixed_step);
-        ++result.steps;
-    }
-    m_data->keep_forces = false;
-    accumulator = std::max(accumulator, 0.0);
-    if (dropped)
-        m_data->report.flags |= static_cast<std::uint32_t>(StepFlag::TimeDropped);
-    result.alpha = static_cast<float>(std::min(accumulator / step_time, 1.0));
-    return result;
 }
 
 const StepReport& Scene::report() const { return m_data->report; }

@@ -92,6 +92,8 @@ void Scene::destroy(BodyId id)
     while (state.bodies[slot].first_shape != none)
         destroy_shape(*m_data, state.bodies[slot].first_shape);
     leave_awake(*m_data, slot);
+    if (const auto index = static_cast<std::size_t>(slot); index < state.waiting_forces.size())
+        state.waiting_forces[index] = {};
     for (int other = 0; other < state.bodies.capacity() && !state.ignored.empty(); ++other)
         state.ignored.erase(pair_key(slot, other));
     state.bodies.destroy(slot);

@@ -165,6 +165,12 @@ std::uint64_t Scene::state_hash() const
             add(h, state.targets[static_cast<std::size_t>(i)].center);
             add(h, state.targets[static_cast<std::size_t>(i)].rotation);
         }
+        if (const auto index = static_cast<std::size_t>(i);
+            index < state.waiting_forces.size() && state.waiting_forces[index] != WaitingForce{})
+        {
+            add(h, state.waiting_forces[index].impulse);
+            h.add(state.waiting_forces[index].twist);
+        }
     }
     for (int i = 0; i < state.shapes.capacity(); ++i)
     {

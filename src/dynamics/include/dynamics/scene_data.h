@@ -92,7 +92,7 @@ struct SceneData
     int callback_count = 0; ///< shapes that have callbacks
     int law_count = 0;      ///< bodies that have a force law
     bool stepping = false;
-    bool keep_forces = false; ///< inside update(): forces act in every step of the frame
+    int frame_step = 0; ///< inside update(): which of its steps
 };
 
 } // namespace carom::internal

@@ -79,6 +79,17 @@ struct BodyTarget
     Rotation rotation{};
 };
 
+/// Of Scene::update: for the part of a frame that no step has covered yet, N s; and, while a frame is begun, its forces.
+struct WaitingForce
+{
+    Vec2 impulse{};
+    float twist = 0;
+    Vec2 force{};
+    float torque = 0;
+
+    friend constexpr bool operator==(const WaitingForce&, const WaitingForce&) = default;
+};
+
 namespace body_flag {
 inline constexpr std::uint32_t dynamic = 1;
 inline constexpr std::uint32_t flier = 2;     ///< in flight: moved by flight, not by the solver
@@ -331,6 +342,7 @@ struct SceneState
     std::vector<BodySim> sims;         ///< by body slot
     std::vector<std::uint64_t> colors; ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
     std::vector<BodyTarget> targets;   ///< by body slot, as far as any body has had one
+    std::vector<WaitingForce> waiting_forces; ///< likewise
     Pool<ShapeRecord> shapes;
     Pool<RareTraits> rare_traits;
     LeafStore leaf_store;
