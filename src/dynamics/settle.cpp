@@ -20,6 +20,7 @@ namespace {
 
 constexpr float creeping = 0.2f;      // of the sleep speed
 constexpr float creep_time = 0.5f;    // s
+constexpr float drift = 0.2f;         // of the sleep speed
 constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
 
 // Twice in the time it takes to fall asleep: to look in each step of 1/60 s costs a pile of which some never rest a twentieth.
@@ -60,6 +61,13 @@ float quiet_speed(const SceneState& state, const BodyRecord& record)
     return share * record.sleep_speed;
 }
 
+// Overlap is pushed out without a velocity: what still comes out is not at rest.
+bool is_pushed_out(const StepContext& ctx, const BodySim& sim, float limit)
+{
+    const Vec2 way = sim.center - sim.previous_center;
+    return length(way - ctx.dt * sim.velocity) > ctx.dt * limit;
+}
+
 // In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
 // may not sleep, because others move or sleeping is off.
 void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
@@ -72,7 +80,7 @@ void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
     }
     const BodyRecord& record = ctx.state.bodies[body];
     const float limit = quiet_speed(ctx.state, record);
-    const bool is_quiet = speed <= limit && record.can_sleep && !record.has_target;
+    const bool is_quiet = speed <= limit && record.can_sleep && !record.has_target && !is_pushed_out(ctx, sim, drift * limit);
     sim.sleep_time = is_quiet ? sim.sleep_time + ctx.dt : 0;
     if (sim.sleep_time >= time_to_sleep && speed < creeping * limit && record.type == BodyType::Dynamic &&
         bears_in_crowd(ctx, sim))
