@@ -1,3 +1,11 @@
+// With n the normal out of the touched leaf at p, and the neighbours within the tolerance of p:
+//
+//   goes_on(p, n)   some neighbour's surface lies ahead of p along n: the union has no such normal there
+//   exposed edges   of the touched leaf, near p, are those whose normal does not go on a little to either side
+//
+// The normal is real where it does not go on, or is that of an exposed edge. Else it is turned to the exposed edge before which the visitor has most room, without being
+// the way out on the leaf's far side; where nothing of the visitor is before such an edge, the neighbour has it.
+
 #include "collision/flush.h"
 
 #include "collision/hull.h"

@@ -62,7 +62,7 @@ struct FlushAnswer
 [[nodiscard]] FlushAnswer ask_flush(const LeafView& touched, const FlushNeighbours& neighbours, const LeafView& visitor,
                                     const RelativePose& pose, std::span<const Vec2> points, Vec2 n);
 
-/// Outward normal of an edge; -1 as edge: none.
+/// Outward, in the leaf's frame.
 [[nodiscard]] Vec2 edge_normal(const LeafView& leaf, int edge);
 
 /// Turns or empties a manifold of a and b by the neighbours of either. True where it is no longer what a and b alone have.
