@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// What happened in a step, or in all steps of Scene::update. Spans of events are valid until the next step or update; ids in them may be stale where the object was
-/// destroyed since. All events of a step are sorted by (step, time, shape_a, shape_b). Normals point from shape_a to shape_b.
+/// The events of a step, or of all steps of one Scene::update. Spans of events are valid until the next step or update; ids in
+/// them may be stale where the object was destroyed since. All events of a step are sorted by (step, time, shape_a, shape_b).
+/// Normals point from shape_a to shape_b.
 
 #include "carom/id.h"
 #include "carom/math.h"

@@ -44,7 +44,7 @@ Point rotated_back(Rotation q, Point p)
     return {r.x * p.x + r.y * p.y, r.x * p.y - r.y * p.x};
 }
 
-// Of a convex leaf, whatever its seams and sides.
+// The surface of a convex leaf by itself: seams and one-sidedness are left out.
 Surface<double> whole_surface(const LeafView& v, Point p)
 {
     const Leaf& leaf = *v.leaf;
@@ -201,7 +201,7 @@ private:
         return dot(n, wide(m_hull.point(edge)) - p) + static_cast<double>(m_hull.radius(edge));
     }
 
-    // Of what the visitor has before the edge.
+    // The least separation of the points that the visitor has before the edge.
     [[nodiscard]] std::optional<double> least_separation(int edge) const
     {
         LocalManifold m;

@@ -154,7 +154,7 @@ public:
         return sight;
     }
 
-    /// What the union of flush leaves says of a touch: turned, the sight has another normal; false where there is none.
+    /// Asks the union of flush leaves about a touch: false where a neighbour hides the touch; true otherwise, and the sight may have another normal.
     [[nodiscard]] bool keep_to_union(double t, Sight& sight, const LeafView& probe_leaf, const FlushNeighbours& of_probe,
                                      const FlushNeighbours& of_surface) const
     {

@@ -102,7 +102,8 @@ using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const Rel
 /// The whole contact of two leaves; an empty manifold where they do not meet.
 [[nodiscard]] LocalManifold collide(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin);
 
-/// What of b lies before an edge of a, a polygon, capsule or segment, or so far beyond its ends, with that edge's normal; empty where nothing does.
+/// Clips b to one edge of a (a polygon, capsule or segment), lengthened by `beyond` at both ends. The normal is that edge's; `out` is empty where
+/// no part of b lies before it.
 void clip_to_own_edge(const LeafView& a, int edge, const LeafView& b, const RelativePose& pose, float margin, float beyond,
                       LocalManifold& out);
 

@@ -95,7 +95,7 @@ struct Press
 
 struct FlushNeighbours;
 
-/// What lies flush with either leaf, if anything: see flush.h.
+/// The flush neighbours of either leaf; null where it has none. See flush.h.
 struct Flush
 {
     const FlushNeighbours* of_a = nullptr;
