@@ -208,8 +208,7 @@ private:
         clip_to_own_edge(m_touched, edge, m_visitor, m_pose, 3e38f, static_cast<float>(m_tolerance), m);
         if (m.count == 0)
             return std::nullopt;
-        const float least = m.count == 2 ? std::min(m.points[0].separation, m.points[1].separation) : m.points[0].separation;
-        return static_cast<double>(least);
+        return static_cast<double>(m.least_separation());
     }
 
     Hull m_hull;
@@ -324,9 +323,7 @@ bool keep_to_union(const LeafView& a, const FlushNeighbours& of_a, const LeafVie
             clip_to_own_edge(a, answer.edge, b, pose, margin, static_cast<float>(of_a.tolerance), own);
         else
             clip_to_own_edge(b, answer.edge, a, back, margin, static_cast<float>(of_b.tolerance), own);
-        const auto least = [](const LocalManifold& some)
-        { return some.count == 2 ? std::min(some.points[0].separation, some.points[1].separation) : some.points[0].separation; };
-        if (own.count == 0 || (turned.count > 0 && least(own) <= least(turned)))
+        if (own.count == 0 || (turned.count > 0 && own.least_separation() <= turned.least_separation()))
             return;
         turned = own;
         for (int i = 0; i < own.count && !by_a; ++i)

@@ -190,14 +190,6 @@ bool cores_cross(const Hull& a, const Hull& b)
 
 float edge_length(const Hull& hull, int edge) { return length(hull.point(hull.next(edge)) - hull.point(edge)); }
 
-float least_separation(const LocalManifold& m)
-{
-    float least = 3e38f;
-    for (int i = 0; i < m.count; ++i)
-        least = std::min(least, m.points[i].separation);
-    return least;
-}
-
 // Does the lowest point of the other face the edge between its ends? Then nothing is nearer: no axis tells of more room than there is, and here all
 // of it is.
 bool faces_edge(const Hull& reference, const Hull& incident, const FaceAxis& axis)
@@ -245,7 +237,7 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
     if (!apart || nearest.separation <= axis.separation + tolerance)
         clip_to_edge({reference, incident, flipped}, axis.edge, margin, out);
     // Clipping may also cut off the very corner that is nearest.
-    if (apart && nearest.separation <= margin && (out.count == 0 || least_separation(out) > nearest.separation + tolerance))
+    if (apart && nearest.separation <= margin && (out.count == 0 || out.least_separation() > nearest.separation + tolerance))
     {
         out.count = 0;
         out.clipped.radius = -1;

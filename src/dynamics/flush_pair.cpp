@@ -1,6 +1,5 @@
 #include "dynamics/flush_pair.h"
 
-#include "collision/time_of_impact.h"
 #include "dynamics/body_store.h"
 #include "dynamics/contact_update.h"
 

@@ -69,6 +69,14 @@ struct LocalManifold
     Vec2 parting{};
     bool is_of_union = false; ///< flush neighbours have turned or emptied it
 
+    /// The lowest point's separation, m; 3e38 without a point.
+    [[nodiscard]] float least_separation() const
+    {
+        const float first = count > 0 ? points[0].separation : 3e38f;
+        const float second = count > 1 ? points[1].separation : 3e38f;
+        return second < first ? second : first;
+    }
+
     void part(Vec2 direction, float separation)
     {
         parting = direction;
