@@ -32,7 +32,8 @@ struct SpringDef
 };
 
 /// Keeps the distance of two points between min_length and max_length: a rod where they are equal, a rope where
-/// min_length is 0. With hertz > 0 the limits give like a spring.
+/// min_length is 0. With hertz > 0 the limits give like a spring, of stiffness m (2 pi hertz)²; m is the reduced mass of the
+/// two bodies, 1 / (1 / m_a + 1 / m_b).
 struct DistanceDef
 {
     BodyId body_a{};
@@ -48,6 +49,11 @@ struct DistanceDef
 };
 
 /// A hinge. The joint's angle is angle_b - angle_a - reference_angle.
+///
+/// The spring's stiffness is J (2 pi spring_hertz)² in N m/rad, its damping 2 spring_damping_ratio J (2 pi spring_hertz) in
+/// N m s/rad. J is the inertia of the two bodies about the hinge: I + m r² of a body that hangs on the world, or
+/// 1 / (1 / J_a + 1 / J_b). A bar that hangs on the world so swings at spring_hertz; under a torque it gives by torque / stiffness.
+/// Springs, motors and limits are stable at any stiffness and step.
 struct RevoluteDef
 {
     BodyId body_a{};
@@ -70,6 +76,10 @@ struct RevoluteDef
 };
 
 /// A slider along axis_a (in body a's frame). The joint's translation is how far anchor_b is ahead of anchor_a.
+///
+/// The spring's stiffness is m (2 pi spring_hertz)² in N/m, its damping 2 spring_damping_ratio m (2 pi spring_hertz) in N s/m. m is
+/// the reduced mass of the two bodies, 1 / (1 / m_a + 1 / m_b): nearly that of the lighter one. The wheel of a car is much lighter than
+/// what it carries; for a suspension that sags by d under a load F take spring_hertz = sqrt(F / (d m)) / (2 pi).
 struct PrismaticDef
 {
     BodyId body_a{};

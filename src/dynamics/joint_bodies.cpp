@@ -1,6 +1,7 @@
 #include "dynamics/joint_bodies.h"
 
 #include "core/trigonometry.h"
+#include "dynamics/joint_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,11 +85,39 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
         work.pose = has_angle(joint) ? joint_pose(work, a, b) : place_anchors(work, a, b);
         work.rows.clear();
         place_rows(joint, work.pose, view.h, work.rows);
-        if (work.rows.free_count == 0)
-            continue;
-        work.rows.inverse_mass = JointBodies(view, work).couple(work.rows.axis, work.rows.axis);
-        work.rows.mass = work.rows.inverse_mass > 0 ? 1 / work.rows.inverse_mass : 0;
+        if (work.rows.has_axis())
+            weigh_axis(JointBodies(view, work), work.rows);
     }
+}
+
+// k - c^T K^-1 c, with K of the held rows and c their coupling with the axis.
+void weigh_axis(const JointBodies& bodies, JointRows& rows)
+{
+    rows.axis_inverse_mass = bodies.couple(rows.axis, rows.axis);
+    if (rows.held_count == 0)
+        return;
+    const JointRow& x = rows.held[0];
+    const JointRow& y = rows.held[1];
+    const float cx = bodies.couple(x, rows.axis);
+    const float k11 = bodies.couple(x, x);
+    if (rows.held_count == 1)
+    {
+        rows.reaction[0] = k11 > 0 ? -cx / k11 : 0;
+    }
+    else
+    {
+        const float cy = bodies.couple(y, rows.axis);
+        const float k12 = bodies.couple(x, y);
+        const float k22 = bodies.couple(y, y);
+        const float det = k11 * k22 - k12 * k12;
+        if (det > 1e-6f * k11 * k22)
+        {
+            rows.reaction[0] = (k12 * cy - k22 * cx) / det;
+            rows.reaction[1] = (k12 * cx - k11 * cy) / det;
+        }
+        rows.axis_inverse_mass += rows.reaction[1] * cy;
+    }
+    rows.axis_inverse_mass = std::max(rows.axis_inverse_mass + rows.reaction[0] * cx, 0.0f);
 }
 
 JointErrors JointWork::errors() const
@@ -96,11 +125,10 @@ JointErrors JointWork::errors() const
     JointErrors found{};
     for (int i = 0; i < rows.held_count; ++i)
         found[static_cast<std::size_t>(i)] = rows.held[i].error;
-    for (const FreeRow& row : rows.acts())
-    {
-        if (row.kind == FreeKind::Limit)
-            found[row.slot == slot_upper ? 3 : 2] = std::min(row.error, 0.0f);
-    }
+    if (rows.acts.has_lower)
+        found[2] = std::min(rows.acts.lower_error, 0.0f);
+    if (rows.acts.has_upper)
+        found[3] = std::min(rows.acts.upper_error, 0.0f);
     return found;
 }
 
@@ -141,6 +169,13 @@ bool loses_energy(const JointRecord& joint)
         return false;
     const bool brakes = joint.enable_motor && joint.motor_speed == 0 && joint.max_motor > 0;
     return brakes || (joint.hertz > 0 && joint.damping_ratio >= 0.1f);
+}
+
+int most_rows_of(const JointRecord& joint)
+{
+    if (joint.kind == JointType::Spring)
+        return 0;
+    return joint.kind == JointType::Distance ? 1 : only_holds(joint) ? 2 : most_joint_rows;
 }
 
 bool has_angle(const JointRecord& joint)

@@ -1,17 +1,20 @@
-// What the joints of a small unit hold, all at once. One row after the other they never agree: a double pendulum loses 6 % of its energy in
-// a minute.
+// The joints of a small island, all at once. One row after the other they never agree: a double pendulum loses 6 % of its energy in a minute.
 //
 //   C_i = error of row i at the pose that the present velocities lead to
-//   sum over j of J_i M^-1 J_j^T lambda_j = -C_i / h,  two Newton passes; in the relaxation J v = 0 at the pose reached
+//   sum over j of J_i M^-1 J_j^T lambda_j = -C_i / h,  by Newton's method; in the relaxation J v = 0 at the pose reached
 //
-// With the drift along parabolas that is the RATTLE integrator, which neither gains nor loses energy. The joints are ordered into a forest
-// (joint_forest.h), which makes the system short work (joint_matrix.cpp). Loops would make it singular: soft rows take those.
+// With the drift along parabolas that is the RATTLE integrator, which neither gains nor loses energy. joint_matrix.cpp solves the equations.
+//
+// A free axis has a row too. Its law (joint_axis.h) is linear in pieces: along each the row keeps a rate, gives a known impulse, or has the compliance
+// of a spring. All are solved with the pieces that they seem to be on, until each is on the one that its law has at the rate and impulse found: an
+// active-set method. Springs, motors and stops so know the whole mechanism, at any stiffness and number of joints.
 //
 // A load that stretches a body between its joints makes it swing like a taut string, with omega² = f · r / I for the pull f at the arm r. A
 // sub-step can follow that only while omega h is below 1: beyond it the body counts as harder to turn, just so far.
 
 #include "dynamics/joint_direct.h"
 
+#include "core/index.h"
 #include "dynamics/scene_data.h"
 
 #include <algorithm>
@@ -25,19 +28,20 @@ namespace carom::internal {
 namespace {
 
 constexpr float most_stretch = 1; // (omega h)²
+constexpr int newton_steps = 2;
+constexpr int most_newton_steps = 6;
+constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
+constexpr int rounds_of_all = 8;   // of the active set; then axes change one at a time, which ends
+constexpr int most_rounds = 64;
+constexpr double loop_compliance = 1e-3; // of a row's weight
+constexpr double most_compliance = 0.4;
+constexpr double same_rate = 1e-6;
 
 double as_double(float x) { return static_cast<double>(x); }
 
 Triple as_triple(Vec2 v, float turn) { return {as_double(v.x), as_double(v.y), as_double(turn)}; }
 
 Triple velocity(const BodyState& s) { return as_triple(s.velocity, s.angular_velocity); }
-
-// J^T impulse, of the rows at one body.
-Triple momentum(const Triple (&rows)[2], const RowPair& impulse)
-{
-    return {rows[0].x * impulse.x + rows[1].x * impulse.y, rows[0].y * impulse.x + rows[1].y * impulse.y,
-            rows[0].turn * impulse.x + rows[1].turn * impulse.y};
-}
 
 // 0 and -0 differ.
 bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
@@ -51,19 +55,22 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
     m_joints = joints;
     m_turns_too_far = false;
     if (std::exchange(m_looks_again, false))
-        m_is_forest = find_forest() && !m_links.empty();
-    m_ready = m_is_forest;
-    if (!m_ready)
-        return;
-    if (place())
-        m_is_regular = m_matrix.factor(m_forest.joints(), m_jacobians, m_masses);
-    m_ready = m_is_regular;
+        m_fits = find_edges() && !m_edges.empty();
+    m_ready = m_fits;
+    if (m_ready && place())
+    {
+        m_matrix.fill(m_jacobians, m_masses);
+        m_factored_with = -1;
+    }
+    if (m_ready && m_matrix.has_loops())
+        m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0,
+                                 most_compliance / loop_compliance);
 }
 
-// --- who hangs on whom --------------------------------------------------------------------------------------------------------------
+// --- who is connected with whom -----------------------------------------------------------------------------------------------------
 
 // It keeps through the step, but where a body takes off or lands.
-bool DirectSolve::find_forest()
+bool DirectSolve::find_edges()
 {
     m_found.clear();
     int rows = 0;
@@ -71,52 +78,60 @@ bool DirectSolve::find_forest()
     {
         const JointWork& work = m_joints[i];
         const int held = work.rows.held_count;
-        if (held == 0 || is_in_flight(m_view, work))
+        const bool has_axis = work.rows.has_axis();
+        if ((held == 0 && !has_axis) || is_in_flight(m_view, work))
             continue;
-        rows += held;
+        rows += held + (has_axis ? 1 : 0);
         if (rows > most_rows)
             return false;
-        m_found.push_back({static_cast<int>(i), held, moving(work.a), moving(work.b)});
+        m_found.push_back({i, moving(work.a), moving(work.b), held, has_axis});
     }
-    if (m_found != m_links)
+    if (m_found != m_edges)
         lay_out();
-    return !m_has_loops;
+    return true;
 }
 
 void DirectSolve::lay_out()
 {
-    m_links = m_found;
-    m_has_loops = !m_forest.build(m_links);
-    if (m_has_loops)
-        return;
+    m_edges = m_found;
     m_is_new = true;
-    m_matrix.lay_out(m_forest.joints());
+    std::vector<std::int32_t> states{none}; // the ground
+    for (const Edge& e : m_edges)
+        states.insert(states.end(), {e.a, e.b});
+    std::ranges::sort(states);
+    states.erase(std::ranges::unique(states).begin(), states.end());
     m_nodes.clear();
-    for (const std::int32_t state : m_forest.bodies())
+    for (const std::int32_t state : states)
         m_nodes.push_back({.state = state});
     m_masses.assign(m_nodes.size(), {});
-    m_held.clear();
-    m_jacobians.clear();
-    for (const JointForest::Joint& joint : m_forest.joints())
+
+    std::vector<JointMatrix::Edge> edges;
+    for (const Edge& e : m_edges)
+        edges.push_back({node_of(e.a), node_of(e.b), e.held + (e.has_axis ? 1 : 0)});
+    m_matrix.lay_out(edges, static_cast<int>(m_nodes.size()));
+    m_items.clear();
+    for (std::size_t i = 0; i < m_edges.size(); ++i)
     {
-        const JointForest::Link& link = m_links[static_cast<std::size_t>(joint.link)];
-        const bool a_is_up = node(joint.up).state == link.a;
-        Held& held = m_held.emplace_back();
-        held.joint = static_cast<std::size_t>(link.joint);
-        held.rows = link.rows;
-        held.up = joint.up;
-        held.down = joint.down;
-        held.a = a_is_up ? joint.up : joint.down;
-        held.b = a_is_up ? joint.down : joint.up;
-        m_jacobians.push_back({{}, {}, link.rows});
+        Item& item = m_items.emplace_back();
+        item.joint = m_edges[i].joint;
+        item.held = m_edges[i].held;
+        item.first_row = m_matrix.first_row(i);
+        item.a = edges[i].a;
+        item.b = edges[i].b;
     }
-    m_residual.resize(m_held.size());
-    m_impulse.resize(m_held.size());
+    m_jacobians.assign(m_items.size(), {});
+    for (std::vector<double>* values : {&m_compliances, &m_wanted_compliances, &m_speeds, &m_impulses})
+        values->assign(as_index(m_matrix.rows()), 0);
 }
 
 std::int32_t DirectSolve::moving(std::int32_t state) const
 {
     return (m_view.states[state].flags & body_flag::dynamic) != 0 ? state : none;
+}
+
+int DirectSolve::node_of(std::int32_t state) const
+{
+    return static_cast<int>(std::ranges::lower_bound(m_nodes, state, {}, &Node::state) - m_nodes.begin());
 }
 
 // --- where they are -----------------------------------------------------------------------------------------------------------------
@@ -128,22 +143,26 @@ bool DirectSolve::place()
         n.stretch = 0;
     bool changed = std::exchange(m_is_new, false);
     float longest = 0;
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    for (std::size_t i = 0; i < m_items.size(); ++i)
     {
-        Held& held = m_held[i];
-        held.work = &m_joints[held.joint];
-        held.record = &m_state->joints[held.work->joint];
-        const JointPose& pose = held.work->pose;
+        Item& item = m_items[i];
+        item.work = &m_joints[item.joint];
+        item.record = &m_state->joints[item.work->joint];
+        const JointPose& pose = item.work->pose;
         longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb), dot(pose.gap, pose.gap)});
-        note_stretch(held);
-        if (held.take_lines())
+        note_stretch(item);
+        if (item.take_lines())
         {
-            fill_jacobian(held, m_jacobians[i]);
+            fill_jacobian(item, m_jacobians[i]);
             changed = true;
         }
     }
     m_longest_arm = std::sqrt(longest);
-    for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
+    double stretch = 1;
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
+        stretch = std::max(stretch, as_double(m_nodes[i].stretch));
+    m_softening = stretch * stretch * stretch;
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
     {
         const Triple old = std::exchange(m_masses[i], inverse_mass(m_nodes[i]));
         changed |= m_masses[i] != old;
@@ -151,41 +170,58 @@ bool DirectSolve::place()
     return changed;
 }
 
+// By which the rows have given way, under the impulses that they bear.
+double DirectSolve::present_compliance() const
+{
+    double rate = 0;
+    double impulse = 0;
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            const double weight = m_matrix.weight(item.first_row + r);
+            rate = std::max(rate, weight > 0 ? std::fabs(as_double(m_view.inverse_h * item.row(r).error)) / weight : 0);
+            impulse = std::max(impulse, std::fabs(as_double(item.impulse(r))));
+        }
+    }
+    return impulse > 0 ? rate / impulse : 0;
+}
+
 // True where they are others than before, to the last bit.
-bool DirectSolve::Held::take_lines()
+bool DirectSolve::Item::take_lines()
 {
     bool changed = false;
-    for (int r = 0; r < rows; ++r)
+    for (int r = 0; r < rows(); ++r)
     {
-        const JointRow& row = work->rows.held[r];
+        const JointRow& now = row(r);
         Line& line = lines[r];
-        changed |= !is_same(row.d.x, line.d.x) || !is_same(row.d.y, line.d.y) || !is_same(row.arm_a, line.arm_a) ||
-                   !is_same(row.arm_b, line.arm_b);
-        line = {row.d, row.arm_a, row.arm_b};
+        changed |= !is_same(now.d.x, line.d.x) || !is_same(now.d.y, line.d.y) || !is_same(now.arm_a, line.arm_a) ||
+                   !is_same(now.arm_b, line.arm_b);
+        line = {now.d, now.arm_a, now.arm_b};
     }
     return changed;
 }
 
-void DirectSolve::fill_jacobian(const Held& held, JointJacobian& jacobian) const
+void DirectSolve::fill_jacobian(const Item& item, JointJacobian& jacobian) const
 {
-    Triple(&at_a)[2] = held.a == held.up ? jacobian.up : jacobian.down;
-    Triple(&at_b)[2] = held.a == held.up ? jacobian.down : jacobian.up;
-    for (int r = 0; r < held.rows; ++r)
+    for (int r = 0; r < item.rows(); ++r)
     {
-        const Line& line = held.lines[r];
-        at_a[r] = as_triple(-line.d, -line.arm_a);
-        at_b[r] = as_triple(line.d, line.arm_b);
+        const Line& line = item.lines[r];
+        jacobian.a[r] = as_triple(-line.d, -line.arm_a);
+        jacobian.b[r] = as_triple(line.d, line.arm_b);
     }
 }
 
-void DirectSolve::note_stretch(const Held& held)
+void DirectSolve::note_stretch(const Item& item)
 {
-    const JointWork& work = *held.work;
+    const JointWork& work = *item.work;
     Vec2 pull{}; // on b, over a sub-step
     for (const JointRow& row : work.rows.holds())
-        pull += held.record->impulses[row.slot] * row.d;
-    node(held.a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, work.pose.ra);
-    node(held.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
+        pull += item.record->impulses[row.slot] * row.d;
+    if (work.rows.has_axis())
+        pull += axis_impulse(*item.record) * work.rows.axis.d;
+    node(item.a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, work.pose.ra);
+    node(item.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
 }
 
 Triple DirectSolve::inverse_mass(const Node& node) const
@@ -199,27 +235,12 @@ Triple DirectSolve::inverse_mass(const Node& node) const
 
 void DirectSolve::solve(bool use_bias)
 {
-    if (!use_bias || !find_pose_ahead())
-        keep_together();
-}
-
-void DirectSolve::keep_together()
-{
+    if (use_bias && find_pose_ahead())
+        return;
     note_speeds();
-    find_impulses();
-    apply();
-}
-
-// A blow, not a load: it is no part of what the rows are warm started with.
-void DirectSolve::take_forbidden_speeds()
-{
-    note_speeds();
-    find_impulses();
-    for (std::size_t i = 0; i < m_held.size(); ++i)
-    {
-        push(i, m_impulse[i]);
-        m_held[i].note_blow(m_joints[m_held[i].joint], m_impulse[i]);
-    }
+    find_impulses(Stage::Now);
+    take_velocities();
+    take_impulses();
 }
 
 // Newton's steps lead nowhere where a sub-step turns a body so far that no straight way ends in the right place.
@@ -231,43 +252,90 @@ bool DirectSolve::find_pose_ahead()
         start_anew();
         note_errors_ahead();
     }
-    const double before = largest_error();
+    const bool gives = m_matrix.has_loops();
+    double before = largest_error();
     m_turns_too_far = before > 1;
-    if (m_turns_too_far)
+    if (m_turns_too_far && !gives)
         return false;
-    find_impulses();
-    apply();
-    note_errors_ahead();
-    const double after = largest_error();
-    m_turns_too_far = after > 0.5 * before && after > 1e-3;
-    if (m_turns_too_far)
+    for (;;)
     {
-        apply(-1); // taken back
-        return false;
+        find_impulses(Stage::Ahead);
+        const double turn = largest_turn();
+        take_velocities();
+        take_impulses();
+        note_errors_ahead();
+        const double after = largest_error();
+        m_turns_too_far = after > 0.5 * std::max(before, turn) && after > 1e-3;
+        const double most_softening = most_compliance / loop_compliance;
+        if (!m_turns_too_far || (gives && m_softening >= most_softening))
+            break;
+        take_back();
+        if (!gives)
+            return false;
+        m_softening = std::min(16 * m_softening, most_softening);
+        note_errors_ahead();
     }
-    find_impulses();
-    apply();
+    m_turns_too_far = false;
+    double left = largest_error();
+    for (int i = 1; i < newton_steps || (i < most_newton_steps && left > converged); ++i)
+    {
+        find_impulses(Stage::Ahead);
+        take_velocities();
+        take_impulses();
+        note_errors_ahead();
+        const double before_this = std::exchange(left, largest_error());
+        if (i >= newton_steps && left > 0.5 * before_this)
+        { // they lead nowhere from here on
+            take_back();
+            break;
+        }
+    }
     return true;
 }
 
-// --- errors, speeds, impulses -------------------------------------------------------------------------------------------------------
+// Blows, not loads: they are no part of what the rows are warm started with.
+void DirectSolve::take_forbidden_speeds()
+{
+    note_speeds();
+    find_impulses(Stage::Held);
+    take_velocities();
+    tell_as_blow();
+}
+
+void DirectSolve::bounce()
+{
+    note_speeds();
+    find_impulses(Stage::Now);
+    take_velocities();
+    tell_as_blow();
+}
+
+// --- errors and speeds --------------------------------------------------------------------------------------------------------------
 
 void DirectSolve::note_errors_ahead()
 {
-    for (std::size_t i = JointForest::ground + 1; i < m_nodes.size(); ++i)
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
         m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    for (const Item& item : m_items)
     {
-        const Held& held = m_held[i];
-        const Vec2 error = held_error(*held.record, *held.work, ahead_of(held.a, held.work->a), ahead_of(held.b, held.work->b));
-        m_residual[i] = {as_double(m_view.inverse_h) * as_double(error.x), as_double(m_view.inverse_h) * as_double(error.y)};
+        const JointWork& work = *item.work;
+        const Placement a = ahead_of(item.a, work.a);
+        const Placement b = ahead_of(item.b, work.b);
+        const Vec2 error = held_error(*item.record, work, a, b);
+        for (int r = 0; r < item.held; ++r)
+            m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(r == 0 ? error.x : error.y);
+        if (work.rows.has_axis())
+        {
+            const float way = axis_coordinate(*item.record, joint_pose(work, a, b)) - axis_coordinate(*item.record, work.pose);
+            m_speeds[as_index(item.first_row + item.held)] = as_double(m_view.inverse_h) * as_double(way);
+        }
     }
 }
 
-// Of all that does not move there is one node; but what is kinematic has a way.
+// All that does not move is one node; but a kinematic body has a way.
 Placement DirectSolve::ahead_of(int node, std::int32_t state) const
 {
-    return node == JointForest::ground ? placed_ahead(m_view, state) : m_nodes[static_cast<std::size_t>(node)].ahead;
+    return node == JointMatrix::ground ? placed_ahead(m_view, state) : m_nodes[as_index(node)].ahead;
 }
 
 // In units of the longest arm, or rad.
@@ -275,135 +343,308 @@ double DirectSolve::largest_error() const
 {
     double length = 0;
     double angle = 0;
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    for (const Item& item : m_items)
     {
-        length = std::max(length, std::fabs(m_residual[i].x));
-        double& second = m_held[i].work->rows.held[1].slot == slot_lock ? angle : length;
-        second = std::max(second, std::fabs(m_residual[i].y));
+        for (int r = 0; r < item.held; ++r)
+        {
+            double& largest = item.row(r).slot == slot_lock ? angle : length;
+            largest = std::max(largest, std::fabs(m_speeds[as_index(item.first_row + r)]));
+        }
+        if (item.work->rows.has_axis())
+        {
+            double& largest = item.row(item.held).d == Vec2{} ? angle : length;
+            const double way = as_double(m_view.h) * m_speeds[as_index(item.first_row + item.held)];
+            largest = std::max(largest, as_double(m_view.inverse_h) * item.work->rows.acts.comes_beyond(way));
+        }
     }
-    const double in_arms = length > 0 ? length / as_double(m_longest_arm) : 0;
+    const double in_arms = m_longest_arm > 0 ? length / as_double(m_longest_arm) : 0;
     return as_double(m_view.h) * std::max(in_arms, angle);
+}
+
+// By which an axis turns its bodies in the sub-step, in rad: what is held then errs by the square of it.
+double DirectSolve::largest_turn() const
+{
+    double turn = 0;
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        if (item.work->rows.axis.d == Vec2{})
+            turn = std::max(turn, as_double(m_view.h) * std::fabs(change_along(item, item.held)));
+    }
+    return turn;
 }
 
 void DirectSolve::note_speeds()
 {
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    for (std::size_t i = 0; i < m_items.size(); ++i)
     {
-        const JointJacobian& j = m_jacobians[i];
-        const Held& held = m_held[i];
-        const Triple up = velocity(m_view.states[held.a == held.up ? held.work->a : held.work->b]);
-        const Triple down = velocity(m_view.states[held.a == held.up ? held.work->b : held.work->a]);
-        m_residual[i] = {dot(j.up[0], up) + dot(j.down[0], down), dot(j.up[1], up) + dot(j.down[1], down)};
+        const Item& item = m_items[i];
+        const Triple a = velocity(m_view.states[item.work->a]);
+        const Triple b = velocity(m_view.states[item.work->b]);
+        for (int r = 0; r < item.rows(); ++r)
+            m_speeds[as_index(item.first_row + r)] = dot(m_jacobians[i].a[r], a) + dot(m_jacobians[i].b[r], b);
     }
 }
 
-void DirectSolve::find_impulses()
+// --- impulses -----------------------------------------------------------------------------------------------------------------------
+
+void DirectSolve::find_impulses(Stage stage)
 {
-    for (std::size_t i = 0; i < m_residual.size(); ++i)
-        m_impulse[i] = {-m_residual[i].x, -m_residual[i].y};
-    m_matrix.solve(m_impulse);
+    begin_axes(stage);
+    for (int round = 0;; ++round)
+    {
+        solve_pieces();
+        if (!take_next_pieces(round < rounds_of_all))
+            return;
+        if (round == most_rounds)
+            break;
+    }
+    give_up_on_pieces();
+    solve_pieces();
 }
 
-void DirectSolve::apply(double sign)
+void DirectSolve::begin_axes(Stage stage)
 {
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    m_compliance = !m_matrix.has_loops() ? 0 : stage == Stage::Ahead ? loop_compliance * m_softening : loop_compliance;
+    m_leak = stage == Stage::Ahead ? m_compliance : 0;
+    m_axes.clear();
+    for (std::size_t i = 0; i < m_items.size(); ++i)
     {
-        const RowPair impulse = {sign * m_impulse[i].x, sign * m_impulse[i].y};
-        push(i, impulse);
-        m_held[i].add(impulse);
+        const Item& item = m_items[i];
+        const JointRows& rows = item.work->rows;
+        if (!rows.has_axis())
+            continue;
+        Axis& axis = m_axes.emplace_back();
+        axis.item = i;
+        axis.row = item.first_row + item.held;
+        axis.restore = axis_impulses(*item.record);
+        if (stage == Stage::Held)
+            continue;
+        axis.law = stage == Stage::Ahead ? rows.acts.law_ahead(item.work->spring, m_view.h)
+                                         : rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
+        axis.before = axis.law.scope.sum(axis.restore);
+        const double k = as_double(rows.axis_inverse_mass);
+        axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] - k * axis.before, k);
+    }
+}
+
+// With every axis on its piece.
+void DirectSolve::solve_pieces()
+{
+    std::ranges::fill(m_wanted_compliances, 0);
+    for (const Axis& axis : m_axes)
+    {
+        if (!axis.piece.keeps_rate())
+            m_wanted_compliances[as_index(axis.row)] =
+                axis.piece.spring.is_there() ? axis.piece.spring.compliance : JointMatrix::off;
+    }
+    if (m_factored_with != m_compliance || m_wanted_compliances != m_compliances)
+    {
+        m_compliances.swap(m_wanted_compliances);
+        m_matrix.factor(m_compliances, m_compliance);
+        m_factored_with = m_compliance;
+    }
+    give_known_impulses();
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            const int row = item.first_row + r;
+            m_impulses[as_index(row)] =
+                -(m_speeds[as_index(row)] + change_along(item, r)) - m_leak * m_matrix.weight(row) * as_double(item.impulse(r));
+        }
+    }
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        const double speed = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        double& wanted = m_impulses[as_index(axis.row)];
+        const SpringLine& spring = axis.piece.spring;
+        if (axis.piece.keeps_rate())
+            wanted = axis.piece.rate - speed;
+        else if (spring.is_there())
+            wanted = spring.rest - speed - spring.compliance * (axis.before - axis.piece.constant);
+        else
+            wanted = 0;
+    }
+    m_matrix.solve(m_impulses);
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            push(item, r, m_impulses[as_index(item.first_row + r)]);
+    }
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        if (m_compliances[as_index(axis.row)] == JointMatrix::off)
+            m_impulses[as_index(axis.row)] = axis.piece.constant - axis.before;
+        else
+            push(item, item.held, m_impulses[as_index(axis.row)]);
+    }
+}
+
+// Of axes that do not depend on the rate.
+void DirectSolve::give_known_impulses()
+{
+    for (Node& n : m_nodes)
+        n.change = {};
+    for (const Axis& axis : m_axes)
+    {
+        if (m_compliances[as_index(axis.row)] == JointMatrix::off)
+            push(m_items[axis.item], m_items[axis.item].held, axis.piece.constant - axis.before);
+    }
+}
+
+// False where all are where they should be.
+bool DirectSolve::take_next_pieces(bool all)
+{
+    bool changed = false;
+    for (Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        const double k = as_double(item.work->rows.axis_inverse_mass);
+        const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        const AxisPiece next = axis.law.solve(rate - k * (axis.before + m_impulses[as_index(axis.row)]), k);
+        if (std::fabs(next.rate - rate) <= same_rate * std::max(1.0, std::fabs(rate)))
+            continue;
+        axis.piece = next;
+        changed = true;
+        if (!all)
+            return true;
+    }
+    return changed;
+}
+
+// Each gives what its law allows of what it has found.
+void DirectSolve::give_up_on_pieces()
+{
+    for (Axis& axis : m_axes)
+    {
+        const double found = axis.before + m_impulses[as_index(axis.row)];
+        axis.piece.constant = axis.law.split(axis.piece, found, axis.piece.rate).sum();
+        axis.piece.spring = {};
+        axis.piece.kind = AxisPiece::Kind::Free;
+    }
+}
+
+void DirectSolve::push(const Item& item, int row, double impulse)
+{
+    const JointJacobian& j = m_jacobians[static_cast<std::size_t>(&item - m_items.data())];
+    if (item.a != JointMatrix::ground)
+        node(item.a).change += impulse * product(m_masses[as_index(item.a)], j.a[row]);
+    if (item.b != JointMatrix::ground)
+        node(item.b).change += impulse * product(m_masses[as_index(item.b)], j.b[row]);
+}
+
+double DirectSolve::change_along(const Item& item, int row) const
+{
+    const JointJacobian& j = m_jacobians[static_cast<std::size_t>(&item - m_items.data())];
+    return dot(j.a[row], node(item.a).change) + dot(j.b[row], node(item.b).change);
+}
+
+void DirectSolve::take_velocities(double sign)
+{
+    for (const Node& n : m_nodes)
+    {
+        if (n.state == none)
+            continue;
+        BodyState& s = m_view.states[n.state];
+        s.velocity += Vec2{static_cast<float>(sign * n.change.x), static_cast<float>(sign * n.change.y)};
+        s.angular_velocity += static_cast<float>(sign * n.change.turn);
+    }
+}
+
+void DirectSolve::take_impulses()
+{
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            item.impulse(r) += static_cast<float>(m_impulses[as_index(item.first_row + r)]);
+    }
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        const AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate);
+        set_axis_impulses(*item.record, axis.law.scope.merge(axis.restore, now));
+    }
+}
+
+void DirectSolve::take_back()
+{
+    take_velocities(-1);
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            item.impulse(r) -= static_cast<float>(m_impulses[as_index(item.first_row + r)]);
+    }
+    for (const Axis& axis : m_axes)
+        set_axis_impulses(*m_items[axis.item].record, axis.restore);
+}
+
+void DirectSolve::tell_as_blow()
+{
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.rows(); ++r)
+            m_joints[item.joint].add(item.row(r), static_cast<float>(m_impulses[as_index(item.first_row + r)]));
     }
 }
 
 void DirectSolve::warm_start()
 {
-    for (std::size_t i = 0; i < m_held.size(); ++i)
-        push(i, m_held[i].impulses());
+    for (Node& n : m_nodes)
+        n.change = {};
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            push(item, r, as_double(item.impulse(r)));
+        if (item.work->rows.has_axis())
+            push(item, item.held, as_double(axis_impulse(*item.record)));
+    }
+    take_velocities();
 }
 
 void DirectSolve::start_anew()
 {
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    for (Node& n : m_nodes)
+        n.change = {};
+    for (const Item& item : m_items)
     {
-        const RowPair old = m_held[i].impulses();
-        push(i, {-old.x, -old.y});
-        m_held[i].add({-old.x, -old.y});
+        for (int r = 0; r < item.held; ++r)
+            push(item, r, -as_double(std::exchange(item.impulse(r), 0.0f)));
+        if (item.work->rows.has_axis())
+        {
+            push(item, item.held, -as_double(axis_impulse(*item.record)));
+            set_axis_impulses(*item.record, {});
+        }
     }
-}
-
-float& DirectSolve::Held::impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
-
-RowPair DirectSolve::Held::impulses() const { return {as_double(impulse(0)), rows == 2 ? as_double(impulse(1)) : 0}; }
-
-void DirectSolve::Held::add(const RowPair& change) const
-{
-    impulse(0) += static_cast<float>(change.x);
-    if (rows == 2)
-        impulse(1) += static_cast<float>(change.y);
-}
-
-void DirectSolve::Held::note_blow(JointWork& told, const RowPair& impulse) const
-{
-    told.add(work->rows.held[0], static_cast<float>(impulse.x));
-    if (rows == 2)
-        told.add(work->rows.held[1], static_cast<float>(impulse.y));
-}
-
-void DirectSolve::push(std::size_t joint, const RowPair& impulse)
-{
-    push(m_held[joint].up, momentum(m_jacobians[joint].up, impulse));
-    push(m_held[joint].down, momentum(m_jacobians[joint].down, impulse));
-}
-
-void DirectSolve::push(int body, const Triple& momentum)
-{
-    if (body == JointForest::ground)
-        return;
-    const Triple change = product(m_masses[static_cast<std::size_t>(body)], momentum);
-    BodyState& s = m_view.states[node(body).state];
-    s.velocity += Vec2{static_cast<float>(change.x), static_cast<float>(change.y)};
-    s.angular_velocity += static_cast<float>(change.turn);
+    take_velocities();
 }
 
 // --- closing gaps -------------------------------------------------------------------------------------------------------------------
 
 void DirectSolve::close_gaps()
 {
-    for (std::size_t i = 0; i < m_held.size(); ++i)
+    for (const Item& item : m_items)
     {
-        const Held& held = m_held[i];
-        const JointRow(&rows)[2] = held.work->rows.held;
-        m_residual[i] = {as_double(rows[0].error), held.rows == 2 ? as_double(rows[1].error) : 0};
+        for (int r = 0; r < item.held; ++r)
+            m_speeds[as_index(item.first_row + r)] = as_double(item.row(r).error);
     }
-    find_impulses();
-    for (Node& n : m_nodes)
-        n.shift = {};
-    for (std::size_t i = 0; i < m_held.size(); ++i)
-    {
-        note_shift(m_held[i].up, momentum(m_jacobians[i].up, m_impulse[i]));
-        note_shift(m_held[i].down, momentum(m_jacobians[i].down, m_impulse[i]));
-    }
+    find_impulses(Stage::Held);
     // A step that would turn a body far is taken in part.
     double most = 0.5;
     for (const Node& n : m_nodes)
-        most = std::max(most, std::fabs(n.shift.turn));
+        most = std::max(most, std::fabs(n.change.turn));
+    const double share = 0.5 / most;
     for (const Node& n : m_nodes)
-        shift(n, 0.5 / most);
-}
-
-void DirectSolve::note_shift(int body, const Triple& momentum)
-{
-    const Triple change = product(m_masses[static_cast<std::size_t>(body)], momentum);
-    Triple& sum = node(body).shift;
-    sum = {sum.x + change.x, sum.y + change.y, sum.turn + change.turn};
-}
-
-void DirectSolve::shift(const Node& node, double share)
-{
-    if (node.state == none)
-        return;
-    BodyState& s = m_view.states[node.state];
-    s.delta_position += Vec2{static_cast<float>(share * node.shift.x), static_cast<float>(share * node.shift.y)};
-    s.delta_rotation = Rotation::from_angle(static_cast<float>(share * node.shift.turn)) * s.delta_rotation;
+    {
+        if (n.state == none)
+            continue;
+        BodyState& s = m_view.states[n.state];
+        s.delta_position += Vec2{static_cast<float>(share * n.change.x), static_cast<float>(share * n.change.y)};
+        s.delta_rotation = Rotation::from_angle(static_cast<float>(share * n.change.turn)) * s.delta_rotation;
+    }
 }
 
 void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints)

@@ -1,16 +1,19 @@
-// A = J M^-1 J^T by blocks of two rows, a block row for each joint. Joints i and k couple where they share a body p that moves:
+// Two joints couple where they share a body that moves: A_ik = J_ip M_p^-1 J_kp^T, summed over the shared bodies p; A_ii sums over both bodies of i.
+// The matrix is symmetric and sparse. It is factored as A = L D L^T, column by column: each takes what the columns before it that have an entry in
+// its row leave of it. Joints are eliminated by least degree, which keeps a tree free of entries that A does not have and adds few for loops;
+// a body with k joints costs k³. All of it in double.
 //
-//   A_ki = J_kp M_p^-1 J_ip^T;   A_ii is the sum of that over both bodies of i
-//
-// In the order of the forest (joint_forest.h) a joint couples with its parent and its siblings before it, and with children after it. Eliminated
-// from the last joint to the first, it therefore changes only blocks between its parent and siblings, which are there already: they all share
-// the same body. With D_i the block on the diagonal when it is the turn of i, and u, v neighbors of i that come before it,
-//
-//   W_ui = A_ui D_i^-1,   A_uv -= W_ui A_vi^T,   so that A = W D W^T with W upper triangular
-//
-// A chain costs what it is long; a body with k joints costs k³ / 6 blocks. All of it in double.
+// Loops may hold what other rows hold already. A small compliance, relative to each row's own inverse mass, shares the impulse among such rows: of the
+// many ways to share it, the one with the least impulses. It is of the whole impulse of a sub-step, warm start included, so that a part which no
+// motion shows cannot grow from one sub-step to the next.
 
 #include "dynamics/joint_matrix.h"
+
+#include "core/index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace carom::internal {
 
@@ -18,141 +21,246 @@ namespace {
 
 constexpr double least_rest = 1e-10; // of a diagonal entry, once what comes before is taken out
 
-// J M^-1 J'^T of two rows at one body.
-double couple(const Triple& row, const Triple& mass, const Triple& other) { return dot(product(row, mass), other); }
+// Along the line of a row; about the axis, where it is of an angle.
+double weight_of(const Triple& by_a, const Triple& a, const Triple& by_b, const Triple& b)
+{
+    const double line = by_a.x * a.x + by_a.y * a.y + by_b.x * b.x + by_b.y * b.y;
+    return line > 0 ? line : by_a.turn * a.turn + by_b.turn * b.turn;
+}
+
+void insert(std::vector<int>& sorted, int value)
+{
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
+    if (at == sorted.end() || *at != value)
+        sorted.insert(at, value);
+}
 
 } // namespace
 
-void JointMatrix::lay_out(std::span<const JointForest::Joint> joints)
+void JointMatrix::lay_out(std::span<const Edge> edges, int nodes)
 {
-    m_neighbors.clear();
-    int blocks = 0;
-    for (std::size_t i = 0; i < joints.size(); ++i)
-    {
-        const JointForest::Joint& j = joints[i];
-        const int parents = j.parent < 0 ? 0 : 1;
-        const int siblings = static_cast<int>(i) - j.first_sibling;
-        m_neighbors.push_back({parents, j.parent, j.first_sibling, parents + siblings, blocks});
-        blocks += parents + siblings;
-    }
-    m_pivots.resize(joints.size());
-    m_blocks.resize(static_cast<std::size_t>(blocks));
+    m_edges.assign(edges.begin(), edges.end());
+    find_loops(nodes);
+    Neighbors neighbors = couple_edges(nodes);
+    order(neighbors);
+    lay_out_columns(neighbors);
+    find_entries();
 }
 
-bool JointMatrix::factor(std::span<const JointForest::Joint> joints, std::span<const JointJacobian> jacobians,
-                         std::span<const Triple> masses)
+// --- structure ----------------------------------------------------------------------------------------------------------------------
+
+void JointMatrix::find_loops(int nodes)
 {
-    fill(joints, jacobians, masses);
-    for (std::size_t i = m_pivots.size(); i-- > 0;)
+    std::vector<int> tree(as_index(nodes));
+    std::iota(tree.begin(), tree.end(), 0);
+    m_has_loops = false;
+    for (const Edge& e : m_edges)
     {
-        if (!m_pivots[i].factor())
-            return false;
-        eliminate(m_neighbors[i], m_pivots[i]);
+        const int a = tree[as_index(e.a)];
+        const int b = tree[as_index(e.b)];
+        m_has_loops |= a == b;
+        std::replace(tree.begin(), tree.end(), b, a);
     }
-    return true;
 }
 
-void JointMatrix::fill(std::span<const JointForest::Joint> joints, std::span<const JointJacobian> jacobians,
-                       std::span<const Triple> masses)
+JointMatrix::Neighbors JointMatrix::couple_edges(int nodes)
 {
-    for (std::size_t i = 0; i < joints.size(); ++i)
+    std::vector<std::vector<int>> edges_of(as_index(nodes));
+    for (std::size_t i = 0; i < m_edges.size(); ++i)
     {
-        const JointJacobian& own = jacobians[i];
-        const Triple& up = masses[static_cast<std::size_t>(joints[i].up)];
-        const Triple& down = masses[static_cast<std::size_t>(joints[i].down)];
-        const auto entry = [&](int r, int c)
-        { return couple(own.up[r], up, own.up[c]) + couple(own.down[r], down, own.down[c]); };
-        Pivot& p = m_pivots[i];
-        p.xx = entry(0, 0);
-        p.xy = own.rows == 2 ? entry(0, 1) : 0;
-        p.yy = own.rows == 2 ? entry(1, 1) : 1;
-        p.least_xx = least_rest * p.xx;
-        p.least_yy = least_rest * p.yy;
-        const Neighbors& n = m_neighbors[i];
-        const Triple by[2] = {product(own.up[0], up), product(own.up[1], up)};
-        for (int k = 0; k < n.count; ++k)
+        for (const int node : {m_edges[i].a, m_edges[i].b})
+            insert(edges_of[as_index(node)], static_cast<int>(i));
+    }
+    Neighbors neighbors(m_edges.size());
+    m_couplings.clear();
+    for (int node = ground + 1; node < nodes; ++node)
+    {
+        for (const int i : edges_of[as_index(node)])
         {
-            const JointJacobian& other = jacobians[static_cast<std::size_t>(n.joint(k))];
-            const Triple(&rows)[2] = k < n.parents ? other.down : other.up;
-            block(n.first_block + k) = {{dot(rows[0], by[0]), dot(rows[0], by[1])}, {dot(rows[1], by[0]), dot(rows[1], by[1])}};
-        }
-    }
-}
-
-bool JointMatrix::Pivot::factor()
-{
-    if (!(xx > least_xx))
-        return false;
-    inverse_x = 1 / xx;
-    l = xy * inverse_x;
-    const double rest = yy - l * xy;
-    if (!(rest > least_yy))
-        return false;
-    inverse_y = 1 / rest;
-    return true;
-}
-
-RowPair JointMatrix::Pivot::solve(const RowPair& v) const
-{
-    const double y = (v.y - l * v.x) * inverse_y;
-    return {v.x * inverse_x - l * y, y};
-}
-
-// Siblings have the same neighbors in the same places.
-void JointMatrix::eliminate(const Neighbors& n, const Pivot& by)
-{
-    for (int u = n.count - 1; u >= 0; --u)
-    {
-        Block& own = block(n.first_block + u);
-        const Block w = {by.solve(own.x), by.solve(own.y)};
-        Pivot& diagonal = pivot(n.joint(u));
-        diagonal.xx -= dot(w.x, own.x);
-        diagonal.xy -= dot(w.x, own.y);
-        diagonal.yy -= dot(w.y, own.y);
-        if (u >= n.parents)
-        {
-            const int first = m_neighbors[static_cast<std::size_t>(n.joint(u))].first_block;
-            for (int v = 0; v < u; ++v)
+            for (const int k : edges_of[as_index(node)])
             {
-                const Block& other = block(n.first_block + v);
-                // Block (v, u): rows of v, columns of u.
-                Block& changed = block(first + v);
-                changed.x.x -= dot(other.x, w.x);
-                changed.x.y -= dot(other.x, w.y);
-                changed.y.x -= dot(other.y, w.x);
-                changed.y.y -= dot(other.y, w.y);
+                if (i == k)
+                    continue;
+                insert(neighbors[as_index(i)], k);
+                if (i < k)
+                    m_couplings.push_back({.first = i, .second = k, .node = node});
             }
         }
-        own = w;
+    }
+    return neighbors;
+}
+
+// Leaves with each edge the neighbors that come later.
+void JointMatrix::order(Neighbors& neighbors)
+{
+    std::vector<int> left(m_edges.size());
+    std::iota(left.begin(), left.end(), 0);
+    m_order.clear();
+    while (!left.empty())
+    {
+        const auto least = std::ranges::min_element(left, {}, [&](int i) { return neighbors[as_index(i)].size(); });
+        const int edge = *least;
+        left.erase(least);
+        m_order.push_back(edge);
+        const std::vector<int>& later = neighbors[as_index(edge)];
+        for (const int i : later)
+        {
+            std::vector<int>& of = neighbors[as_index(i)];
+            of.erase(std::ranges::lower_bound(of, edge));
+            for (const int k : later)
+            {
+                if (k != i)
+                    insert(of, k);
+            }
+        }
     }
 }
 
-void JointMatrix::solve(std::span<RowPair> values) const
+void JointMatrix::lay_out_columns(const Neighbors& later)
 {
-    for (std::size_t i = values.size(); i-- > 0;)
+    m_first_row.assign(m_edges.size(), 0);
+    int count = 0;
+    for (const int edge : m_order)
     {
-        const Neighbors& n = m_neighbors[i];
-        const RowPair own = values[i];
-        for (int k = 0; k < n.count; ++k)
-        {
-            const Block& w = block(n.first_block + k);
-            RowPair& other = values[static_cast<std::size_t>(n.joint(k))];
-            other.x -= dot(w.x, own);
-            other.y -= dot(w.y, own);
-        }
-        values[i] = m_pivots[i].solve(own);
+        m_first_row[as_index(edge)] = count;
+        count += m_edges[as_index(edge)].rows;
     }
-    for (std::size_t i = 0; i < values.size(); ++i)
+    m_column_starts.assign(1, 0);
+    m_rows.clear();
+    const auto add_rows = [&](int edge, int from)
     {
-        const Neighbors& n = m_neighbors[i];
-        RowPair& own = values[i];
-        for (int k = 0; k < n.count; ++k)
+        for (int r = from; r < m_edges[as_index(edge)].rows; ++r)
+            m_rows.push_back(first_row(as_index(edge)) + r);
+    };
+    for (const int edge : m_order)
+    {
+        std::vector<int> in_order = later[as_index(edge)];
+        std::ranges::sort(in_order, {}, [&](int i) { return first_row(as_index(i)); });
+        for (int r = 0; r < m_edges[as_index(edge)].rows; ++r)
         {
-            const Block& w = block(n.first_block + k);
-            const RowPair& other = values[static_cast<std::size_t>(n.joint(k))];
-            own.x -= w.x.x * other.x + w.y.x * other.y;
-            own.y -= w.x.y * other.x + w.y.y * other.y;
+            add_rows(edge, r + 1);
+            for (const int other : in_order)
+                add_rows(other, 0);
+            m_column_starts.push_back(static_cast<int>(m_rows.size()));
         }
+    }
+    for (std::vector<double>* values : {&m_diagonal, &m_weights, &m_pivots, &m_work})
+        values->assign(as_index(count), 0);
+    m_entries.assign(m_rows.size(), 0);
+    m_factor.assign(m_rows.size(), 0);
+}
+
+void JointMatrix::find_entries()
+{
+    const auto entry = [&](int row, int column)
+    {
+        const auto first = m_rows.begin() + m_column_starts[as_index(column)];
+        const auto last = m_rows.begin() + m_column_starts[as_index(column) + 1];
+        return static_cast<int>(std::lower_bound(first, last, row) - m_rows.begin());
+    };
+    for (Coupling& c : m_couplings)
+    {
+        if (first_row(as_index(c.second)) < first_row(as_index(c.first)))
+            std::swap(c.first, c.second);
+        c.first_by_a = m_edges[as_index(c.first)].a == c.node;
+        c.second_by_a = m_edges[as_index(c.second)].a == c.node;
+        for (int r = 0; r < m_edges[as_index(c.first)].rows; ++r)
+            c.entries[r] = entry(first_row(as_index(c.second)), first_row(as_index(c.first)) + r);
+    }
+    std::vector<std::vector<Hit>> by_row(m_diagonal.size());
+    for (int column = 0; column < rows(); ++column)
+    {
+        for (int i = m_column_starts[as_index(column)]; i < m_column_starts[as_index(column) + 1]; ++i)
+            by_row[as_index(m_rows[as_index(i)])].push_back({column, i});
+    }
+    m_hits.clear();
+    m_hit_starts.assign(1, 0);
+    for (const std::vector<Hit>& hits : by_row)
+    {
+        m_hits.insert(m_hits.end(), hits.begin(), hits.end());
+        m_hit_starts.push_back(static_cast<int>(m_hits.size()));
+    }
+}
+
+// --- values -------------------------------------------------------------------------------------------------------------------------
+
+void JointMatrix::fill(std::span<const JointJacobian> jacobians, std::span<const Triple> masses)
+{
+    std::ranges::fill(m_entries, 0);
+    for (std::size_t i = 0; i < m_edges.size(); ++i)
+        fill_own(i, jacobians[i], masses);
+    for (const Coupling& c : m_couplings)
+    {
+        const JointJacobian& first = jacobians[as_index(c.first)];
+        const JointJacobian& second = jacobians[as_index(c.second)];
+        const Triple(&of_first)[most_joint_rows] = c.first_by_a ? first.a : first.b;
+        const Triple(&of_second)[most_joint_rows] = c.second_by_a ? second.a : second.b;
+        for (int r = 0; r < m_edges[as_index(c.first)].rows; ++r)
+        {
+            const Triple moved = product(of_first[r], masses[as_index(c.node)]);
+            for (int q = 0; q < m_edges[as_index(c.second)].rows; ++q)
+                m_entries[as_index(c.entries[r] + q)] += dot(moved, of_second[q]);
+        }
+    }
+}
+
+void JointMatrix::fill_own(std::size_t edge, const JointJacobian& jacobian, std::span<const Triple> masses)
+{
+    const Edge& e = m_edges[edge];
+    for (int r = 0; r < e.rows; ++r)
+    {
+        const Triple by_a = product(jacobian.a[r], masses[as_index(e.a)]);
+        const Triple by_b = product(jacobian.b[r], masses[as_index(e.b)]);
+        const std::size_t row = as_index(first_row(edge) + r);
+        m_diagonal[row] = dot(by_a, jacobian.a[r]) + dot(by_b, jacobian.b[r]);
+        m_weights[row] = weight_of(by_a, jacobian.a[r], by_b, jacobian.b[r]);
+        for (int q = r + 1; q < e.rows; ++q)
+            m_entries[as_index(m_column_starts[row] + q - r - 1)] = dot(by_a, jacobian.a[q]) + dot(by_b, jacobian.b[q]);
+    }
+}
+
+void JointMatrix::factor(std::span<const double> compliances, double of_all)
+{
+    for (std::size_t column = 0; column < m_diagonal.size(); ++column)
+    {
+        const int first = m_column_starts[column];
+        const int last = m_column_starts[column + 1];
+        for (int i = first; i < last; ++i)
+            m_work[as_index(m_rows[as_index(i)])] = m_entries[as_index(i)];
+        double pivot = m_diagonal[column] + of_all * m_weights[column] + compliances[column];
+        const double least = least_rest * pivot;
+        for (int hit = m_hit_starts[column]; hit < m_hit_starts[column + 1]; ++hit)
+        {
+            const Hit& before = m_hits[as_index(hit)];
+            const double l = m_factor[as_index(before.entry)];
+            if (l == 0)
+                continue;
+            const double by = l / m_pivots[as_index(before.column)];
+            pivot -= l * by;
+            for (int i = before.entry + 1; i < m_column_starts[as_index(before.column) + 1]; ++i)
+                m_work[as_index(m_rows[as_index(i)])] -= by * m_factor[as_index(i)];
+        }
+        const bool gives = compliances[column] != off && pivot > least;
+        m_pivots[column] = gives ? 1 / pivot : 0;
+        for (int i = first; i < last; ++i)
+            m_factor[as_index(i)] = m_pivots[column] * m_work[as_index(m_rows[as_index(i)])];
+    }
+}
+
+void JointMatrix::solve(std::span<double> values) const
+{
+    for (std::size_t column = 0; column < m_diagonal.size(); ++column)
+    {
+        const double own = values[column];
+        for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
+            values[as_index(m_rows[as_index(i)])] -= m_factor[as_index(i)] * own;
+    }
+    for (std::size_t column = m_diagonal.size(); column-- > 0;)
+    {
+        double own = m_pivots[column] * values[column];
+        for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
+            own -= m_factor[as_index(i)] * values[as_index(m_rows[as_index(i)])];
+        values[column] = own;
     }
 }
 

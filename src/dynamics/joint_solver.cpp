@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -48,85 +49,37 @@ void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows&
 /// What the rows are solved with.
 struct Pass
 {
-    const Softness& softness; ///< of what has none of its own
-    float inverse_h;
+    const Softness& softness;
+    float h;
     bool use_bias;
 };
 
-/// How fast the bodies go along an axis, and what it takes to change that.
-struct Motion
-{
-    float speed;
-    float mass;
-    bool is_anchored = false; ///< one of the two does not give way; only limits ask
-
-    [[nodiscard]] float soft(float error, float accumulated, const Softness& s) const
-    {
-        return accumulated - mass * s.mass_scale * (speed + s.bias_rate * error) - s.impulse_scale * accumulated;
-    }
-    [[nodiscard]] float rigid(float accumulated, float bias) const { return accumulated - mass * (speed + bias); }
-};
-
-constexpr float way_back = 0.2f; // of what a body is beyond a limit, per sub-step
-
-// A stop that is fixed to the world gives nothing; between two bodies that both give way a row that gives nothing may not be solved one by one.
-float limit_impulse(const FreeRow& row, float accumulated, const Motion& motion, const Softness& s, const Pass& pass)
-{
-    if (row.error > 0)
-        return std::max(motion.rigid(accumulated, row.error * pass.inverse_h), 0.0f);
-    if (pass.use_bias && motion.is_anchored && !row.is_soft)
-        return std::max(motion.rigid(accumulated, way_back * row.error * pass.inverse_h), 0.0f);
-    if (pass.use_bias)
-        return std::max(motion.soft(row.error, accumulated, s), 0.0f);
-    return row.is_soft ? accumulated : std::max(motion.rigid(accumulated, 0), 0.0f);
-}
-
-// After the pass. What is soft is a spring: not relaxed.
-float free_impulse(const FreeRow& row, float accumulated, const Motion& motion, const Softness& s, const Pass& pass)
-{
-    switch (row.kind)
-    {
-    case FreeKind::Limit: return limit_impulse(row, accumulated, motion, s, pass);
-    case FreeKind::Motor: return std::clamp(motion.rigid(accumulated, -row.target), -row.max_impulse, row.max_impulse);
-    case FreeKind::Spring: return pass.use_bias ? motion.soft(row.error, accumulated, s) : accumulated;
-    }
-    return accumulated;
-}
-
-// One after the other, on the speed along the axis alone.
+// All that acts along the axis as one, with what the held rows answer.
 void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const Pass& pass)
 {
     const JointRows& rows = work.rows;
-    const bool is_anchored = bodies.are_anchored();
-    float speed = bodies.speed(rows.axis);
-    float sum = 0;
-    for (const FreeRow& row : rows.acts())
-    {
-        float& accumulated = joint.impulses[row.slot];
-        const Softness& softness = row.is_soft ? work.softness : pass.softness;
-        const float updated = free_impulse(row, accumulated, {row.sign * speed, rows.mass, is_anchored}, softness, pass);
-        const float change = row.sign * (updated - accumulated);
-        accumulated = updated;
-        speed += rows.inverse_mass * change;
-        sum += change;
-    }
-    bodies.apply(rows.axis, sum);
-}
-
-// What the free rows give along the axis.
-float free_impulse(const JointRecord& joint, const JointRows& rows)
-{
-    float sum = 0;
-    for (const FreeRow& row : rows.acts())
-        sum += row.sign * joint.impulses[row.slot];
-    return sum;
+    const auto k = static_cast<double>(rows.axis_inverse_mass);
+    if (!(k > 0))
+        return;
+    const AxisImpulses old = axis_impulses(joint);
+    const AxisLaw law = pass.use_bias ? rows.acts.law_ahead(work.spring, pass.h) : rows.acts.law_now(old, work.bounce, pass.h);
+    const double before = law.scope.sum(old);
+    const double free_rate = static_cast<double>(bodies.speed(rows.axis)) - k * before;
+    const AxisPiece piece = law.solve(free_rate, k);
+    const double after = piece.keeps_rate() ? (piece.rate - free_rate) / k : piece.impulse(piece.rate);
+    set_axis_impulses(joint, law.scope.merge(old, law.split(piece, after, piece.rate)));
+    const auto change = static_cast<float>(after - before);
+    bodies.apply_along_axis(rows, change);
+    for (int i = 0; i < rows.held_count; ++i)
+        joint.impulses[rows.held[i].slot] += change * rows.reaction[i];
 }
 
 void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
 {
     float& accumulated = joint.impulses[row.slot];
-    const Motion motion{bodies.speed(row), bodies.mass(row)};
-    const float updated = pass.use_bias ? motion.soft(row.error, accumulated, pass.softness) : motion.rigid(accumulated, 0);
+    const Softness s = pass.use_bias ? pass.softness : Softness{};
+    const float speed = bodies.speed(row) + s.bias_rate * row.error;
+    const float updated = (1 - s.impulse_scale) * accumulated - bodies.mass(row) * s.mass_scale * speed;
     bodies.apply(row, updated - accumulated);
     accumulated = updated;
 }
@@ -158,16 +111,16 @@ JointArms joint_arms(const SceneState& state, const JointRecord& joint)
     return arms;
 }
 
-JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::int32_t b)
+JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPlace& place)
 {
-    const JointRecord& joint = ctx.state.joints[index];
+    const JointRecord& joint = ctx.state.joints[place.joint];
     JointWork work;
-    work.joint = index;
-    work.a = a;
-    work.b = b;
+    work.joint = place.joint;
+    work.a = place.a;
+    work.b = place.b;
     if (ctx.slices > 1)
     {
-        for (float& impulse : ctx.state.joints[index].impulses)
+        for (float& impulse : ctx.state.joints[place.joint].impulses)
             impulse /= static_cast<float>(ctx.slices);
     }
     const JointArms arms = joint_arms(ctx.state, joint);
@@ -176,38 +129,47 @@ JointWork prepare_joint(const StepContext& ctx, int index, std::int32_t a, std::
     work.gap0 = arms.gap;
     work.axis0 = joint.body_a == none ? joint.axis_a
                                       : rotate(ctx.state.sims[static_cast<std::size_t>(joint.body_a)].rotation, joint.axis_a);
-    work.softness = make_softness(joint.hertz, joint.damping_ratio, ctx.h);
     if (has_angle(joint))
         work.angle0 = hinge_angle(ctx.state, joint);
+    const SolverView view{ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0};
     if (joint.kind == JointType::Spring)
-        fit_spring({ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0}, ctx.state, work);
+        fit_spring(view, ctx.state, work);
+    else if (joint.hertz > 0)
+        fit_axis_spring(view, joint, unit.drifts, work);
     return work;
 }
 
 void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct)
 {
     if (direct.is_ready())
+    {
         direct.warm_start();
+        return;
+    }
     for (const JointWork& work : joints)
     {
         const JointRows& rows = work.rows;
-        const bool held = !direct.is_ready() && rows.held_count > 0;
-        if ((rows.free_count == 0 && !held) || is_in_flight(view, work))
+        if ((!rows.has_axis() && rows.held_count == 0) || is_in_flight(view, work))
             continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointBodies bodies(view, work);
-        for (int i = 0; held && i < rows.held_count; ++i)
-            bodies.apply(rows.held[i], joint.impulses[rows.held[i].slot]);
-        if (rows.free_count > 0)
-            bodies.apply(rows.axis, free_impulse(joint, rows));
+        for (const JointRow& row : rows.holds())
+            bodies.apply(row, joint.impulses[row.slot]);
+        if (rows.has_axis())
+            bodies.apply(rows.axis, axis_impulse(joint));
     }
 }
 
 void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct, float joint_hertz,
                   bool use_bias)
 {
+    if (direct.is_ready())
+    {
+        direct.solve(use_bias);
+        return;
+    }
     const Softness soft = make_softness(joint_hertz, 0, view.h);
-    const Pass pass{soft, view.inverse_h, use_bias};
+    const Pass pass{soft, view.h, use_bias};
     // Motors, springs and limits first: what is held matters most and has the last word.
     for (const JointWork& work : joints)
     {
@@ -215,24 +177,17 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
             continue;
         JointRecord& joint = state.joints[work.joint];
         const JointBodies bodies(view, work);
-        if (work.rows.free_count > 0)
+        if (work.rows.has_axis())
             solve_free_axis(bodies, joint, work, pass);
-        if (direct.is_ready() || work.rows.block)
+        if (work.rows.block)
             continue;
         for (const JointRow& row : work.rows.holds())
             solve_held(bodies, joint, row, pass);
     }
-    if (direct.is_ready())
-    {
-        direct.solve(use_bias);
-        return;
-    }
     for (const JointWork& work : joints)
     {
-        JointRecord& joint = state.joints[work.joint];
-        if (joint.kind != JointType::Revolute || is_in_flight(view, work))
-            continue;
-        solve_block(JointBodies(view, work), joint, work.rows, soft, use_bias);
+        if (work.rows.block && !is_in_flight(view, work))
+            solve_block(JointBodies(view, work), state.joints[work.joint], work.rows, soft, use_bias);
     }
 }
 
@@ -244,35 +199,51 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
         const float speed = JointBodies(view, work).speed(work.rows.axis);
-        for (const FreeRow& row : work.rows.acts())
-        {
-            if (row.kind == FreeKind::Limit)
-                work.approach[row.slot == slot_upper] = joint.impulses[row.slot] > 0 ? 0 : -row.sign * speed;
-        }
+        work.approach[0] = joint.impulses[slot_lower] > 0 ? 0 : -speed;
+        work.approach[1] = joint.impulses[slot_upper] > 0 ? 0 : speed;
     }
 }
 
-void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, float rest_speed)
+void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct,
+                       float rest_speed)
 {
+    bool any = false;
+    for (JointWork& work : joints)
+    {
+        const JointRecord& joint = state.joints[work.joint];
+        if (joint.limit_restitution == 0 || is_in_flight(view, work))
+            continue;
+        const float stopped[] = {joint.impulses[slot_lower], joint.impulses[slot_upper]};
+        for (int i = 0; i < 2; ++i)
+        {
+            const float approach = work.approach[i];
+            const float leave = joint.limit_restitution * approach;
+            // What presses ends a bounce so small within half the sub-step.
+            const float pressed = work.rows.axis_inverse_mass * stopped[i] - approach;
+            const bool bounces = stopped[i] > 0 && approach > rest_speed && leave > 0.5f * pressed;
+            work.bounce[i] = bounces ? leave : 0;
+            any |= bounces;
+        }
+    }
+    if (!any)
+        return;
+    if (direct.is_ready())
+        direct.bounce();
     for (JointWork& work : joints)
     {
         JointRecord& joint = state.joints[work.joint];
-        if (joint.limit_restitution == 0 || is_in_flight(view, work))
-            continue;
-        const JointRow& axis = work.rows.axis;
-        const JointBodies bodies(view, work);
-        for (const FreeRow& row : work.rows.acts())
+        for (int i = 0; i < 2; ++i)
         {
-            if (row.kind != FreeKind::Limit || joint.impulses[row.slot] <= 0)
+            const float leave = std::exchange(work.bounce[i], 0.0f);
+            if (leave == 0)
                 continue;
-            const float approach = work.approach[row.slot == slot_upper];
-            // What presses ends a bounce so small within half the sub-step.
-            const float pressed = work.rows.inverse_mass * joint.impulses[row.slot] - approach;
-            if (approach <= rest_speed || joint.limit_restitution * approach <= 0.5f * pressed)
+            joint.impulses[i == 0 ? slot_lower : slot_upper] = 0;
+            if (direct.is_ready())
                 continue;
-            const float wanted = row.sign * joint.limit_restitution * approach;
-            bodies.apply(axis, work.rows.mass * (wanted - bodies.speed(axis)));
-            joint.impulses[row.slot] = 0;
+            const JointBodies bodies(view, work);
+            const float k = work.rows.axis_inverse_mass;
+            const float wanted = i == 0 ? leave : -leave;
+            bodies.apply_along_axis(work.rows, k > 0 ? (wanted - bodies.speed(work.rows.axis)) / k : 0);
         }
     }
 }
@@ -287,8 +258,8 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
         const JointPose& pose = work.pose;
         for (const JointRow& row : work.rows.holds())
             work.add(row, joint.impulses[row.slot]);
-        if (work.rows.free_count > 0)
-            work.add(work.rows.axis, free_impulse(joint, work.rows));
+        if (work.rows.has_axis())
+            work.add(work.rows.axis, axis_impulse(joint));
         if (joint.kind == JointType::Spring && length(pose.gap) > 0)
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
         if (joint.kind != JointType::Revolute || !joint.enable_limit)

@@ -131,6 +131,37 @@ float kick(const SolverView& view, const JointRecord& joint, const JointWork& wo
     return impulse;
 }
 
+// Of a body on a hinge: 1 / (I + m r²).
+float inverse_inertia_about(const StateConstants& c, Vec2 arm)
+{
+    const float r2 = dot(arm, arm);
+    return r2 > 0 ? c.inverse_inertia / (1 + r2 * c.inverse_inertia / c.inverse_mass.x) : c.inverse_inertia;
+}
+
+// The same however the bodies stand, so that the spring has an energy.
+float inverse_spring_mass(const JointBodies& bodies, const JointRecord& joint, const JointWork& work)
+{
+    if (joint.kind == JointType::Revolute)
+        return inverse_inertia_about(bodies.ca, work.ra0) + inverse_inertia_about(bodies.cb, work.rb0);
+    const Vec2 d = joint.kind == JointType::Prismatic ? work.axis0
+                   : length(work.gap0) > 0            ? (1 / length(work.gap0)) * work.gap0
+                                                      : Vec2{1, 0};
+    const Vec2 k = bodies.ca.inverse_mass + bodies.cb.inverse_mass;
+    return k.x * d.x * d.x + k.y * d.y * d.y;
+}
+
+// The rest of what a hinge's or slider's spring gives in the sub-step.
+void kick_along_axis(const SolverView& view, const JointRecord& joint, JointWork& work)
+{
+    JointRows rows;
+    const JointBodies bodies(view, work);
+    place_rows(joint, present_pose(view, work), view.h, rows);
+    weigh_axis(bodies, rows);
+    const float impulse = work.spring.share_after() * joint.impulses[slot_spring];
+    bodies.apply_along_axis(rows, impulse);
+    work.add(rows.axis, impulse);
+}
+
 } // namespace
 
 void fit_spring(const SolverView& view, const SceneState& state, JointWork& work)
@@ -151,6 +182,17 @@ void fit_spring(const SolverView& view, const SceneState& state, JointWork& work
         fit_implicitly(stiffness, damping, mass, h, work);
 }
 
+void fit_axis_spring(const SolverView& view, const JointRecord& joint, bool drifts, JointWork& work)
+{
+    const float k = inverse_spring_mass(JointBodies(view, work), joint, work);
+    if (!(k > 0))
+        return;
+    work.spring = make_spring(joint.hertz, joint.damping_ratio, 1 / k, view.h);
+    const bool comes_and_goes = joint.kind == JointType::Distance && joint.lower != joint.upper;
+    if (comes_and_goes || !drifts)
+        work.spring.theta = 1;
+}
+
 void kick_springs_before(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
     for (const JointWork& work : joints)
@@ -163,11 +205,13 @@ void kick_springs_before(const SolverView& view, SceneState& state, std::span<Jo
 
 void kick_springs_after(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
-    for (const JointWork& work : joints)
+    for (JointWork& work : joints)
     {
         JointRecord& joint = state.joints[work.joint];
         if (joint.kind == JointType::Spring)
             joint.impulses[slot_spring] += kick(view, joint, work, work.after);
+        else if (work.spring.is_there() && work.spring.theta < 1)
+            kick_along_axis(view, joint, work);
     }
 }
 

@@ -29,6 +29,12 @@ bool may_lose(const JointRecord& joint)
     return joint.damping > 0 || joint.impulses[slot_lower] != 0 || joint.impulses[slot_upper] != 0;
 }
 
+// Not a rope that is slack, nor a limit that is far.
+bool acts(const JointRecord& joint, const JointWork& work)
+{
+    return work.rows.held_count > 0 || joint.kind == JointType::Spring || axis_impulse(joint) != 0;
+}
+
 bool is_loaded(const ContactRow& row) { return row.count > 0 && (row.pressed != 0 || bears_load(row)); }
 
 double stored(const JointRecord& joint, const JointPose& pose)
@@ -356,7 +362,8 @@ void UnitEnergy::note_joint(JointWork& work)
     {
         if (!is_ours(own))
             continue;
-        join(own, other);
+        if (acts(joint, work))
+            join(own, other);
         group_of(own).is_passive &= is_passive(joint);
         group_of(own).may_lose |= may_lose(joint);
     }

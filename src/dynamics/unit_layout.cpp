@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -75,6 +76,8 @@ public:
                           fill_some_states(task - 2);
                   });
         place_rows_of_large_units(m_ctx);
+        for (Unit& unit : m_scratch.units)
+            let_drift(unit);
         unbind_those(
             [&](std::size_t s)
             {
@@ -333,6 +336,17 @@ private:
         m_groups = 0;
         for (Unit& unit : m_scratch.units)
             place_joints_of(unit);
+    }
+
+    // Where joints are solved directly and nothing touches, axes are solved for the drift along parabolas, too.
+    void let_drift(Unit& unit)
+    {
+        const auto places = std::span(m_scratch.joint_places).subspan(as_index(unit.first_joint), as_index(unit.joint_count));
+        unit.drifts = unit.joint_count > 0 && unit.row_count == 0 && unit.wide_count == 0 && unit.wide_joint_count == 0 &&
+                      std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
+                                      { return sum + most_rows_of(m_state.joints[place.joint]); }) <= DirectSolve::most_rows;
+        if (unit.drifts)
+            std::fill_n(m_scratch.bound_by_joint.begin() + unit.first_state, unit.state_count, 0);
     }
 
     // Marks it as taken.

@@ -158,7 +158,7 @@ void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
                    [&](std::int32_t i)
                    {
                        const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
-                       ctx.scratch.joints[as_index(i)] = prepare_joint(unit_ctx, place.joint, place.a, place.b);
+                       ctx.scratch.joints[as_index(i)] = prepare_joint(unit_ctx, unit, place);
                    });
     joint_bins(ctx.scratch, unit)
         .all(crew,

@@ -819,9 +819,11 @@ private:
         const int before = m_output.bulk_impacts;
         const std::size_t kicks = m_output.kicked_shapes.size();
         internal::bounce(bouncing(), k, m_crew);
-        bounce_off_limits(m_view, m_ctx.state, m_joints, m_ctx.scene.tolerances.rest_speed);
+        if (m_joints.empty())
+            return m_output.kicked_shapes.size() != kicks;
+        bounce_off_limits(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.scene.tolerances.rest_speed);
         if (is_direct() && m_output.bulk_impacts != before)
-            m_output.direct->keep_together();
+            m_output.direct->solve(false);
         return m_output.kicked_shapes.size() != kicks;
     }
 

@@ -18,7 +18,7 @@ constexpr float h = 1.0f / 240;
 struct Hinges
 {
     SceneState state;
-    std::vector<StateConstants> constants{2 * lane_count};
+    std::vector<StateConstants> constants{2 * lane_count, {.inverse_mass = {2, 2}, .inverse_inertia = 3}};
     WideJoint wide{};
 
     explicit Hinges(Random& random)
@@ -87,11 +87,13 @@ TEST(WideHinges, AreDrivenAsEachByItself)
             for (int i = 0; i + 1 < lane_count; ++i)
             {
                 const JointRecord& joint = hinges.state.joints[i];
-                const Softness soft = make_softness(joint.hertz, joint.damping_ratio, h);
                 const bool sprung = joint.hertz > 0;
-                EXPECT_EQ(t.spring_bias_rate.v[i], soft.bias_rate);
-                EXPECT_EQ(t.spring_mass_scale.v[i], sprung ? soft.mass_scale : 0);
-                EXPECT_EQ(t.spring_impulse_scale.v[i], soft.impulse_scale);
+                AxisSpring spring = make_spring(joint.hertz, joint.damping_ratio, 1 / (2 * 3.0f), h);
+                spring.theta = 1;
+                const SpringLine line = sprung ? spring.line(1, h) : SpringLine{};
+                EXPECT_NEAR(static_cast<double>(t.spring_rate.v[i]), line.rest, 1e-5 * std::fabs(line.rest));
+                EXPECT_NEAR(static_cast<double>(t.spring_conductance.v[i]), sprung ? 1 / line.compliance : 0,
+                            sprung ? 1e-5 / line.compliance : 0);
                 EXPECT_EQ(t.spring_impulse.v[i], sprung ? joint.impulses[slot_spring] : 0);
                 EXPECT_EQ(t.motor_max.v[i], joint.enable_motor ? h * joint.max_motor : 0);
                 EXPECT_EQ(t.motor_impulse.v[i], joint.enable_motor ? joint.impulses[slot_motor] : 0);

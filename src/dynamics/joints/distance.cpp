@@ -17,12 +17,15 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
     out.axis = line_row(d, pose, 0, slot_axis);
     if (joint.lower == joint.upper)
     {
-        out.act({.kind = FreeKind::Spring, .is_soft = true, .slot = slot_axis, .error = l - joint.lower});
+        out.acts.has_spring = true;
+        out.acts.stretch = l - joint.lower;
         return;
     }
-    if (joint.lower > 0)
-        out.act({.kind = FreeKind::Limit, .is_soft = is_soft, .slot = slot_lower, .error = l - joint.lower});
-    out.act({.kind = FreeKind::Limit, .is_soft = is_soft, .slot = slot_upper, .sign = -1, .error = joint.upper - l});
+    out.acts.soft_limits = is_soft;
+    out.acts.has_lower = joint.lower > 0;
+    out.acts.has_upper = true;
+    out.acts.lower_error = l - joint.lower;
+    out.acts.upper_error = joint.upper - l;
 }
 
 } // namespace carom::internal

@@ -4,17 +4,27 @@
 
 namespace carom::internal {
 
-void add_free_axis(const JointRecord& joint, float coordinate, float h, JointRows& out)
+void act_along_axis(const JointRecord& joint, float coordinate, float h, AxisActs& out)
 {
-    if (joint.hertz > 0)
-        out.act({.kind = FreeKind::Spring, .is_soft = true, .slot = slot_spring, .error = coordinate - joint.spring_target});
-    if (joint.enable_motor)
-        out.act({.kind = FreeKind::Motor, .slot = slot_motor, .target = joint.motor_speed, .max_impulse = h * joint.max_motor});
-    if (joint.enable_limit)
+    out.has_spring = joint.hertz > 0;
+    out.stretch = coordinate - joint.spring_target;
+    out.motor_speed = joint.motor_speed;
+    out.most = joint.enable_motor ? h * joint.max_motor : 0;
+    out.has_lower = out.has_upper = joint.enable_limit;
+    out.lower_error = coordinate - joint.lower;
+    out.upper_error = joint.upper - coordinate;
+}
+
+float axis_coordinate(const JointRecord& joint, const JointPose& pose)
+{
+    switch (joint.kind)
     {
-        out.act({.kind = FreeKind::Limit, .slot = slot_lower, .error = coordinate - joint.lower});
-        out.act({.kind = FreeKind::Limit, .slot = slot_upper, .sign = -1, .error = joint.upper - coordinate});
+    case JointType::Spring: break;
+    case JointType::Distance: return length(pose.gap);
+    case JointType::Revolute: return pose.angle;
+    case JointType::Prismatic: return dot(pose.axis, pose.gap);
     }
+    return 0;
 }
 
 } // namespace carom::internal

@@ -28,7 +28,7 @@ void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, Jo
 {
     prismatic_holds(pose, out);
     out.axis = slider_row(pose.axis, pose, 0, slot_motor);
-    add_free_axis(joint, dot(pose.axis, pose.gap), h, out);
+    act_along_axis(joint, dot(pose.axis, pose.gap), h, out.acts);
 }
 
 } // namespace carom::internal

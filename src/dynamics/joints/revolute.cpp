@@ -16,7 +16,7 @@ void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, Joi
 {
     revolute_holds(pose, out);
     out.axis = angle_row(0, slot_motor);
-    add_free_axis(joint, pose.angle, h, out);
+    act_along_axis(joint, pose.angle, h, out.acts);
 }
 
 } // namespace carom::internal

@@ -1,7 +1,7 @@
 // The hinges' passes; joint_solver.cpp has the same for a joint at a time. Part of kernels.inl.
 //
 //   C = gap,  dC = vb + wb x rb - va - wa x ra            two rows solved as one: K = J M^-1 J^T is 2 x 2
-//   angle = angle at the start + the turn of b against a   a spring, a motor, and limits on either side
+//   angle = angle at the start + the turn of b against a   a spring, a motor, and limits on either side, solved as one: joint_axis.cpp
 
 namespace joints {
 
@@ -65,9 +65,17 @@ CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], con
     return arc_tangent(relative.s, relative.c);
 }
 
-// What drives and limits the angle.
-CAROM_INLINE void fill_drive(WideAngle& t, const JointRecord* const (&joints)[lane_count], float h)
+// Of bodies on hinges: 1 / (I + m r²).
+CAROM_INLINE F8 inverse_inertia_about(F8 inverse_mass, F8 inverse_inertia, F8 x, F8 y)
 {
+    const F8 r2 = x * x + y * y;
+    return select(r2 > all(0), inverse_inertia / (1 + r2 * inverse_inertia / inverse_mass), inverse_inertia);
+}
+
+// What drives and limits the angle.
+CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[lane_count], float h)
+{
+    WideAngle& t = j.angle;
     static_assert(offsetof(JointRecord, max_motor) == offsetof(JointRecord, lower) + 12 &&
                   offsetof(JointRecord, spring_target) == offsetof(JointRecord, motor_speed) + 12 && slot_spring == slot_lower + 3);
     constexpr float no_limit = 1e9f; // rad
@@ -87,17 +95,16 @@ CAROM_INLINE void fill_drive(WideAngle& t, const JointRecord* const (&joints)[la
     store(t.motor_speed, select(driven, speed, none));
     store(t.motor_max, select(driven, h * most, none));
     store(t.motor_impulse, select(driven, motor_impulse, none));
-    // As make_softness.
+    // As make_spring.
+    const F8 k = inverse_inertia_about(load(j.inverse_mass_a), load(j.inverse_inertia_a), load(j.anchors.ax), load(j.anchors.ay)) +
+                 inverse_inertia_about(load(j.inverse_mass_b), load(j.inverse_inertia_b), load(j.anchors.bx), load(j.anchors.by));
     const F8 hertz = lanes_from([&](int i) { return joints[i]->hertz; });
-    const I8 sprung = hertz > none;
+    const I8 sprung = (hertz > none) & (k > none);
     const F8 omega = 2 * pi * hertz;
-    const F8 a1 = 2 * ratio + h * omega;
-    const F8 a2 = h * omega * a1;
-    const F8 a3 = 1 / (1 + a2);
+    const F8 drag = 2 * ratio + h * omega;
     store(t.target, select(sprung, target, none));
-    store(t.spring_bias_rate, select(sprung, omega / a1, none));
-    store(t.spring_mass_scale, select(sprung, a2 * a3, none));
-    store(t.spring_impulse_scale, select(sprung, a3, none));
+    store(t.spring_rate, select(sprung, -omega / drag, none));
+    store(t.spring_conductance, select(sprung, h * omega * drag / k, none));
     store(t.spring_impulse, select(sprung, spring_impulse, none));
     store(t.torque_sum, none);
 }
@@ -130,9 +137,10 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
         const F8 angles = hinge_angles(of_lane, turns_of(a), turns_of(b));
         store(j.angle.start, angles);
         store(j.angle.now, angles);
-        fill_drive(j.angle, of_lane, h);
     }
     fill_masses(j, constants);
+    if (j.turns != 0)
+        fill_drive(j, of_lane, h);
     j.fixed_a = bits(are_fixed(load(j.inverse_mass_a), load(j.inverse_inertia_a)));
     j.fixed_b = bits(are_fixed(load(j.inverse_mass_b), load(j.inverse_inertia_b)));
 }
@@ -264,59 +272,74 @@ CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 i
     h.push(x, y);
 }
 
+// The angle, while the anchors keep their speeds.
 struct AngleMass
 {
-    F8 k, m;
+    F8 k;      ///< inverse
+    F8 fx, fy; ///< what the anchors answer, for a twist of 1
 
     CAROM_INLINE explicit AngleMass(const Hinge& h)
     {
-        k = h.inertia_a + h.inertia_b;
-        m = select(k > all(0), all(1) / k, all(0));
+        const F8 mass = h.mass_a + h.mass_b;
+        const F8 k11 = mass + h.inertia_a * h.ay * h.ay + h.inertia_b * h.by * h.by;
+        const F8 k12 = -(h.inertia_a * h.ax * h.ay + h.inertia_b * h.bx * h.by);
+        const F8 k22 = mass + h.inertia_a * h.ax * h.ax + h.inertia_b * h.bx * h.bx;
+        const F8 det = k11 * k22 - k12 * k12;
+        const F8 inverse_det = select(det > all(0), all(1) / det, all(0));
+        const F8 cx = -(h.inertia_a * h.ay + h.inertia_b * h.by);
+        const F8 cy = h.inertia_a * h.ax + h.inertia_b * h.bx;
+        fx = inverse_det * (k12 * cy - k22 * cx);
+        fy = inverse_det * (k12 * cx - k11 * cy);
+        k = greatest(h.inertia_a + h.inertia_b + fx * cx + fy * cy, all(0));
     }
 };
 
-CAROM_INLINE void drive(Hinge& h, WideAngle& t, const AngleMass& mass)
+// Of what is beyond a stop a share goes back in each sub-step; while relaxing, a stop that bears is reached. As in joint_axis.cpp.
+CAROM_INLINE F8 stop_rate(F8 error, const LaneFloats& borne, const JointSoftness& s, bool use_bias)
 {
-    const F8 old = load(t.motor_impulse);
-    const F8 most = load(t.motor_max);
-    const F8 updated = clamp(old - mass.m * (h.b.w - h.a.w - load(t.motor_speed)), -most, most);
-    store(t.motor_impulse, updated);
-    h.twist(updated - old);
+    constexpr float way_back = 0.2f;
+    const F8 apart = select(load(borne) > all(0), all(0), greatest(error, all(0)));
+    return -s.inverse_h * (use_bias ? select(error > all(0), error, way_back * error) : apart);
 }
 
-// One side: room >= 0, and `sign` turns the angle so that it shrinks.
-CAROM_INLINE void limit(Hinge& h, LaneFloats& impulse, const AngleMass& mass, F8 room, float sign, const JointSoftness& s, bool use_bias)
+// Spring, motor and limits as one: AxisLaw in joint_axis.cpp.
+CAROM_INLINE void hold_angle(Hinge& h, WideJoint& j, const JointSoftness& s, bool use_bias)
 {
-    const I8 apart = room > all(0);
-    const F8 speed = sign * (h.b.w - h.a.w);
-    const F8 old = load(impulse);
-    const F8 bias = select(apart, room * s.inverse_h, use_bias ? s.soft.bias_rate * room : all(0));
-    const F8 mass_scale = select(apart, all(1), all(use_bias ? s.soft.mass_scale : 1));
-    const F8 impulse_scale = select(apart, all(0), all(use_bias ? s.soft.impulse_scale : 0));
-    const F8 updated = greatest(old - mass.m * mass_scale * (speed + bias) - impulse_scale * old, all(0));
-    store(impulse, updated);
-    h.twist(sign * (updated - old));
-}
-
-CAROM_INLINE void spring(Hinge& h, WideAngle& t, const AngleMass& mass, F8 angle)
-{
-    const F8 old = load(t.spring_impulse);
-    const F8 bias = load(t.spring_bias_rate) * (angle - load(t.target));
-    const F8 change =
-        -(mass.m * load(t.spring_mass_scale) * (h.b.w - h.a.w + bias)) - load(t.spring_impulse_scale) * old;
-    store(t.spring_impulse, old + change);
-    h.twist(change);
-}
-
-CAROM_INLINE void hold_angle(Hinge& h, WideAngle& t, const JointSoftness& s, bool use_bias)
-{
+    WideAngle& t = j.angle;
+    const F8 none = all(0);
     const AngleMass mass(h);
+    const I8 moves = mass.k > none;
     const F8 angle = load(t.now);
-    if (use_bias)
-        spring(h, t, mass, angle);
-    drive(h, t, mass);
-    limit(h, t.lower_impulse, mass, angle - load(t.lower), 1, s, use_bias);
-    limit(h, t.upper_impulse, mass, load(t.upper) - angle, -1, s, use_bias);
+    const F8 most = load(t.motor_max);
+    const F8 target = load(t.motor_speed);
+    const F8 spring_before = load(t.spring_impulse);
+    const F8 driven_before = load(t.motor_impulse) + load(t.lower_impulse) - load(t.upper_impulse);
+    const F8 before = use_bias ? driven_before + spring_before : driven_before;
+    const F8 free_rate = h.b.w - h.a.w - mass.k * before;
+    const F8 conductance = use_bias ? load(t.spring_conductance) : none;
+    const F8 rest = load(t.spring_rate) * (angle - load(t.target));
+    const F8 sprung = (free_rate + mass.k * conductance * rest) / (1 + mass.k * conductance);
+    const F8 reach = most * mass.k / (1 + mass.k * conductance);
+    const F8 driven = clamp(target, sprung - reach, sprung + reach);
+    const F8 low = stop_rate(angle - load(t.lower), t.lower_impulse, s, use_bias);
+    const F8 high = -stop_rate(load(t.upper) - angle, t.upper_impulse, s, use_bias);
+    const F8 rate = greatest(least(driven, high), low);
+    const F8 after = select(moves, (rate - free_rate) / mass.k, before);
+    const F8 spring = use_bias ? conductance * (rest - rate) : spring_before;
+    const F8 of_others = use_bias ? after - spring : after;
+    const F8 wanted = target - rate;
+    const F8 some = clamp(of_others, -most, most);
+    const I8 stopped = (rate <= low) | (rate >= high);
+    const F8 motor = select(stopped, select(wanted > none, most, select(wanted < none, -most, some)), some);
+    store(t.spring_impulse, select(moves, spring, spring_before));
+    store(t.motor_impulse, select(moves, motor, load(t.motor_impulse)));
+    store(t.lower_impulse, select(moves & (rate <= low), greatest(of_others - motor, none), select(moves, none, load(t.lower_impulse))));
+    store(t.upper_impulse, select(moves & (rate >= high), greatest(motor - of_others, none), select(moves, none, load(t.upper_impulse))));
+    const F8 change = after - before;
+    h.twist(change);
+    h.push(change * mass.fx, change * mass.fy);
+    store(j.impulse_x, load(j.impulse_x) + change * mass.fx);
+    store(j.impulse_y, load(j.impulse_y) + change * mass.fy);
 }
 
 void warm_start(WideJoint* joints, std::int32_t count, BodyState* states)
@@ -338,7 +361,7 @@ void solve(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
     {
         Hinge h(*j, states);
         if (j->turns != 0)
-            hold_angle(h, j->angle, s, true);
+            hold_angle(h, *j, s, true);
         hold(h, *j, all(s.soft.bias_rate), all(s.soft.mass_scale), all(s.soft.impulse_scale));
         h.finish(*j, states);
     }
@@ -353,7 +376,7 @@ void relax(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
         WideAngle& t = j->angle;
         if (j->turns != 0)
         {
-            hold_angle(h, t, s, false);
+            hold_angle(h, *j, s, false);
             store(t.torque_sum, load(t.torque_sum) + s.share * (load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) -
                                                       load(t.upper_impulse)));
         }

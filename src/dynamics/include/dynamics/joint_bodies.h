@@ -44,6 +44,14 @@ struct JointBodies
         return k > 0 ? 1 / k : 0;
     }
 
+    /// Along the axis, with what the held rows answer.
+    void apply_along_axis(const JointRows& rows, float impulse) const
+    {
+        apply(rows.axis, impulse);
+        for (int i = 0; i < rows.held_count; ++i)
+            apply(rows.held[i], impulse * rows.reaction[i]);
+    }
+
     void apply(const JointRow& r, float impulse) const
     {
         sa.velocity.x -= ca.inverse_mass.x * impulse * r.d.x;
@@ -54,6 +62,22 @@ struct JointBodies
         sb.angular_velocity += cb.inverse_inertia * impulse * r.arm_b;
     }
 };
+
+[[nodiscard]] inline AxisImpulses axis_impulses(const JointRecord& joint)
+{
+    const auto in = [&](JointSlot slot) { return static_cast<double>(joint.impulses[slot]); };
+    return {in(slot_spring), in(slot_motor), in(slot_lower), in(slot_upper)};
+}
+
+[[nodiscard]] inline float axis_impulse(const JointRecord& joint) { return static_cast<float>(axis_impulses(joint).sum()); }
+
+inline void set_axis_impulses(JointRecord& joint, const AxisImpulses& to)
+{
+    joint.impulses[slot_spring] = static_cast<float>(to.spring);
+    joint.impulses[slot_motor] = static_cast<float>(to.motor);
+    joint.impulses[slot_lower] = static_cast<float>(to.lower);
+    joint.impulses[slot_upper] = static_cast<float>(to.upper);
+}
 
 /// A hinge to the world whose body flies about it: flight keeps it.
 [[nodiscard]] inline bool is_in_flight(const SolverView& view, const JointWork& work)
@@ -76,6 +100,9 @@ struct Placement
 /// Poses and rows as the bodies stand now; of springs the pose alone.
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
+/// The inverse mass along the axis, and how the held rows answer an impulse along it.
+void weigh_axis(const JointBodies& bodies, JointRows& rows);
+
 /// All rows of a joint; a spring has none.
 void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 
@@ -89,6 +116,9 @@ void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointR
 [[nodiscard]] bool only_holds(const JointRecord& joint);
 /// A hinge or slider that moves: by a brake, or by a spring that is damped within a few swings.
 [[nodiscard]] bool loses_energy(const JointRecord& joint);
+
+/// Rows that the direct solve has for it.
+[[nodiscard]] int most_rows_of(const JointRecord& joint);
 
 /// Whether its rows ask for the angle between the bodies.
 [[nodiscard]] bool has_angle(const JointRecord& joint);

@@ -1,9 +1,9 @@
 #pragma once
 
-// The direct solve of what joints hold, beside the row after row of joint_solver.h.
+// The direct solve of an island's joints, beside the row after row of joint_solver.h.
 
+#include "dynamics/joint_axis.h"
 #include "dynamics/joint_bodies.h"
-#include "dynamics/joint_forest.h"
 #include "dynamics/joint_matrix.h"
 
 #include <span>
@@ -11,29 +11,37 @@
 
 namespace carom::internal {
 
-/// All holding rows of a unit at once. Kept from step to step for its memory, and for the forest where the joints are the same.
+/// All joint rows of an island at once. Kept from step to step for its memory, and for the layout where the joints are the same.
 class DirectSolve
 {
 public:
     static constexpr int most_rows = 128;
 
-    /// Once a step, and after a body has taken off or landed: who hangs on whom is found anew.
+    /// Once a step, and after a body has taken off or landed: who is connected with whom is found anew.
     void look_again() { m_looks_again = true; }
-    /// At the present pose. Not ready where there is nothing to hold, too much of it, or loops: then the soft rows have to do.
+    /// At the present pose. Not ready where there is nothing to hold or too much of it: then the soft rows have to do.
     void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints);
     [[nodiscard]] bool is_ready() const { return m_ready; }
     void warm_start();
     void solve(bool use_bias);
-    void keep_together(); ///< J v = 0
-    /// The same for speeds that others than the solver have given the bodies, before any load is known.
+    /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
     void take_forbidden_speeds();
+    /// Joints leave their stops at JointWork::bounce.
+    void bounce();
     /// No straight way leads to where the joints want the bodies: let them drift, then close the gaps.
     [[nodiscard]] bool turns_too_far() const { return m_turns_too_far; }
     /// Moves the bodies and leaves their velocities: one step of Newton's.
     void close_gaps();
 
 private:
-    /// What of a row stands in J, and so in the matrix.
+    enum class Stage
+    {
+        Ahead, ///< errors at the pose that the velocities lead to are 0
+        Now,   ///< J v = 0 at the pose reached
+        Held   ///< the same of the held rows alone
+    };
+
+    /// The part of a row that stands in J, and so in the matrix.
     struct Line
     {
         Vec2 d{};
@@ -41,78 +49,113 @@ private:
         float arm_b = 0;
     };
 
-    /// A joint, in the order of the forest.
-    struct Held
+    struct Edge
     {
-        std::size_t joint = 0; ///< place in m_joints
-        int rows = 0;
-        int up = JointForest::ground; ///< nodes: towards the root, and what hangs on that
-        int down = 0;
-        int a = 0; ///< the same by the joint's own order
-        int b = 0;
-        Line lines[2];
+        std::size_t joint = 0; ///< index into m_joints
+        std::int32_t a = 0;    ///< states; none: does not move
+        std::int32_t b = 0;
+        int held = 0;
+        bool has_axis = false;
+
+        friend bool operator==(const Edge&, const Edge&) = default;
+    };
+
+    /// A joint in the matrix.
+    struct Item
+    {
+        std::size_t joint = 0;
+        int held = 0;
+        int first_row = 0;
+        int a = JointMatrix::ground; ///< nodes
+        int b = JointMatrix::ground;
+        Line lines[most_joint_rows];
         const JointWork* work = nullptr;
         JointRecord* record = nullptr;
 
+        [[nodiscard]] int rows() const { return held + (work->rows.has_axis() ? 1 : 0); }
+        [[nodiscard]] const JointRow& row(int r) const { return r < held ? work->rows.held[r] : work->rows.axis; }
         [[nodiscard]] bool take_lines();
-        [[nodiscard]] float& impulse(int row) const;
-        [[nodiscard]] RowPair impulses() const;
-        void add(const RowPair& change) const;
-        void note_blow(JointWork& told, const RowPair& impulse) const;
+        [[nodiscard]] float& impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
     };
 
-    /// A body that joints hold; all that do not move are one.
+    /// A free axis in the equations.
+    struct Axis
+    {
+        std::size_t item = 0;
+        int row = 0;
+        AxisLaw law;
+        AxisPiece piece;
+        double before = 0;      ///< impulse that the law has given already
+        AxisImpulses restore{}; ///< as they were before
+    };
+
+    /// A body that joints connect; all that do not move are one.
     struct Node
     {
         std::int32_t state = none;
         float stretch = 0; ///< (omega h)²
         Placement ahead{};
-        Triple shift{}; ///< on the way to closed gaps
+        Triple change{}; ///< of its velocity
     };
 
-    [[nodiscard]] bool find_forest();
+    [[nodiscard]] bool find_edges();
     [[nodiscard]] std::int32_t moving(std::int32_t state) const;
+    [[nodiscard]] int node_of(std::int32_t state) const;
     void lay_out();
     [[nodiscard]] bool place();
-    void fill_jacobian(const Held& held, JointJacobian& jacobian) const;
-    void note_stretch(const Held& held);
+    void fill_jacobian(const Item& item, JointJacobian& jacobian) const;
+    void note_stretch(const Item& item);
     [[nodiscard]] Triple inverse_mass(const Node& node) const;
     [[nodiscard]] Node& node(int i) { return m_nodes[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const Node& node(int i) const { return m_nodes[static_cast<std::size_t>(i)]; }
 
+    [[nodiscard]] double present_compliance() const;
     [[nodiscard]] bool find_pose_ahead();
     void note_speeds();
     void note_errors_ahead();
     [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
     [[nodiscard]] double largest_error() const;
-    void find_impulses();
-    void apply(double sign = 1);
+    [[nodiscard]] double largest_turn() const;
     void start_anew();
-    void push(std::size_t joint, const RowPair& impulse);
-    void push(int node, const Triple& momentum);
-    void note_shift(int node, const Triple& momentum);
-    void shift(const Node& node, double share);
+
+    void find_impulses(Stage stage);
+    void begin_axes(Stage stage);
+    void solve_pieces();
+    void give_known_impulses();
+    [[nodiscard]] bool take_next_pieces(bool all);
+    void give_up_on_pieces();
+    void push(const Item& item, int row, double impulse);
+    [[nodiscard]] double change_along(const Item& item, int row) const;
+    void take_velocities(double sign = 1);
+    void take_impulses();
+    void take_back();
+    void tell_as_blow();
 
     SolverView m_view{};
     SceneState* m_state = nullptr;
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
-    bool m_is_forest = false; ///< and not too large
+    bool m_fits = false; ///< there is something to solve, and not too much
     bool m_ready = false;
     bool m_turns_too_far = false;
     float m_longest_arm = 0;
 
-    std::vector<JointForest::Link> m_found;
-    std::vector<JointForest::Link> m_links; ///< of the forest
-    bool m_has_loops = false;               ///< then there is none
-    JointForest m_forest;
+    std::vector<Edge> m_found;
+    std::vector<Edge> m_edges; ///< of the layout
     JointMatrix m_matrix;
-    bool m_is_new = false;     ///< the forest: nothing stands in the matrix
-    bool m_is_regular = false; ///< the matrix
+    bool m_is_new = false;   ///< the layout: nothing stands in the matrix
+    double m_compliance = 0; ///< of loops, in the present stage
+    double m_leak = 0;
+    double m_softening = 1;
+    double m_factored_with = -1;       ///< of these; m_compliances are the others
+    std::vector<double> m_compliances; ///< by row; so are the next ones
+    std::vector<double> m_wanted_compliances;
+    std::vector<double> m_speeds; ///< or errors ahead per sub-step
+    std::vector<double> m_impulses;
 
-    std::vector<Held> m_held;
+    std::vector<Item> m_items;
+    std::vector<Axis> m_axes; ///< in the present stage
     std::vector<JointJacobian> m_jacobians;
-    std::vector<RowPair> m_residual; ///< speeds, by joint
-    std::vector<RowPair> m_impulse;
     std::vector<Node> m_nodes;
     std::vector<Triple> m_masses; ///< inverse
 };

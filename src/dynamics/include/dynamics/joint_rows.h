@@ -3,6 +3,7 @@
 // A joint in the words of the solver: rows of a Jacobian with their error at the pose the bodies have now. A joint's file says only what is
 // its own; joint_solver.cpp iterates over the rows of all kinds alike (and a direct solve over a tree of joints can read the same rows).
 
+#include "dynamics/joint_axis.h"
 #include "dynamics/rows.h"
 
 #include <array>
@@ -20,41 +21,20 @@ struct JointRow
     JointSlot slot = slot_x;
 };
 
-enum class FreeKind : std::uint8_t
-{
-    Limit, ///< C >= 0, impulse >= 0
-    Motor, ///< dC = target, |impulse| <= max
-    Spring ///< soft, towards C = 0; solved with bias only
-};
-
-/// What acts along a joint's free axis.
-struct FreeRow
-{
-    FreeKind kind = FreeKind::Spring;
-    bool is_soft = false; ///< with the joint's own softness instead of the step's
-    JointSlot slot = slot_spring;
-    float sign = 1;        ///< -1: against the axis
-    float error = 0;       ///< C
-    float target = 0;      ///< motors: speed
-    float max_impulse = 0; ///< motors
-};
-
 struct JointRows
 {
     JointRow held[2];
     JointRow axis; ///< the one line or angle along which the bodies may move against each other, where anything acts on that
-    FreeRow free[4];
+    AxisActs acts;
     int held_count = 0;
-    int free_count = 0;
-    bool block = false;     ///< the held rows are those of a point and are solved as one
-    float inverse_mass = 0; ///< along the axis
-    float mass = 0;
+    bool block = false;          ///< the held rows are those of a point and are solved as one
+    float axis_inverse_mass = 0; ///< while the held rows keep their speeds
+    float reaction[2] = {};      ///< impulses of the held rows by which they do, for an impulse of 1 along the axis
 
     void hold(const JointRow& row) { held[held_count++] = row; }
-    void act(const FreeRow& row) { free[free_count++] = row; }
-    void clear() { held_count = free_count = 0; }
+    void clear() { *this = {}; }
     [[nodiscard]] std::span<const JointRow> holds() const { return {held, static_cast<std::size_t>(held_count)}; }
-    [[nodiscard]] std::span<const FreeRow> acts() const { return {free, static_cast<std::size_t>(free_count)}; }
+    [[nodiscard]] bool has_axis() const { return acts.any(); }
 };
 
 /// Where the joint's bodies are now, within the step.
@@ -77,13 +57,14 @@ struct JointWork
     std::int32_t b = 0;
     SpringKick before{}; ///< of a spring, before the bodies move
     SpringKick after{};  ///< and after
-    Softness softness{}; ///< the joint's own, of limits or of the spring along the free axis
+    AxisSpring spring{}; ///< along the free axis: of its own, or of its limits
     Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};                ///< slider's axis at the start of the step
     Vec2 gap0{};                 ///< anchor b - anchor a at the start of the step
     float angle0 = 0;            ///< joint angle at the start of the step
     float approach[2] = {};      ///< towards the lower and upper limit, before a sub-step's forces
+    float bounce[2] = {};        ///< speeds at which it is to leave them
     JointErrors errors_before{}; ///< when the sub-step began
     JointErrors moved{};         ///< of these, what others than the solver have moved and it has not made good yet
     Vec2 force_sum{};            ///< impulses over the step
@@ -130,6 +111,9 @@ void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, Jo
 }
 
 /// Limits, motor and spring along a free coordinate, common to hinges and sliders.
-void add_free_axis(const JointRecord& joint, float coordinate, float h, JointRows& out);
+void act_along_axis(const JointRecord& joint, float coordinate, float h, AxisActs& out);
+
+/// The coordinate that the axis moves: a length, an angle, a translation.
+[[nodiscard]] float axis_coordinate(const JointRecord& joint, const JointPose& pose);
 
 } // namespace carom::internal

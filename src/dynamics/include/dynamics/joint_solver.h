@@ -19,7 +19,7 @@ struct JointArms
 };
 [[nodiscard]] JointArms joint_arms(const SceneState& state, const JointRecord& joint);
 
-[[nodiscard]] JointWork prepare_joint(const StepContext& ctx, int joint, std::int32_t a, std::int32_t b);
+[[nodiscard]] JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPlace& place);
 
 void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct);
 /// What joints hold is solved directly where that is ready, else a row at a time.
@@ -28,7 +28,8 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
 
 /// Speeds towards the limits, before a sub-step's forces; and the bounce off them after it.
 void note_limit_approach(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
-void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, float rest_speed);
+void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct,
+                       float rest_speed);
 
 /// Sums impulses for the read-back; marks bodies that lean on a limit of a hinge to the world.
 void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints);

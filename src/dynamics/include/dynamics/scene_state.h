@@ -92,8 +92,9 @@ struct WaitingForce
 
 namespace body_flag {
 inline constexpr std::uint32_t dynamic = 1;
-inline constexpr std::uint32_t flier = 2;     ///< in flight: moved by flight, not by the solver
-inline constexpr std::uint32_t unbound = 4;   ///< no contact rows, no limits, no motors: it drifts along exact parabolas
+inline constexpr std::uint32_t flier = 2; ///< in flight: moved by flight, not by the solver
+inline constexpr std::uint32_t unbound =
+    4; ///< no forces but those that are even over a sub-step, and joints': it drifts along exact parabolas
 inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
 inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
 inline constexpr std::uint32_t traced = 32;   ///< its path is recorded: it is near a trigger

@@ -16,9 +16,8 @@ struct WideAngle
     LaneFloats start; ///< the angle at the start of the step
     LaneFloats now;   ///< at the poses that bodies have, as relaxing found it
     LaneFloats target;
-    LaneFloats spring_bias_rate;
-    LaneFloats spring_mass_scale;
-    LaneFloats spring_impulse_scale;
+    LaneFloats spring_rate;        ///< at which the spring gives nothing, per stretch
+    LaneFloats spring_conductance; ///< impulse per rate that it misses
     LaneFloats spring_impulse;
     LaneFloats motor_speed;
     LaneFloats motor_max; ///< impulse in a sub-step
