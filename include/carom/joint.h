@@ -53,7 +53,8 @@ struct DistanceDef
 /// The spring's stiffness is J (2 pi spring_hertz)² in N m/rad, its damping 2 spring_damping_ratio J (2 pi spring_hertz) in
 /// N m s/rad. J is the inertia of the two bodies about the hinge: I + m r² of a body that hangs on the world, or
 /// 1 / (1 / J_a + 1 / J_b). A bar that hangs on the world so swings at spring_hertz; under a torque it gives by torque / stiffness.
-/// Springs, motors and limits are stable at any stiffness and step.
+/// Springs, motors and limits are stable at any stiffness and step: beyond 16 / (2 pi h) hertz, h the sub-step, a spring is only as stiff as that
+/// (611 Hz at 240 sub-steps/s); where more joints hang together than are solved all at once (128 rows), beyond 0.5 / (2 pi h) (19 Hz).
 struct RevoluteDef
 {
     BodyId body_a{};

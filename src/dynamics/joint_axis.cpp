@@ -27,10 +27,12 @@ double stop_rate(float error, float h) { return static_cast<double>(-(error > 0 
 
 } // namespace
 
-AxisSpring make_spring(float hertz, float damping_ratio, float mass, float h)
+AxisSpring make_spring(float hertz, float damping_ratio, float mass, float h, float most_turn)
 {
-    const float omega = 2 * pi * hertz;
-    return {mass * omega * omega, 2 * damping_ratio * mass * omega, std::max(0.5f, 1 - 0.5f * followed / (omega * h))};
+    const float turn = 2 * pi * hertz * h;
+    const float followed_turn = std::min(turn, most_turn);
+    const float drag = std::min(2 * damping_ratio * turn, most_turn);
+    return {mass * followed_turn * followed_turn / (h * h), mass * drag / h, std::max(0.5f, 1 - 0.5f * followed / followed_turn)};
 }
 
 SpringLine AxisSpring::line(float stretch, float h) const

@@ -34,7 +34,7 @@ constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twic
 constexpr int rounds_of_all = 8;   // of the active set; then axes change one at a time, which ends
 constexpr int most_rounds = 64;
 constexpr double loop_compliance = 1e-3; // of a row's weight
-constexpr double most_compliance = 0.4;
+constexpr double most_softening = 400;
 constexpr double same_rate = 1e-6;
 
 double as_double(float x) { return static_cast<double>(x); }
@@ -63,8 +63,7 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
         m_factored_with = -1;
     }
     if (m_ready && m_matrix.has_loops())
-        m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0,
-                                 most_compliance / loop_compliance);
+        m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0, most_softening);
 }
 
 // --- who is connected with whom -----------------------------------------------------------------------------------------------------
@@ -227,7 +226,8 @@ void DirectSolve::note_stretch(const Item& item)
 Triple DirectSolve::inverse_mass(const Node& node) const
 {
     const StateConstants& c = m_view.constants[node.state];
-    const float share = node.stretch > most_stretch ? most_stretch / node.stretch : 1;
+    const bool counts_as_harder = !m_matrix.has_loops() && node.stretch > most_stretch; // loops give way instead
+    const float share = counts_as_harder ? most_stretch / node.stretch : 1;
     return as_triple(c.inverse_mass, share * c.inverse_inertia);
 }
 
@@ -252,11 +252,11 @@ bool DirectSolve::find_pose_ahead()
         start_anew();
         note_errors_ahead();
     }
-    const bool gives = m_matrix.has_loops();
-    double before = largest_error();
-    m_turns_too_far = before > 1;
-    if (m_turns_too_far && !gives)
+    const double before = largest_error();
+    m_turns_too_far = before > 1 && !m_matrix.has_loops();
+    if (m_turns_too_far)
         return false;
+    m_spring_softening = 1;
     for (;;)
     {
         find_impulses(Stage::Ahead);
@@ -266,13 +266,16 @@ bool DirectSolve::find_pose_ahead()
         note_errors_ahead();
         const double after = largest_error();
         m_turns_too_far = after > 0.5 * std::max(before, turn) && after > 1e-3;
-        const double most_softening = most_compliance / loop_compliance;
-        if (!m_turns_too_far || (gives && m_softening >= most_softening))
+        if (!m_turns_too_far || (m_matrix.has_loops() && !may_soften()))
             break;
         take_back();
-        if (!gives)
+        if (!may_soften())
+        {
+            if (m_spring_softening > 1) // nor may what springs gave before go on
+                start_anew();
             return false;
-        m_softening = std::min(16 * m_softening, most_softening);
+        }
+        soften();
         note_errors_ahead();
     }
     m_turns_too_far = false;
@@ -291,6 +294,19 @@ bool DirectSolve::find_pose_ahead()
         }
     }
     return true;
+}
+
+// Rows of loops give way, and springs.
+bool DirectSolve::may_soften() const
+{
+    const bool has_springs = std::ranges::any_of(m_axes, [](const Axis& axis) { return axis.law.spring.is_there(); });
+    return (m_matrix.has_loops() && m_softening < most_softening) || (has_springs && m_spring_softening < most_softening);
+}
+
+void DirectSolve::soften()
+{
+    m_softening = std::min(16 * m_softening, most_softening);
+    m_spring_softening = std::min(16 * m_spring_softening, most_softening);
 }
 
 // Blows, not loads: they are no part of what the rows are warm started with.
@@ -422,6 +438,8 @@ void DirectSolve::begin_axes(Stage stage)
             continue;
         axis.law = stage == Stage::Ahead ? rows.acts.law_ahead(item.work->spring, m_view.h)
                                          : rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
+        for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
+            spring->compliance *= m_spring_softening;
         axis.before = axis.law.scope.sum(axis.restore);
         const double k = as_double(rows.axis_inverse_mass);
         axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] - k * axis.before, k);

@@ -36,12 +36,14 @@ void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows&
         jx = (k22 * bx - k12 * by) / det;
         jy = (k11 * by - k12 * bx) / det;
     }
+    float& of_x = joint.impulses[x.slot];
+    float& of_y = joint.impulses[y.slot];
     const float mass_scale = use_bias ? s.mass_scale : 1;
     const float impulse_scale = use_bias ? s.impulse_scale : 0;
-    jx = -mass_scale * jx - impulse_scale * joint.impulses[slot_x];
-    jy = -mass_scale * jy - impulse_scale * joint.impulses[slot_y];
-    joint.impulses[slot_x] += jx;
-    joint.impulses[slot_y] += jy;
+    jx = -mass_scale * jx - impulse_scale * of_x;
+    jy = -mass_scale * jy - impulse_scale * of_y;
+    of_x += jx;
+    of_y += jy;
     bodies.apply(x, jx);
     bodies.apply(y, jy);
 }
@@ -54,11 +56,13 @@ struct Pass
     bool use_bias;
 };
 
-// All that acts along the axis as one, with what the held rows answer.
+// All that acts along the axis as one. The held rows, which have been solved just before, keep what they have.
 void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const Pass& pass)
 {
     const JointRows& rows = work.rows;
-    const auto k = static_cast<double>(rows.axis_inverse_mass);
+    const float held = pass.use_bias ? pass.softness.mass_scale : 1;
+    const float whole = bodies.couple(rows.axis, rows.axis);
+    const auto k = static_cast<double>(whole + held * (rows.axis_inverse_mass - whole));
     if (!(k > 0))
         return;
     const AxisImpulses old = axis_impulses(joint);
@@ -69,9 +73,9 @@ void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointW
     const double after = piece.keeps_rate() ? (piece.rate - free_rate) / k : piece.impulse(piece.rate);
     set_axis_impulses(joint, law.scope.merge(old, law.split(piece, after, piece.rate)));
     const auto change = static_cast<float>(after - before);
-    bodies.apply_along_axis(rows, change);
+    bodies.apply_along_axis(rows, change, held);
     for (int i = 0; i < rows.held_count; ++i)
-        joint.impulses[rows.held[i].slot] += change * rows.reaction[i];
+        joint.impulses[rows.held[i].slot] += change * held * rows.reaction[i];
 }
 
 void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
@@ -135,7 +139,7 @@ JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPla
     if (joint.kind == JointType::Spring)
         fit_spring(view, ctx.state, work);
     else if (joint.hertz > 0)
-        fit_axis_spring(view, joint, unit.drifts, work);
+        fit_axis_spring(view, joint, unit.direct, unit.drifts, work);
     return work;
 }
 
@@ -170,24 +174,18 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
     }
     const Softness soft = make_softness(joint_hertz, 0, view.h);
     const Pass pass{soft, view.h, use_bias};
-    // Motors, springs and limits first: what is held matters most and has the last word.
     for (const JointWork& work : joints)
     {
         if (is_in_flight(view, work))
             continue;
         JointRecord& joint = state.joints[work.joint];
         const JointBodies bodies(view, work);
+        if (work.rows.held_count == 2)
+            solve_block(bodies, joint, work.rows, soft, use_bias);
+        else if (work.rows.held_count == 1)
+            solve_held(bodies, joint, work.rows.held[0], pass);
         if (work.rows.has_axis())
             solve_free_axis(bodies, joint, work, pass);
-        if (work.rows.block)
-            continue;
-        for (const JointRow& row : work.rows.holds())
-            solve_held(bodies, joint, row, pass);
-    }
-    for (const JointWork& work : joints)
-    {
-        if (work.rows.block && !is_in_flight(view, work))
-            solve_block(JointBodies(view, work), state.joints[work.joint], work.rows, soft, use_bias);
     }
 }
 

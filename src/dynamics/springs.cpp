@@ -182,12 +182,12 @@ void fit_spring(const SolverView& view, const SceneState& state, JointWork& work
         fit_implicitly(stiffness, damping, mass, h, work);
 }
 
-void fit_axis_spring(const SolverView& view, const JointRecord& joint, bool drifts, JointWork& work)
+void fit_axis_spring(const SolverView& view, const JointRecord& joint, bool direct, bool drifts, JointWork& work)
 {
     const float k = inverse_spring_mass(JointBodies(view, work), joint, work);
     if (!(k > 0))
         return;
-    work.spring = make_spring(joint.hertz, joint.damping_ratio, 1 / k, view.h);
+    work.spring = make_spring(joint.hertz, joint.damping_ratio, 1 / k, view.h, direct ? direct_spring_turn : soft_spring_turn);
     const bool comes_and_goes = joint.kind == JointType::Distance && joint.lower != joint.upper;
     if (comes_and_goes || !drifts)
         work.spring.theta = 1;

@@ -342,9 +342,10 @@ private:
     void let_drift(Unit& unit)
     {
         const auto places = std::span(m_scratch.joint_places).subspan(as_index(unit.first_joint), as_index(unit.joint_count));
-        unit.drifts = unit.joint_count > 0 && unit.row_count == 0 && unit.wide_count == 0 && unit.wide_joint_count == 0 &&
-                      std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
-                                      { return sum + most_rows_of(m_state.joints[place.joint]); }) <= DirectSolve::most_rows;
+        const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
+                                         { return sum + most_rows_of(m_state.joints[place.joint]); });
+        unit.direct = unit.joint_count > 0 && unit.wide_joint_count == 0 && rows <= DirectSolve::most_rows;
+        unit.drifts = unit.direct && unit.row_count == 0 && unit.wide_count == 0;
         if (unit.drifts)
             std::fill_n(m_scratch.bound_by_joint.begin() + unit.first_state, unit.state_count, 0);
     }

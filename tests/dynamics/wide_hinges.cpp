@@ -88,7 +88,7 @@ TEST(WideHinges, AreDrivenAsEachByItself)
             {
                 const JointRecord& joint = hinges.state.joints[i];
                 const bool sprung = joint.hertz > 0;
-                AxisSpring spring = make_spring(joint.hertz, joint.damping_ratio, 1 / (2 * 3.0f), h);
+                AxisSpring spring = make_spring(joint.hertz, joint.damping_ratio, 1 / (2 * 3.0f), h, soft_spring_turn);
                 spring.theta = 1;
                 const SpringLine line = sprung ? spring.line(1, h) : SpringLine{};
                 EXPECT_NEAR(static_cast<double>(t.spring_rate.v[i]), line.rest, 1e-5 * std::fabs(line.rest));

@@ -95,16 +95,17 @@ CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[la
     store(t.motor_speed, select(driven, speed, none));
     store(t.motor_max, select(driven, h * most, none));
     store(t.motor_impulse, select(driven, motor_impulse, none));
-    // As make_spring.
+    // As soft_spring.
     const F8 k = inverse_inertia_about(load(j.inverse_mass_a), load(j.inverse_inertia_a), load(j.anchors.ax), load(j.anchors.ay)) +
                  inverse_inertia_about(load(j.inverse_mass_b), load(j.inverse_inertia_b), load(j.anchors.bx), load(j.anchors.by));
     const F8 hertz = lanes_from([&](int i) { return joints[i]->hertz; });
     const I8 sprung = (hertz > none) & (k > none);
-    const F8 omega = 2 * pi * hertz;
-    const F8 drag = 2 * ratio + h * omega;
+    const F8 turn = h * (2 * pi) * hertz;
+    const F8 stiffness = least(turn * turn, all(soft_spring_turn * soft_spring_turn)); // h² k / J
+    const F8 drag = stiffness + least(2 * ratio * turn, all(soft_spring_turn));         // and h c / J
     store(t.target, select(sprung, target, none));
-    store(t.spring_rate, select(sprung, -omega / drag, none));
-    store(t.spring_conductance, select(sprung, h * omega * drag / k, none));
+    store(t.spring_rate, select(sprung, -stiffness / (h * drag), none));
+    store(t.spring_conductance, select(sprung, drag / k, none));
     store(t.spring_impulse, select(sprung, spring_impulse, none));
     store(t.torque_sum, none);
 }
@@ -272,13 +273,13 @@ CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 i
     h.push(x, y);
 }
 
-// The angle, while the anchors keep their speeds.
+// The angle, while the anchors are held as they are: after them, both are solved.
 struct AngleMass
 {
     F8 k;      ///< inverse
     F8 fx, fy; ///< what the anchors answer, for a twist of 1
 
-    CAROM_INLINE explicit AngleMass(const Hinge& h)
+    CAROM_INLINE AngleMass(const Hinge& h, float held)
     {
         const F8 mass = h.mass_a + h.mass_b;
         const F8 k11 = mass + h.inertia_a * h.ay * h.ay + h.inertia_b * h.by * h.by;
@@ -288,8 +289,8 @@ struct AngleMass
         const F8 inverse_det = select(det > all(0), all(1) / det, all(0));
         const F8 cx = -(h.inertia_a * h.ay + h.inertia_b * h.by);
         const F8 cy = h.inertia_a * h.ax + h.inertia_b * h.bx;
-        fx = inverse_det * (k12 * cy - k22 * cx);
-        fy = inverse_det * (k12 * cx - k11 * cy);
+        fx = held * inverse_det * (k12 * cy - k22 * cx);
+        fy = held * inverse_det * (k12 * cx - k11 * cy);
         k = greatest(h.inertia_a + h.inertia_b + fx * cx + fy * cy, all(0));
     }
 };
@@ -307,7 +308,7 @@ CAROM_INLINE void hold_angle(Hinge& h, WideJoint& j, const JointSoftness& s, boo
 {
     WideAngle& t = j.angle;
     const F8 none = all(0);
-    const AngleMass mass(h);
+    const AngleMass mass(h, use_bias ? s.soft.mass_scale : 1);
     const I8 moves = mass.k > none;
     const F8 angle = load(t.now);
     const F8 most = load(t.motor_max);
@@ -360,9 +361,9 @@ void solve(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
     for (WideJoint* j = joints; j < joints + count; ++j)
     {
         Hinge h(*j, states);
+        hold(h, *j, all(s.soft.bias_rate), all(s.soft.mass_scale), all(s.soft.impulse_scale));
         if (j->turns != 0)
             hold_angle(h, *j, s, true);
-        hold(h, *j, all(s.soft.bias_rate), all(s.soft.mass_scale), all(s.soft.impulse_scale));
         h.finish(*j, states);
     }
 }
@@ -374,13 +375,13 @@ void relax(WideJoint* joints, std::int32_t count, BodyState* states, const Joint
         place(*j, states);
         Hinge h(*j, states);
         WideAngle& t = j->angle;
+        hold(h, *j, all(0), all(1), all(0));
         if (j->turns != 0)
         {
             hold_angle(h, *j, s, false);
             store(t.torque_sum, load(t.torque_sum) + s.share * (load(t.spring_impulse) + load(t.motor_impulse) + load(t.lower_impulse) -
                                                       load(t.upper_impulse)));
         }
-        hold(h, *j, all(0), all(1), all(0));
         store(j->sum_x, load(j->sum_x) + s.share * load(j->impulse_x));
         store(j->sum_y, load(j->sum_y) + s.share * load(j->impulse_y));
         h.finish(*j, states);

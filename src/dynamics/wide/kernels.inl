@@ -3,6 +3,7 @@
 #include "collision/broad_phase.h"
 #include "core/lane_math.h"
 #include "core/prefetch.h"
+#include "dynamics/joint_axis.h"
 #include "dynamics/scene_state.h"
 #include "dynamics/wide_joints.h"
 #include "dynamics/wide_kernels.h"

@@ -32,8 +32,11 @@ struct AxisSpring
     [[nodiscard]] float share_after() const { return (1 - theta) / theta; }
 };
 
-/// hertz and damping ratio of a mass on the spring.
-[[nodiscard]] AxisSpring make_spring(float hertz, float damping_ratio, float mass, float h);
+/// hertz and damping ratio of a mass on the spring. Beyond `most_turn` of omega h it is as stiff as that.
+[[nodiscard]] AxisSpring make_spring(float hertz, float damping_ratio, float mass, float h, float most_turn);
+
+constexpr float direct_spring_turn = 16; ///< in the direct solve, where that is as good as rigid
+constexpr float soft_spring_turn = 0.5f; ///< where rows are solved one after the other
 
 /// The part of the law that holds at the solution: a rate that is kept at any impulse, or an impulse that a spring may change with the rate.
 struct AxisPiece

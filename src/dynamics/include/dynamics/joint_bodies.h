@@ -44,12 +44,12 @@ struct JointBodies
         return k > 0 ? 1 / k : 0;
     }
 
-    /// Along the axis, with what the held rows answer.
-    void apply_along_axis(const JointRows& rows, float impulse) const
+    /// Along the axis, with what the held rows answer; of soft ones, a share of it.
+    void apply_along_axis(const JointRows& rows, float impulse, float share = 1) const
     {
         apply(rows.axis, impulse);
         for (int i = 0; i < rows.held_count; ++i)
-            apply(rows.held[i], impulse * rows.reaction[i]);
+            apply(rows.held[i], share * impulse * rows.reaction[i]);
     }
 
     void apply(const JointRow& r, float impulse) const

@@ -111,6 +111,8 @@ private:
 
     [[nodiscard]] double present_compliance() const;
     [[nodiscard]] bool find_pose_ahead();
+    [[nodiscard]] bool may_soften() const;
+    void soften();
     void note_speeds();
     void note_errors_ahead();
     [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
@@ -146,7 +148,8 @@ private:
     bool m_is_new = false;   ///< the layout: nothing stands in the matrix
     double m_compliance = 0; ///< of loops, in the present stage
     double m_leak = 0;
-    double m_softening = 1;
+    double m_softening = 1; ///< of loops
+    double m_spring_softening = 1;
     double m_factored_with = -1;       ///< of these; m_compliances are the others
     std::vector<double> m_compliances; ///< by row; so are the next ones
     std::vector<double> m_wanted_compliances;

@@ -68,6 +68,7 @@ struct Unit
     bool heap = false;                ///< figures that are held softly, of several islands
     bool wide = false;                ///< its contacts, and its hinges if there are many, go side by side
     bool traced = false;              ///< paths of some of its bodies are recorded
+    bool direct = false;              ///< its joints are solved all at once
     bool drifts = false;              ///< joints alone act within it: all bodies drift along parabolas
 };
 
