@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -35,6 +36,7 @@ constexpr int turns = 3;
 constexpr int settle_turns = 16;
 constexpr int enough_states = 256; // to share
 constexpr int guard_passes = 8;
+constexpr int passes_of_deep_overlaps = 7;
 constexpr float follow_turn = 0.03f; // rad
 
 // Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
@@ -292,10 +294,32 @@ private:
 
     void solve_lanes(int first, int last) const { m_kernels.solve(lanes(first, last), m_view.states, m_softness); }
 
-    void relax_lanes(int first, int last) const
+    void relax_lanes(int first, int last)
     {
-        m_kernels.relax(lanes(first, last), m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first);
+        const float least =
+            m_kernels.relax(lanes(first, last), m_view.states, m_softness, m_scratch.speeds.data(), m_struck + first);
+        if (least < deep())
+            std::atomic_ref(m_is_deep).store(1, std::memory_order_relaxed);
     }
+
+    // Where many bodies overlap far, the speeds at which they are pushed out add up, and one pass takes out little of it: they would fly apart. In units that
+    // are cut into parts it would cost too much.
+    void relax_deep_overlaps()
+    {
+        if (std::exchange(m_is_deep, 0) == 0 || m_unit.parts > 0)
+            return;
+        for (int i = 0; i < passes_of_deep_overlaps; ++i)
+        {
+            take_from_sums(0, m_unit.wide_count);
+            m_bins.by_color(m_crew, [this](int first, int last) { relax_lanes(first, last); });
+            solve_rows(m_view, m_rows, false);
+            solve_rows(m_view, late_rows(), false);
+        }
+        m_is_deep = 0;
+    }
+
+    // From here on overlap is pushed out as fast as allowed. No load presses anything so far into another.
+    [[nodiscard]] float deep() const { return -m_view.push_speed / m_softness.contact.bias_rate; }
 
     void note_pressed()
     {
@@ -309,6 +333,7 @@ private:
         place_joints(m_view, m_ctx.state, m_joints);
         prepare_direct();
         solve(false);
+        relax_deep_overlaps();
     }
 
     [[nodiscard]] bool has_fliers() const
@@ -866,6 +891,7 @@ private:
     JointSoftness m_joint_softness;
     bool m_may_start_by_body;
     bool m_starts_by_body = false; ///< in this sub-step
+    int m_is_deep = 0;             ///< some overlap of lanes is pushed out as fast as allowed
     UnitBins m_bins;
     UnitBins m_joint_bins;
     const WideKernels& m_kernels = wide_kernels();

@@ -299,8 +299,12 @@ CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftnes
     g.finish(row, states);
 }
 
+// The least separation of each lane.
+CAROM_INLINE F8 of_both(F8 x) { return x; }
+CAROM_INLINE F8 of_both(Twice<F8> x) { return least(x.first, x.second); }
+
 template <class F, int points>
-CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
+CAROM_INLINE F8 relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
 {
     Group<F> g(row, states);
     const Displacement<F> d(row, g, states);
@@ -318,6 +322,8 @@ CAROM_INLINE void relax_group(WideRow& row, BodyState* states, const WideSoftnes
         write(row.points[i].total_tangent, read<F>(row.points[i].total_tangent) + s.share * tangent);
     }
     g.finish(row, states);
+    const F separation = read<F>(row.points[0].separation);
+    return of_both(points == 2 ? least(separation, read<F>(row.points[points - 1].separation)) : separation);
 }
 
 // How fast the points of a group came together when the sub-step began.
@@ -371,11 +377,16 @@ void solve_bin(WideBin bin, BodyState* states, WideSoftness s)
 }
 
 template <int points>
-void relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
+float relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
 {
-    for_each_group(bin, [&](WideRow& row, auto lanes) { relax_group<decltype(lanes), points>(row, states, s); });
+    F8 deepest = all(0);
+    for_each_group(bin, [&](WideRow& row, auto lanes)
+                   { deepest = least(deepest, relax_group<decltype(lanes), points>(row, states, s)); });
     for (int i = 0; i < bin.count; ++i)
         struck[i] = struck_lanes<points>(bin.rows[i], bin.notes[i], before, s.rest_speed);
+    LaneFloats of_lanes;
+    store(of_lanes, deepest);
+    return *std::min_element(std::begin(of_lanes.v), std::end(of_lanes.v));
 }
 
 template <int points>
@@ -397,10 +408,10 @@ void solve(const WideBin& bin, BodyState* states, const WideSoftness& s)
     solve_points(bin, states, s);
 }
 
-void relax(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
+float relax(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
 {
     const auto relax_points = bin.notes->count == 2 ? relax_bin<2> : relax_bin<1>;
-    relax_points(bin, states, s, before, struck);
+    return relax_points(bin, states, s, before, struck);
 }
 
 } // namespace contacts

@@ -9,8 +9,10 @@
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_rows.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 
 namespace carom::internal::CAROM_ISA {

@@ -103,7 +103,8 @@ struct WideKernels
     void (*solve)(const WideBin& bin, BodyState* states, const WideSoftness& s);
     /// Also notes of each group which lanes have been struck, or have begun to touch and this is not yet told.
     /// A blow is told by the speeds that bodies had before.
-    void (*relax)(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck);
+    /// Returns the least separation, at most 0.
+    float (*relax)(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck);
     /// Joints from their records, bodies, and the constants of their states, for sub-steps of h. `joints` has a, b, joint and turns of each lane.
     void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const StateConstants* constants,
                         float h);
