@@ -77,7 +77,8 @@ public:
     [[nodiscard]] Pose interpolated_pose(float alpha) const;
     [[nodiscard]] Position center_of_mass() const; ///< in the world
     [[nodiscard]] Vec2 local_center_of_mass() const;
-    [[nodiscard]] Vec2 velocity() const;                        ///< of the centre of mass, m/s
+    /// Of the centre of mass, m/s. Of a kinematic body that has followed set_target_pose in the last step, the velocity of that way; it does not go on.
+    [[nodiscard]] Vec2 velocity() const;
     [[nodiscard]] float angular_velocity() const;               ///< rad/s
     [[nodiscard]] Vec2 velocity_at(Position world_point) const; ///< of the body's material at that point, m/s
     [[nodiscard]] float mass() const;                           ///< kg; 0 for static and kinematic bodies
@@ -130,7 +131,8 @@ public:
     void set_linear_damping(float damping);
     void set_angular_damping(float damping);
     void set_locks(MotionLocks locks);
-    /// Overrides what the shapes give; stays until reset_mass. Dynamic bodies only.
+    /// Overrides what the shapes give; stays until reset_mass. Dynamic bodies only. The mass is from 1e-35 to 1e35 kg, the inertia
+    /// 0 (it then never turns) or from 1e-35 to 1e35 kg m². A dynamic body without shapes, or whose shapes have no density, weighs 1 kg.
     void set_mass(const MassData& mass);
     /// Mass, centre and inertia from the shapes and their densities again.
     void reset_mass();

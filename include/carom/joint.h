@@ -2,7 +2,7 @@
 
 /// @file
 /// Joints between two bodies, or a body and the world (a null body). Anchors are in each body's frame; the anchor of a
-/// null body is a point of the world.
+/// null body is a point of the world. A joint between two static bodies waits until Body::set_type lets one of them move.
 
 #include "carom/id.h"
 #include "carom/math.h"
@@ -48,7 +48,8 @@ struct DistanceDef
     std::uint64_t user_data = 0;
 };
 
-/// A hinge. The joint's angle is angle_b - angle_a - reference_angle.
+/// A hinge. The joint's angle is angle_b - angle_a - reference_angle, between -pi and pi: turns are not counted. Limits within
+/// that range hold; of a limit at -pi or pi, at the very end, the hinge turns past.
 ///
 /// The spring's stiffness is J (2 pi spring_hertz)² in N m/rad, its damping 2 spring_damping_ratio J (2 pi spring_hertz) in
 /// N m s/rad. J is the inertia of the two bodies about the hinge: I + m r² of a body that hangs on the world, or
@@ -63,8 +64,8 @@ struct RevoluteDef
     Vec2 anchor_b{};
     float reference_angle = 0; ///< radians
     bool enable_limit = false;
-    float lower_angle = 0;       ///< radians, <= upper_angle
-    float upper_angle = 0;       ///< radians
+    float lower_angle = 0;       ///< radians, -pi to pi, <= upper_angle
+    float upper_angle = 0;       ///< radians, -pi to pi
     float limit_restitution = 0; ///< 0 to 1: how much of the speed comes back from a limit
     bool enable_motor = false;
     float motor_speed = 0;      ///< rad/s

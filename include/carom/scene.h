@@ -71,7 +71,7 @@ struct SceneDef
     /// 0.06 mm under one and 4.3 mm under nine. It grows with the load's acceleration, not with length_scale.
     float length_scale = 1;
     int substeps = 4;             ///< per step, 1 to 64
-    float fixed_step = 1.0f / 60; ///< what update() steps by, s, > 0
+    float fixed_step = 1.0f / 60; ///< what update() steps by, s, 1e-5 to 10
     float max_frame_time = 0.25f; ///< most that update() catches up in one call, s
     MixRule friction_rule = MixRule::GeometricMean;
     MixRule restitution_rule = MixRule::Average;
@@ -110,7 +110,7 @@ class Scene
 public:
     explicit Scene(const SceneDef& def = {});
     ~Scene();
-    Scene(Scene&&) noexcept;
+    Scene(Scene&&) noexcept; ///< the one that is moved from is empty afterwards
     Scene& operator=(Scene&&) noexcept;
 
     [[nodiscard]] BodyId create_body(const BodyDef& def);
@@ -148,7 +148,7 @@ public:
     void ignore_pair(BodyId a, BodyId b);
     void restore_pair(BodyId a, BodyId b);
 
-    /// Advances the scene by h seconds, h > 0. Not from inside a callback.
+    /// Advances the scene by h seconds, 1e-9 to 10. Not from inside a callback.
     const StepReport& step(float h);
     /// Adds a frame's time to the scene's own accumulator and takes as many fixed steps as fit. Events are those of all its steps, one step after the other, and
     /// none where it takes no step. Forces applied since the last call act for the frame's time, at any frame rate; what of it no step covers yet acts in the next.

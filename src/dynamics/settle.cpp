@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -112,8 +113,9 @@ void keep_carried_awake(SceneState& state, int body)
 void forget_target(SceneState& state, int body)
 {
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-    sim.velocity = {};
-    sim.angular_velocity = 0;
+    BodyTarget& target = state.targets[static_cast<std::size_t>(body)];
+    target.velocity = std::exchange(sim.velocity, Vec2{});
+    target.angular_velocity = std::exchange(sim.angular_velocity, 0.0f);
     state.bodies[body].has_target = false;
 }
 
@@ -125,6 +127,7 @@ void settle_kinematic_bodies(SceneState& state, bool keeps_awake)
             continue;
         if (keeps_awake)
             keep_carried_awake(state, body);
+        state.bodies[body].had_target = state.bodies[body].has_target;
         if (state.bodies[body].has_target)
             forget_target(state, body);
     }

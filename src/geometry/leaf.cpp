@@ -152,6 +152,7 @@ bool normalize_shape(const Checker& check, Segment& s)
 {
     return check.finite("Segment.a", s.a) && check.finite("Segment.b", s.b) &&
            check.not_negative("Segment.half_thickness", s.half_thickness) &&
+           check.one_of("Segment.sides", s.sides, Sides::Right) &&
            check.holds(length(s.b - s.a) > min_length, "Segment.b", to_text(s.b), "must differ from a");
 }
 
@@ -160,7 +161,7 @@ bool normalize_shape(const Checker& check, Arc& a)
     return check.finite("Arc.center", a.center) && check.positive("Arc.radius", a.radius) &&
            check.finite("Arc.start_angle", a.start_angle) && check.in_range("Arc.sweep", a.sweep, -2.0001f * pi, 2.0001f * pi) &&
            check.holds(std::fabs(a.sweep) * a.radius > min_length, "Arc.sweep", to_text(a.sweep), "must not be 0") &&
-           check.not_negative("Arc.half_thickness", a.half_thickness) &&
+           check.not_negative("Arc.half_thickness", a.half_thickness) && check.one_of("Arc.sides", a.sides, Sides::Right) &&
            check.holds(a.half_thickness < a.radius, "Arc.half_thickness", to_text(a.half_thickness),
                        "must be less than the radius");
 }
@@ -189,7 +190,8 @@ void reverse_chain(Chain& chain);
 
 bool normalize_shape(const Checker& check, Chain& c)
 {
-    if (!check.finite("Chain.start", c.start) || !check.not_negative("Chain.half_thickness", c.half_thickness) ||
+    if (!check.finite("Chain.start", c.start) || !check.one_of("Chain.sides", c.sides, Sides::Right) ||
+        !check.not_negative("Chain.half_thickness", c.half_thickness) ||
         !check.holds(!c.pieces.empty(), "Chain.pieces", "empty", "must hold at least one piece"))
         return false;
     Vec2 from = c.start;

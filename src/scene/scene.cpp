@@ -1,12 +1,14 @@
 #include "carom/scene.h"
 
 #include "core/clock.h"
+#include "core/rounding.h"
 #include "dynamics/body_store.h"
 #include "dynamics/stages.h"
 #include "dynamics/wake.h"
 #include "scene/access.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom {
 
@@ -14,17 +16,22 @@ using namespace internal;
 
 namespace {
 
+constexpr float shortest_step = 1e-9f; // s
+constexpr float longest_step = 10;
+
 bool check_def(const SceneDef& def)
 {
     const Checker check{"Scene::Scene"};
     return check.finite("SceneDef::gravity", def.gravity) && check.positive("SceneDef::length_scale", def.length_scale) &&
            check.holds(def.substeps >= 1 && def.substeps <= 64, "SceneDef::substeps", std::to_string(def.substeps),
                        "must be from 1 to 64") &&
-           check.positive("SceneDef::fixed_step", def.fixed_step) &&
+           check.in_range("SceneDef::fixed_step", def.fixed_step, 1e-5f, longest_step) &&
            check.positive("SceneDef::max_frame_time", def.max_frame_time) &&
            check.positive("SceneDef::contact_hertz", def.contact_hertz) &&
            check.positive("SceneDef::contact_damping_ratio", def.contact_damping_ratio) &&
            check.not_negative("SceneDef::contact_push_speed", def.contact_push_speed) &&
+           check.one_of("SceneDef::friction_rule", def.friction_rule, MixRule::Function) &&
+           check.one_of("SceneDef::restitution_rule", def.restitution_rule, MixRule::Function) &&
            check.holds((def.friction_rule != MixRule::Function && def.restitution_rule != MixRule::Function) ||
                            def.mix_function != nullptr,
                        "SceneDef::mix_function", "null", "must be set where a rule is MixRule::Function") &&
@@ -59,8 +66,19 @@ Scene::Scene(const SceneDef& def) : m_data(std::make_unique<SceneData>())
 }
 
 Scene::~Scene() = default;
-Scene::Scene(Scene&&) noexcept = default;
-Scene& Scene::operator=(Scene&&) noexcept = default;
+// What is moved from is an empty scene.
+Scene::Scene(Scene&& other) noexcept : Scene(other.m_data->def) { std::swap(m_data, other.m_data); }
+
+Scene& Scene::operator=(Scene&& other) noexcept
+{
+    if (this != &other)
+    {
+        Scene empty(other.m_data->def);
+        std::swap(m_data, other.m_data);
+        std::swap(other.m_data, empty.m_data);
+    }
+    return *this;
+}
 
 bool Scene::is_valid(BodyId id) const { return is_live(m_data->state, id); }
 bool Scene::is_valid(ShapeId id) const { return is_live(m_data->state, id); }
@@ -100,9 +118,11 @@ private:
 const StepReport& Scene::step(float h)
 {
     const Checker check{"Scene::step"};
-    if (!check.positive("h", h) || !check.holds(!m_data->stepping, "the scene", "in a step", "callbacks must not step it"))
+    if (!check.in_range("h", h, shortest_step, longest_step) ||
+        !check.holds(!m_data->stepping, "the scene", "in a step", "callbacks must not step it"))
         return m_data->report;
     const InStep in_step(m_data->stepping);
+    const RoundToNearest rounding;
     internal::step(*m_data, h);
     if (m_data->frame_step > 0)
         number_events(m_data->events, m_data->frame_step);

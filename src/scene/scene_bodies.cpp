@@ -16,8 +16,9 @@ namespace {
 bool check_body_def(const BodyDef& def)
 {
     const Checker check{"Scene::create_body"};
-    return check.finite("BodyDef::position", def.position) && check.finite("BodyDef::angle", def.angle) &&
-           check.finite("BodyDef::velocity", def.velocity) && check.finite("BodyDef::angular_velocity", def.angular_velocity) &&
+    return check.one_of("BodyDef::type", def.type, BodyType::Dynamic) && check.finite("BodyDef::position", def.position) &&
+           check.finite("BodyDef::angle", def.angle) && check.finite("BodyDef::velocity", def.velocity) &&
+           check.finite("BodyDef::angular_velocity", def.angular_velocity) &&
            check.finite("BodyDef::gravity_scale", def.gravity_scale) &&
            check.not_negative("BodyDef::linear_damping", def.linear_damping) &&
            check.not_negative("BodyDef::angular_damping", def.angular_damping) &&
@@ -168,15 +169,37 @@ Pose ConstBody::interpolated_pose(float alpha) const
 
 Position ConstBody::center_of_mass() const { return sim_of(m_data, m_id, "Body::center_of_mass").center; }
 Vec2 ConstBody::local_center_of_mass() const { return sim_of(m_data, m_id, "Body::local_center_of_mass").local_center; }
-Vec2 ConstBody::velocity() const { return sim_of(m_data, m_id, "Body::velocity").velocity; }
-float ConstBody::angular_velocity() const { return sim_of(m_data, m_id, "Body::angular_velocity").angular_velocity; }
+namespace {
+
+// That the body has moved to in the last step; none where nobody is asked for.
+const BodyTarget* target_reached(const SceneData* data, BodyId id)
+{
+    const bool reached = is_live(data->state, id) && data->state.bodies[slot_of(id)].had_target;
+    return reached ? &data->state.targets[static_cast<std::size_t>(slot_of(id))] : nullptr;
+}
+
+} // namespace
+
+Vec2 ConstBody::velocity() const
+{
+    const BodySim& sim = sim_of(m_data, m_id, "Body::velocity");
+    const BodyTarget* target = target_reached(m_data, m_id);
+    return target != nullptr ? target->velocity : sim.velocity;
+}
+
+float ConstBody::angular_velocity() const
+{
+    const BodySim& sim = sim_of(m_data, m_id, "Body::angular_velocity");
+    const BodyTarget* target = target_reached(m_data, m_id);
+    return target != nullptr ? target->angular_velocity : sim.angular_velocity;
+}
 
 Vec2 ConstBody::velocity_at(Position point) const
 {
     const BodySim& sim = sim_of(m_data, m_id, "Body::velocity_at");
     if (!Checker{"Body::velocity_at"}.finite("world_point", point))
         return {};
-    return sim.velocity + cross(sim.angular_velocity, point - sim.center);
+    return velocity() + cross(angular_velocity(), point - sim.center);
 }
 
 float ConstBody::mass() const { return sim_of(m_data, m_id, "Body::mass").mass; }
@@ -225,10 +248,16 @@ std::uint64_t ConstBody::user_data() const
                                                                  : 0;
 }
 
-Position ConstBody::world_point(Vec2 local) const { return transform(sim_of(m_data, m_id, "Body::world_point").pose(), local); }
+Position ConstBody::world_point(Vec2 local) const
+{
+    const BodySim& sim = sim_of(m_data, m_id, "Body::world_point");
+    return Checker{"Body::world_point"}.finite("local", local) ? transform(sim.pose(), local) : Position{};
+}
+
 Vec2 ConstBody::local_point(Position world) const
 {
-    return inverse_transform(sim_of(m_data, m_id, "Body::local_point").pose(), world);
+    const BodySim& sim = sim_of(m_data, m_id, "Body::local_point");
+    return Checker{"Body::local_point"}.finite("world", world) ? inverse_transform(sim.pose(), world) : Vec2{};
 }
 
 std::vector<ShapeId> ConstBody::shapes() const
@@ -292,7 +321,7 @@ struct Target
 void Body::set_type(BodyType type)
 {
     const Target t(m_data, m_id, "Body::set_type");
-    if (!t || t.record().type == type)
+    if (!t || !Checker{"Body::set_type"}.one_of("type", type, BodyType::Dynamic) || t.record().type == type)
         return;
     if (type != BodyType::Static && type != BodyType::Kinematic)
     {
@@ -319,7 +348,7 @@ void Body::set_type(BodyType type)
     leave_awake(*m_data, t.slot);
     m_data->state.graph_dirty = true;
     t.record().type = type;
-    t.record().has_target = false;
+    t.record().has_target = t.record().had_target = false;
     t.sim().crowded = type != BodyType::Dynamic;
     if (type == BodyType::Static)
     {
@@ -343,7 +372,7 @@ void Body::teleport(Position position, float angle)
     BodySim& sim = t.sim();
     sim.rotation = sim.previous_rotation = Rotation::from_angle(angle);
     sim.center = sim.previous_center = position + rotate(sim.rotation, sim.local_center);
-    t.record().has_target = false;
+    t.record().has_target = t.record().had_target = false;
     // Contacts that no longer meet end in the next step; the others are looked at anew, without the impulses of the old place.
     for_each_contact(m_data->state, t.slot,
                      [&](int index)
@@ -383,6 +412,7 @@ void Body::set_velocity(Vec2 velocity)
     const Target t(m_data, m_id, "Body::set_velocity");
     if (!t || !Checker{"Body::set_velocity"}.finite("velocity", velocity) || t.record().type == BodyType::Static)
         return;
+    t.record().had_target = false;
     if (t.sim().velocity == velocity)
         return;
     t.sim().velocity = velocity;
@@ -397,6 +427,7 @@ void Body::set_angular_velocity(float w)
     const Target t(m_data, m_id, "Body::set_angular_velocity");
     if (!t || !Checker{"Body::set_angular_velocity"}.finite("radians_per_second", w) || t.record().type == BodyType::Static)
         return;
+    t.record().had_target = false;
     if (t.sim().angular_velocity == w)
         return;
     t.sim().angular_velocity = w;
@@ -504,8 +535,9 @@ void Body::set_mass(const MassData& mass)
 {
     const Target t(m_data, m_id, "Body::set_mass");
     const Checker check{"Body::set_mass"};
-    if (!t || !check.positive("MassData::mass", mass.mass) || !check.finite("MassData::center", mass.center) ||
-        !check.not_negative("MassData::inertia", mass.inertia) ||
+    if (!t || !check.in_range("MassData::mass", mass.mass, 1e-35f, 1e35f) || !check.finite("MassData::center", mass.center) ||
+        !check.holds(mass.inertia == 0 || (mass.inertia >= 1e-35f && mass.inertia <= 1e35f), "MassData::inertia",
+                     internal::to_text(mass.inertia), "must be 0 or from 1e-35 to 1e35") ||
         !check.holds(t.record().type == BodyType::Dynamic, "the body", "not dynamic", "only dynamic bodies have mass"))
         return;
     // The center moves through the same door as when shapes give it: the velocity of the material stays.

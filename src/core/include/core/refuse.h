@@ -36,6 +36,13 @@ struct Checker
     bool positive(const char* field, float value) const;
     bool not_negative(const char* field, float value) const;
     bool in_range(const char* field, float value, float low, float high) const;
+    /// Of an enumeration whose values run from 0.
+    template <class Enum>
+    bool one_of(const char* field, Enum value, Enum last) const
+    {
+        return holds(value <= last, field, std::to_string(static_cast<unsigned>(value)),
+                     "must be one of the enumeration's values");
+    }
     bool holds(bool condition, const char* field, const std::string& value, const char* rule) const;
 };
 

@@ -105,7 +105,7 @@ void end_touch(SceneData& scene, int contact, Events& events, float time);
 template <class Kind>
 [[nodiscard]] int slot_of(Id<Kind> id)
 {
-    return static_cast<int>(id.slot) - 1;
+    return static_cast<int>(id.slot - 1u); // of any number, and so of an id that was never given
 }
 
 /// An event of any kind: of these two shapes, and what else it says in its order.

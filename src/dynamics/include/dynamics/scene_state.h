@@ -33,6 +33,7 @@ struct BodyRecord
     std::uint8_t plane_cell = 0;     ///< in which share of the awake bodies, as tidy() last parted them by where they are
     bool gives_way = false;          ///< dynamic, with an inverse mass or inertia that is not 0
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
+    bool had_target = false;         ///< and that it has reached in the last step
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
     std::int32_t last_shape = none;
@@ -77,6 +78,8 @@ struct BodyTarget
 {
     Position center{}; ///< of mass
     Rotation rotation{};
+    Vec2 velocity{}; ///< of the way to it, once it has been reached: to be read
+    float angular_velocity = 0;
 };
 
 /// Of Scene::update: for the part of a frame that no step has covered yet, N s; and, while a frame is begun, its forces.

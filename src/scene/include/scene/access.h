@@ -14,7 +14,7 @@ template <class Kind>
 [[nodiscard]] std::string to_text(Id<Kind> id)
 {
     return id.is_null() ? std::string("null")
-                        : "(slot " + std::to_string(slot_of(id)) + ", generation " + std::to_string(id.generation) + ")";
+                        : "(slot " + std::to_string(id.slot - 1) + ", generation " + std::to_string(id.generation) + ")";
 }
 
 [[nodiscard]] inline bool is_live(const SceneState& s, BodyId id) { return s.bodies.is_live(slot_of(id), id.generation); }

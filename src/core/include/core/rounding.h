@@ -1,0 +1,29 @@
+#pragma once
+
+// The program around the engine may have set another rounding mode; results are those of rounding to nearest whatever it is.
+
+#include <cfenv>
+
+namespace carom::internal {
+
+class RoundToNearest
+{
+public:
+    RoundToNearest() : m_before(std::fegetround())
+    {
+        if (m_before != FE_TONEAREST)
+            std::fesetround(FE_TONEAREST);
+    }
+    ~RoundToNearest()
+    {
+        if (m_before != FE_TONEAREST)
+            std::fesetround(m_before);
+    }
+    RoundToNearest(const RoundToNearest&) = delete;
+    RoundToNearest& operator=(const RoundToNearest&) = delete;
+
+private:
+    int m_before;
+};
+
+} // namespace carom::internal
