@@ -10,7 +10,9 @@
 // active-set method. Springs, motors and stops so know the whole mechanism, at any stiffness and number of joints.
 //
 // A load that stretches a body between its joints makes it swing like a taut string, with omega² = f · r / I for the pull f at the arm r. A
-// sub-step can follow that only while omega h is below 1: beyond it the body counts as harder to turn, just so far.
+// sub-step can follow that only while omega h is below 1. Beyond it, a body of a tree counts as harder to turn, just so far; the rows of a loop, which a taut
+// chain stretches without bound, give way instead: their compliance grows with the third power of the stretch, because so falls the pull. It falls again
+// by half a sub-step, lest the gap that it has left be closed at once.
 
 #include "dynamics/joint_direct.h"
 
@@ -169,7 +171,7 @@ bool DirectSolve::place()
     return changed;
 }
 
-// By which the rows have given way, under the impulses that they bear.
+// How far the rows have given way, per impulse that they bear.
 double DirectSolve::present_compliance() const
 {
     double rate = 0;
@@ -377,7 +379,7 @@ double DirectSolve::largest_error() const
     return as_double(m_view.h) * std::max(in_arms, angle);
 }
 
-// By which an axis turns its bodies in the sub-step, in rad: what is held then errs by the square of it.
+// The largest turn that an axis gives its bodies in the sub-step, in rad: held rows then err by the square of it.
 double DirectSolve::largest_turn() const
 {
     double turn = 0;
