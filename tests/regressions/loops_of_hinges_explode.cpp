@@ -2,6 +2,7 @@
 // their angular momentum; two pins to the world read 0.83 of the weight that they bear.
 
 #include "regressions/numbers.h"
+#include "support/slow_build.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ void pin(Scene& scene, BodyId a, BodyId b, Vec2 at)
 // A ring of bars, some of them pinned twice, spins freely.
 TEST(Loops, KeepAngularMomentumAndEnergy)
 {
-    for (const int sides : {2, 3, 4, 6, 12})
+    for (const int sides : slow_build ? std::vector{2, 4} : std::vector{2, 3, 4, 6, 12})
     {
         for (const int pins : {1, 2, 3})
         {
@@ -161,7 +162,8 @@ TEST(Loops, FourBarsSwingOnWithTheirEnergy)
 TEST(Loops, WithLongLeversGainNoMoreThanGravityGives)
 {
     int tried = 0;
-    for (std::uint64_t seed = 0; seed < 400; ++seed)
+    const int pairs = slow_build ? 40 : 400;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(pairs); ++seed)
     {
         Random random(seed);
         Scene scene(sleepless());
@@ -204,13 +206,13 @@ TEST(Loops, WithLongLeversGainNoMoreThanGravityGives)
         EXPECT_LT(most, 0.01 * -low + 0.002 * weight) << "seed " << seed;
         ++tried;
     }
-    EXPECT_EQ(tried, 400);
+    EXPECT_EQ(tried, pairs);
 }
 
 // Bars from wall to wall, straight or sagging, with balls on them: what games call a bridge.
 TEST(Loops, BridgesHoldTogetherUnderTheirLoad)
 {
-    for (const int count : {2, 5, 10, 20, 40})
+    for (const int count : slow_build ? std::vector{2, 10} : std::vector{2, 5, 10, 20, 40})
     {
         for (const double slack : {1.0, 0.99, 0.9})
         {
