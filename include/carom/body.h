@@ -77,7 +77,7 @@ public:
     [[nodiscard]] Pose interpolated_pose(float alpha) const;
     [[nodiscard]] Position center_of_mass() const; ///< in the world
     [[nodiscard]] Vec2 local_center_of_mass() const;
-    /// Of the centre of mass, m/s. Of a kinematic body that has followed set_target_pose in the last step, the velocity of that way; it does not go on.
+    /// The centre of mass moves at this velocity, m/s. A kinematic body that has followed set_target_pose reads the velocity of the last step, and stands.
     [[nodiscard]] Vec2 velocity() const;
     [[nodiscard]] float angular_velocity() const;               ///< rad/s
     [[nodiscard]] Vec2 velocity_at(Position world_point) const; ///< of the body's material at that point, m/s

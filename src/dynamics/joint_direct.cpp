@@ -240,7 +240,12 @@ void DirectSolve::solve(bool use_bias)
     if (use_bias && find_pose_ahead())
         return;
     note_speeds();
-    find_impulses(Stage::Now);
+    take_step(Stage::Now);
+}
+
+void DirectSolve::take_step(Stage stage)
+{
+    find_impulses(stage);
     take_velocities();
     take_impulses();
 }
@@ -261,10 +266,8 @@ bool DirectSolve::find_pose_ahead()
     m_spring_softening = 1;
     for (;;)
     {
-        find_impulses(Stage::Ahead);
+        take_step(Stage::Ahead);
         const double turn = largest_turn();
-        take_velocities();
-        take_impulses();
         note_errors_ahead();
         const double after = largest_error();
         m_turns_too_far = after > 0.5 * std::max(before, turn) && after > 1e-3;
@@ -284,9 +287,7 @@ bool DirectSolve::find_pose_ahead()
     double left = largest_error();
     for (int i = 1; i < newton_steps || (i < most_newton_steps && left > converged); ++i)
     {
-        find_impulses(Stage::Ahead);
-        take_velocities();
-        take_impulses();
+        take_step(Stage::Ahead);
         note_errors_ahead();
         const double before_this = std::exchange(left, largest_error());
         if (i >= newton_steps && left > 0.5 * before_this)
@@ -312,18 +313,14 @@ void DirectSolve::soften()
 }
 
 // Blows, not loads: they are no part of what the rows are warm started with.
-void DirectSolve::take_forbidden_speeds()
-{
-    note_speeds();
-    find_impulses(Stage::Held);
-    take_velocities();
-    tell_as_blow();
-}
+void DirectSolve::take_forbidden_speeds() { give_blow(Stage::Held); }
 
-void DirectSolve::bounce()
+void DirectSolve::bounce() { give_blow(Stage::Now); }
+
+void DirectSolve::give_blow(Stage stage)
 {
     note_speeds();
-    find_impulses(Stage::Now);
+    find_impulses(stage);
     take_velocities();
     tell_as_blow();
 }

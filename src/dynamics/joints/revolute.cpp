@@ -9,7 +9,6 @@ void revolute_holds(const JointPose& pose, JointRows& out)
     const Vec2 error = revolute_error(pose);
     out.hold(line_row({1, 0}, pose, error.x, slot_x));
     out.hold(line_row({0, 1}, pose, error.y, slot_y));
-    out.block = true;
 }
 
 void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)

@@ -95,7 +95,7 @@ CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[la
     store(t.motor_speed, select(driven, speed, none));
     store(t.motor_max, select(driven, h * most, none));
     store(t.motor_impulse, select(driven, motor_impulse, none));
-    // As soft_spring.
+    // As make_spring, with soft_spring_turn.
     const F8 k = inverse_inertia_about(load(j.inverse_mass_a), load(j.inverse_inertia_a), load(j.anchors.ax), load(j.anchors.ay)) +
                  inverse_inertia_about(load(j.inverse_mass_b), load(j.inverse_inertia_b), load(j.anchors.bx), load(j.anchors.by));
     const F8 hertz = lanes_from([&](int i) { return joints[i]->hertz; });

@@ -28,7 +28,7 @@ struct AxisSpring
     [[nodiscard]] bool is_there() const { return stiffness > 0 || damping > 0; }
     /// The impulse before the bodies move, for a stretch at the start of the sub-step.
     [[nodiscard]] SpringLine line(float stretch, float h) const;
-    /// Of the impulse before the bodies move, what follows after they have.
+    /// The part of the impulse before the bodies move that follows again after they have.
     [[nodiscard]] float share_after() const { return (1 - theta) / theta; }
 };
 
@@ -101,11 +101,11 @@ struct AxisLaw
 
     /// The solution of rate = free_rate + inverse_mass * impulse(rate).
     [[nodiscard]] AxisPiece solve(double free_rate, double inverse_mass) const;
-    /// Who gives what of an impulse.
+    /// Splits an impulse among the spring, the motor and the stops.
     [[nodiscard]] AxisImpulses split(const AxisPiece& piece, double impulse, double rate) const;
 };
 
-/// What acts along a joint's free axis, and how far the bodies are from where it does.
+/// The spring, motor and stops along a joint's free axis, and how far the bodies are from them.
 struct AxisActs
 {
     bool has_spring = false;

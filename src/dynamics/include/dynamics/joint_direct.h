@@ -120,6 +120,8 @@ private:
     [[nodiscard]] double largest_turn() const;
     void start_anew();
 
+    void take_step(Stage stage);
+    void give_blow(Stage stage);
     void find_impulses(Stage stage);
     void begin_axes(Stage stage);
     void solve_pieces();

@@ -27,7 +27,6 @@ struct JointRows
     JointRow axis; ///< the one line or angle along which the bodies may move against each other, where anything acts on that
     AxisActs acts;
     int held_count = 0;
-    bool block = false;          ///< the held rows are those of a point and are solved as one
     float axis_inverse_mass = 0; ///< while the held rows keep their speeds
     float reaction[2] = {};      ///< impulses of the held rows by which they do, for an impulse of 1 along the axis
 
