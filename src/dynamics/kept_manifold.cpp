@@ -187,6 +187,14 @@ struct Facing
     // Does any of the edge between the corners lie before the edge?
     [[nodiscard]] bool meets() const { return !(along[0] < 0 && along[1] < 0) && !(along[0] > end && along[1] > end); }
 
+    // Where such an edge is cut off at the end of the other, its lowest corner, just beside that end, may still be the nearest.
+    [[nodiscard]] bool is_steep() const
+    {
+        const float rise = dot(n, corners[1] - corners[0]);
+        const float run = along[1] - along[0];
+        return rise * rise * end > run * run;
+    }
+
     [[nodiscard]] bool is_round() const { return corners[0].x == corners[1].x && corners[0].y == corners[1].y; }
 
     void put(int i, ManifoldPoint& p) const
@@ -220,8 +228,8 @@ bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved&
     const Facing::Foot first = facing.foot(0);
     const Facing::Foot second = facing.foot(1);
     const Facing::Foot& lowest = second.separation < first.separation ? second : first;
-    return facing.meets() && lowest.separation <= longest_way && moved.way <= kept.reach &&
-           is_best_still(facing, lowest, moved, longest_way);
+    return facing.meets() && (lowest.inside || !facing.is_steep()) && lowest.separation <= longest_way &&
+           moved.way <= kept.reach && is_best_still(facing, lowest, moved, longest_way);
 }
 
 // The way from one corner to the other that is nearest to it.

@@ -195,6 +195,13 @@ struct Stand : Two
         return ~(((along[0] < all(0)) & (along[1] < all(0))) | ((along[0] > end) & (along[1] > end)));
     }
 
+    CAROM_INLINE I8 is_steep() const
+    {
+        const F8 rise = outward.x * (corners[1].x - corners[0].x) + outward.y * (corners[1].y - corners[0].y);
+        const F8 run = along[1] - along[0];
+        return rise * rise * end > run * run;
+    }
+
     CAROM_INLINE I8 is_round() const { return (corners[0].x == corners[1].x) & (corners[0].y == corners[1].y); }
 };
 
@@ -318,7 +325,7 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
         const I8 second_is_lower = second < first;
         found.separation = select(second_is_lower, second, first);
         const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
-        found.holds = stand.meets() & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
+        found.holds = stand.meets() & (inside | ~stand.is_steep()) & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
         return found;
     }
     found.separation = first;
