@@ -133,24 +133,28 @@ void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
         story.push_back({Kind::Text, "They differ: friction or another contact took part in the same blow."});
 }
 
-void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effective, float before, float change, bool first)
+// By the impulse over the mass, where nothing else moved it at that moment.
+void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effective, float before, float after, float impulse,
+                 bool first)
 {
     if (effective <= 0)
         return;
     const std::string v = with_index("v", first);
-    const std::string sign = change < 0 ? " − " : " + ";
-    const float j = std::abs(change) * effective;
-    story.push_back({Kind::Formula, p.name + ": " + v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
-                                        number(j) + "/" + number(effective) + " = " + number(before + change) + " m/s"});
+    const float by_formula = before + (first ? -1.0f : 1.0f) * impulse / effective;
+    const float scale = std::max({std::abs(before), std::abs(after), impulse / effective});
+    const bool is_alone = std::abs(by_formula - after) <= 0.005f * scale;
+    const std::string way = is_alone ? v + (first ? " − " : " + ") + "j/" + with_index("m", first) + " = " + number(before) +
+                                           (first ? " − " : " + ") + number(impulse) + "/" + number(effective) + " = "
+                                     : v + " from " + number(before) + " to ";
+    story.push_back({Kind::Formula, p.name + ": " + way + number(after) + " m/s"});
 }
 
 void tell_after(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
     const ImpactEvent& e = record.event;
     story.push_back({Kind::Step, "And afterwards, along the same line"});
-    const auto change = [&](float effective) { return effective > 0 ? e.impulse / effective : 0; };
-    tell_change(story, record.a, e.effective_mass_a, e.speed_a, -change(e.effective_mass_a), true);
-    tell_change(story, record.b, e.effective_mass_b, e.speed_b, change(e.effective_mass_b), false);
+    tell_change(story, record.a, e.effective_mass_a, e.speed_a, dot(e.velocity_after_a, e.normal), e.impulse, true);
+    tell_change(story, record.b, e.effective_mass_b, e.speed_b, dot(e.velocity_after_b, e.normal), e.impulse, false);
     story.push_back({Kind::Text, e.energy_lost >= 0 ? "Energy turned into heat and sound: " + number(e.energy_lost) + " J"
                                                     : "Energy that the kick added: " + number(-e.energy_lost) + " J"});
 }

@@ -38,9 +38,18 @@ struct ContactEndEvent
     int step = 0;   ///< which of those of the last Scene::update, from 0
 };
 
-/// A collision. The terms of the impulse are given, so that it can be checked by hand:
-/// impulse = (1 + restitution) · m_a m_b / (m_a + m_b) · (speed_a - speed_b) + kick's share, with m the effective point masses
-/// 1 / (1/m + r²/I) and speed the material speed along the normal before the impact.
+/// A blow: what one contact does to two bodies as they strike. A pair that strikes several times within a step has an event for each.
+///
+/// In every event the fields agree. Let P = impulse * normal + friction_impulse * perp(normal), the impulse on b; then
+///
+///     energy_lost = -P · ((velocity_b - velocity_a) + (velocity_after_b - velocity_after_a)) / 2
+///
+/// Where the two are alone in the blow, it can be checked by hand, friction on long arms apart:
+///
+///     impulse = m_a m_b / (m_a + m_b) * ((1 + restitution) * approach_speed + kick_speed)
+///
+/// with m the effective point masses 1 / (1/m + r²/I). Where others strike the same bodies at the same moment, or hold them by a joint, the impulse is
+/// the one that this contact gave, and the velocities before and after tell what the others did.
 struct ImpactEvent
 {
     ShapeId shape_a{};
@@ -52,16 +61,20 @@ struct ImpactEvent
     float approach_speed = 0;   ///< speed_a - speed_b, m/s, > 0
     float impulse = 0;          ///< along the normal, N s, >= 0
     float friction_impulse = 0; ///< along perp(normal) on b, N s
-    float energy_lost = 0;      ///< kinetic energy before minus after, J; negative where a kick added some
+    float energy_lost = 0;      ///< what the contact took from the two, J; negative where a kick or a moving surface added some
     float time = 0;             ///< within the step, s
     int step = 0;               ///< which of those of the last Scene::update, from 0
-    float speed_a = 0;          ///< m/s
-    float speed_b = 0;          ///< m/s
+    float speed_a = 0;          ///< of velocity_a along the normal, m/s
+    float speed_b = 0;          ///< of velocity_b along the normal, m/s
     float effective_mass_a = 0; ///< kg; 0 means infinite
     float effective_mass_b = 0; ///< kg; 0 means infinite
     float restitution = 0;      ///< as mixed, at this approach speed
-    float friction = 0;         ///< as mixed; friction_impulse is at most this times the impulse
+    float friction = 0;         ///< as mixed; limits the friction of all blows of this contact at the same moment together
     float kick_speed = 0;       ///< added separating speed, m/s
+    Vec2 velocity_a{};          ///< of body a at the point before the blow, m/s
+    Vec2 velocity_b{};          ///< of body b
+    Vec2 velocity_after_a{};    ///< of body a at the point after the blow, m/s
+    Vec2 velocity_after_b{};    ///< of body b
 };
 
 /// A shape came into or went out of a trigger shape. The time is that of the true path; a pair may come and go several times in a step.

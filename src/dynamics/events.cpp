@@ -115,6 +115,8 @@ void mirror(ImpactEvent& event)
     event.speed_a = -event.speed_a;
     event.speed_b = -event.speed_b;
     std::swap(event.effective_mass_a, event.effective_mass_b);
+    std::swap(event.velocity_a, event.velocity_b);
+    std::swap(event.velocity_after_a, event.velocity_after_b);
 }
 
 template <class Event, class Callback>

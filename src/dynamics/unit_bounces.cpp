@@ -218,10 +218,13 @@ private:
         auto event = event_of<ImpactEvent>(m_ctx.state, contact);
         const ContactRow before = row;
         bounce_points(row, e, kick.speed);
-        for (int i = 0; i < row.count; ++i)
-            account_for_bounce(row.points[i], e, kick.speed, event);
+        event.time = m_ctx.h * static_cast<float>(k + 1);
+        event.restitution = e;
+        event.friction = row.friction;
+        event.kick_speed = kick.speed;
+        fill_impact(row, event);
+        take_impulses(row, e, kick.speed);
         forget_pushes(before, row);
-        fill_impact(row, event, approach, e, kick.speed, k);
         append(told.impacts, event);
         ++told.bulk_impacts;
     }
@@ -292,38 +295,57 @@ private:
         }
     }
 
-    static void account_for_bounce(RowPoint& p, float e, float kick, ImpactEvent& event)
+    // What flies off is not pushed again by warm starting.
+    static void take_impulses(ContactRow& row, float e, float kick)
     {
-        const float wanted = wanted_speed(p, e, kick);
-        event.impulse += p.normal_impulse;
-        event.friction_impulse += p.tangent_impulse;
-        event.energy_lost += 0.5f * p.normal_impulse * (p.approach - wanted);
-        if (wanted > 0)
-        { // what flies off is not pushed again by warm starting
+        for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        {
+            if (wanted_speed(p, e, kick) <= 0)
+                continue;
             p.total_impulse += p.normal_impulse;
             p.total_tangent += p.tangent_impulse;
             p.normal_impulse = p.tangent_impulse = 0;
         }
     }
 
-    void fill_impact(const ContactRow& row, ImpactEvent& event, float approach, float e, float kick, int k) const
+    // Of the points that struck; impulses along one line add up to one between their points. A corner that only bears a load has no part in it.
+    void fill_impact(const ContactRow& row, ImpactEvent& event) const
     {
-        const RowPoint& p = row.points[0];
-        const float mass_a = point_mass(m_view.constants[row.a], row.n, p.ra);
-        const float mass_b = point_mass(m_view.constants[row.b], row.n, p.rb);
+        Vec2 arm_a{};
+        Vec2 arm_b{};
+        for (const RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        {
+            if (p.approach <= 0 || p.normal_impulse <= 0)
+                continue;
+            event.impulse += p.normal_impulse;
+            event.friction_impulse += p.tangent_impulse;
+            arm_a += p.normal_impulse * p.ra;
+            arm_b += p.normal_impulse * p.rb;
+        }
+        arm_a *= 1 / event.impulse;
+        arm_b *= 1 / event.impulse;
+        const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
+        const BodySpeeds& b = m_scratch.speeds[as_index(row.b)];
         event.normal = row.n;
-        event.point = point_of(row);
-        event.time = m_ctx.h * static_cast<float>(k + 1);
-        event.approach_speed = approach;
-        event.restitution = e;
-        event.friction = row.friction;
-        event.kick_speed = kick;
-        event.effective_mass_a = mass_a;
-        event.effective_mass_b = mass_b;
-        // Speeds before the impact, from those after it and the impulse.
-        const BodyState& a = m_view.states[row.a];
-        event.speed_a = dot(a.velocity + cross(a.angular_velocity, p.ra), row.n) + (mass_a > 0 ? event.impulse / mass_a : 0);
-        event.speed_b = event.speed_a - approach;
+        event.point = place_on_a(row, arm_a);
+        event.velocity_a = a.velocity + cross(a.angular_velocity, arm_a);
+        event.velocity_b = b.velocity + cross(b.angular_velocity, arm_b);
+        event.velocity_after_a = velocity_at(row.a, arm_a);
+        event.velocity_after_b = velocity_at(row.b, arm_b);
+        event.speed_a = dot(event.velocity_a, row.n);
+        event.speed_b = dot(event.velocity_b, row.n);
+        event.approach_speed = event.speed_a - event.speed_b;
+        event.effective_mass_a = point_mass(m_view.constants[row.a], row.n, arm_a);
+        event.effective_mass_b = point_mass(m_view.constants[row.b], row.n, arm_b);
+        const Vec2 impulse = event.impulse * row.n + event.friction_impulse * perp(row.n);
+        event.energy_lost =
+            -0.5f * dot(impulse, event.velocity_b - event.velocity_a + event.velocity_after_b - event.velocity_after_a);
+    }
+
+    [[nodiscard]] Vec2 velocity_at(std::int32_t state, Vec2 arm) const
+    {
+        const BodyState& s = m_view.states[state];
+        return s.velocity + cross(s.angular_velocity, arm);
     }
 
     static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
@@ -333,19 +355,18 @@ private:
         return inverse > 0 ? 1 / inverse : 0;
     }
 
-    [[nodiscard]] Position point_of(const ContactRow& row) const
+    [[nodiscard]] Position place_on_a(const ContactRow& row, Vec2 arm) const
     {
         const Contact& contact = m_ctx.state.contacts[row.contact];
-        return m_ctx.state.sims[static_cast<std::size_t>(contact.body_a)].center + m_view.states[row.a].delta_position +
-               row.points[0].ra;
+        return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[row.a].delta_position + arm;
     }
 
     void begin_touch(const ContactRow& row, int k, Told& told) const
     {
         Contact& contact = m_ctx.state.contacts[row.contact];
         contact.flags |= contact_flag::touching | contact_flag::begun;
-        append(told.begins,
-               {row.contact, contact.shape_a, contact.shape_b, point_of(row), row.n, m_ctx.h * static_cast<float>(k + 1)});
+        append(told.begins, {row.contact, contact.shape_a, contact.shape_b, place_on_a(row, row.points[0].ra), row.n,
+                             m_ctx.h * static_cast<float>(k + 1)});
     }
 
     const StepContext& m_ctx;

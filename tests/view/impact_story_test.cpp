@@ -27,6 +27,9 @@ ImpactRecord ball_on_rod()
     record.event = {
         .approach_speed = 3, .speed_a = 2, .speed_b = -1, .effective_mass_a = 2, .effective_mass_b = rod, .restitution = 0.5f};
     record.event.impulse = 1.5f * (2 * rod / (2 + rod)) * 3;
+    record.event.normal = {1, 0};
+    record.event.velocity_after_a = {2 - record.event.impulse / 2, 0};
+    record.event.velocity_after_b = {-1 + record.event.impulse / rod, 0};
     record.a = {.name = "ball", .type = BodyType::Dynamic, .mass = 2, .inertia = 0.4f};
     record.b = {.name = "rod", .type = BodyType::Dynamic, .mass = 1, .inertia = 1.0f / 12};
     return record;
@@ -63,6 +66,13 @@ TEST(ImpactStory, SpeedsAfterwardsFollowFromTheBlow)
 {
     EXPECT_TRUE(says(ball_on_rod(), "ball: v₁ − j/m₁ = 2.00 − 1.00/2.00 = 1.50 m/s"));
     EXPECT_TRUE(says(ball_on_rod(), "rod: v₂ + j/m₂ = −1.00 + 1.00/0.250 = 3.00 m/s"));
+}
+
+TEST(ImpactStory, WhatOthersDidAtThatMomentIsNotTakenForTheBlow)
+{
+    ImpactRecord record = ball_on_rod();
+    record.event.velocity_after_b = {0.5f, 0};
+    EXPECT_TRUE(says(record, "rod: v₂ from −1.00 to 0.500 m/s"));
 }
 
 TEST(ImpactStory, AWallIsAnInfiniteMass)

@@ -1,7 +1,7 @@
 // An impact in flight. Gathered are all contacts that touch at this moment and hang together through bodies in flight; reflect.cpp gives
 // their impulses; then they are told, and what is left pressing is held.
 //
-// Resting is an outcome: a bounce so small that the pressing acceleration would end it within half a sub-step (e u <= a_n h / 2) is none.
+// Resting is an outcome: a bounce so small that the pressing acceleration would end it within half a sub-step (e u <= a_n h / 2) and low is none.
 // Zero gravity never rests by that rule, nor does a slow body with room to bounce; but of two that both give way and lean on each other a bounce of
 // the blows that this is taken in is none either (Press). What is held takes the part of the acceleration that
 // presses, for the rest of the sub-step, and is then the solver's.
@@ -23,6 +23,8 @@ namespace {
 constexpr std::size_t work_of_an_impact = 50; // beside its rows: who takes part, and when they meet next
 constexpr int crowd_limit = 8;                // impacts of a body in a sub-step
 constexpr double deep_in = 0.002;             // of the size
+constexpr double low_hop = 1e-3;              // of the size
+constexpr double soon_turned = 0.5;           // rad
 
 } // namespace
 
@@ -38,12 +40,14 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
     note_before();
     m_span.output.impact_work.spend(work_of_an_impact);
     const bool is_jammed = !reflect(
-        m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, m_span.output.impact_work);
+        m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, m_span.output.impact_work,
+        m_blows);
     note_stopped_joints();
     for (std::size_t i = 0; i < m_members.size(); ++i)
         write_back(i, changed);
     for (std::size_t i = 0; i < m_rows.size(); ++i)
-        tell(i);
+        tell_touch(i);
+    tell_blows();
     hold_what_presses(changed);
     if (is_jammed)
         stop_until_next();
@@ -67,12 +71,9 @@ void ImpactSet::note_before()
     for (std::size_t i = 0; i < m_rows.size(); ++i)
     {
         const ImpactRow& r = m_rows[i];
-        const ImpactBody& a = m_bodies[static_cast<std::size_t>(r.a)];
+        const ContactVelocities v = contact_velocities(m_bodies, r);
         const ImpactBody& b = m_bodies[static_cast<std::size_t>(r.b)];
-        const double ax = a.vx - a.w * r.arm_a_y;
-        const double ay = a.vy + a.w * r.arm_a_x;
-        m_sources[i].speed_other = ax * r.nx + ay * r.ny;
-        m_sources[i].slide = (b.vx - ax) * -r.ny + (b.vy - ay) * r.nx;
+        m_sources[i].slide = (b.vx - v.ax) * -r.ny + (b.vy - v.ay) * r.nx;
     }
 }
 
@@ -95,13 +96,31 @@ Bounce ImpactSet::law(int index, double u)
     }
     // What is held elsewhere may press here.
     const double pressing = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_held, row), 0.0});
-    const double rest = std::max(0.5 * pressing * m_span.h, both_give_way(row) ? blow_of(s) : 0) + m_span.least_approach;
+    const double rest =
+        std::max({hop_speed(s, pressing), last_bounces(row, pressing, bounce.restitution), both_give_way(row) ? blow_of(s) : 0}) +
+        m_span.least_approach;
     if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
     {
         s.rests = true;
         bounce.restitution = is_small_blow(row, s, u) ? 1 : 0;
     }
     return bounce;
+}
+
+// A hop this slow is none: it is over within half a sub-step, and low. What turns fast has accelerations that last no sub-step.
+double ImpactSet::hop_speed(const Source& s, double pressing) const
+{
+    const double within_time = 0.5 * pressing * m_span.h;
+    const bool is_limit = s.own == none;
+    return is_limit ? within_time : std::min(within_time, std::sqrt(2 * pressing * low_hop * size_of(s)));
+}
+
+// Bounce after bounce lower, all are over by then, and before the bodies have turned to press elsewhere.
+double ImpactSet::last_bounces(const ImpactRow& row, double pressing, double restitution) const
+{
+    const auto turning = [&](int member) { return std::fabs(m_members[static_cast<std::size_t>(member)].path.w); };
+    const double time = std::min(m_span.h, soon_turned / std::max({turning(row.a), turning(row.b), 1e-300}));
+    return 0.5 * pressing * time * (1 - restitution);
 }
 
 // They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.

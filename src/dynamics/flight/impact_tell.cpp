@@ -7,29 +7,95 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
-void ImpactSet::tell(std::size_t i)
+namespace {
+
+// Impulses along one line add up to one between their points.
+double between(double a, double b, double part) { return a + part * (b - a); }
+
+ContactVelocities between(const ContactVelocities& a, const ContactVelocities& b, double part)
+{
+    return {between(a.ax, b.ax, part), between(a.ay, b.ay, part), between(a.bx, b.bx, part), between(a.by, b.by, part)};
+}
+
+// By the work of the impulse: what the two have after less what they had before, for whatever else they got meanwhile is its own work.
+double energy_lost(const Blow& blow, const ImpactRow& row)
+{
+    const double x = blow.normal * row.nx - blow.tangent * row.ny;
+    const double y = blow.normal * row.ny + blow.tangent * row.nx;
+    const ContactVelocities& v = blow.before;
+    const ContactVelocities& u = blow.after;
+    return -0.5 * (x * (v.bx - v.ax + u.bx - u.ax) + y * (v.by - v.ay + u.by - u.ay));
+}
+
+} // namespace
+
+void ImpactSet::tell_blows()
+{
+    for (std::size_t i = 0; i < m_blows.size(); ++i)
+    {
+        if (m_sources[static_cast<std::size_t>(m_blows[i].row)].own == none || m_blows[i].normal <= 0)
+            continue;
+        Strike strike = strike_of(m_blows[i]);
+        if (i + 1 < m_blows.size() && are_one(m_blows[i], m_blows[i + 1]))
+        {
+            const Strike second = strike_of(m_blows[++i]);
+            const double normal = strike.blow.normal + second.blow.normal;
+            const double part = second.blow.normal / normal;
+            strike.x = between(strike.x, second.x, part);
+            strike.y = between(strike.y, second.y, part);
+            strike.row.turn_a = between(strike.row.turn_a, second.row.turn_a, part);
+            strike.row.turn_b = between(strike.row.turn_b, second.row.turn_b, part);
+            strike.blow.approach = between(strike.blow.approach, second.blow.approach, part);
+            strike.blow.before = between(strike.blow.before, second.blow.before, part);
+            strike.blow.after = between(strike.blow.after, second.blow.after, part);
+            strike.blow.normal = normal;
+            strike.blow.tangent += second.blow.tangent;
+        }
+        if (!is_worth_telling(strike.blow))
+            continue;
+        append(m_span.output.impacts, event_of(strike));
+        ++m_span.output.flight_impacts;
+    }
+}
+
+ImpactSet::Strike ImpactSet::strike_of(const Blow& blow) const
+{
+    const auto i = static_cast<std::size_t>(blow.row);
+    return {blow, m_rows[i], m_sources[i].touch.x, m_sources[i].touch.y};
+}
+
+bool ImpactSet::are_one(const Blow& first, const Blow& second) const
+{
+    const Source& s = m_sources[static_cast<std::size_t>(first.row)];
+    const Source& t = m_sources[static_cast<std::size_t>(second.row)];
+    const ImpactRow& p = m_rows[static_cast<std::size_t>(first.row)];
+    const ImpactRow& q = m_rows[static_cast<std::size_t>(second.row)];
+    constexpr double parallel = 1 - 1e-9;
+    return first.round == second.round && s.own == t.own && s.other == t.other && second.normal > 0 &&
+           p.nx * q.nx + p.ny * q.ny > parallel && first.restitution == second.restitution && first.kick == second.kick;
+}
+
+void ImpactSet::tell_touch(std::size_t i)
 {
     const ImpactRow& row = m_rows[i];
     const Source& s = m_sources[i];
-    if (row.kind != ImpactRow::Kind::Contact || row.approach == 0)
+    if (row.kind != ImpactRow::Kind::Contact || row.last_blow < 0)
         return;
     sum_impulse(row);
-    const bool own_is_a = s.contact == none || m_state.contacts[s.contact].shape_a == s.own;
-    const ImpactEvent event = event_of(row, s, own_is_a);
-    const std::int32_t shape_a = own_is_a ? s.own : s.other;
-    const std::int32_t shape_b = own_is_a ? s.other : s.own;
-    if (is_worth_telling(row, s))
-    {
-        append(m_span.output.impacts, event);
-        ++m_span.output.flight_impacts;
-    }
-    const bool known = s.contact != none && (m_state.contacts[s.contact].flags & contact_flag::touching) != 0;
-    if (known)
+    if (s.contact != none && (m_state.contacts[s.contact].flags & contact_flag::touching) != 0)
         return;
-    append(m_span.output.begins, {s.contact, shape_a, shape_b, event.point, event.normal, event.time});
+    const bool is_a = own_is_a(s);
+    const auto sign = static_cast<float>(is_a ? -1 : 1);
+    append(m_span.output.begins, {s.contact,
+                                  is_a ? s.own : s.other,
+                                  is_a ? s.other : s.own,
+                                  {m_origin.x + s.touch.x, m_origin.y + s.touch.y},
+                                  sign * Vec2{static_cast<float>(row.nx), static_cast<float>(row.ny)},
+                                  static_cast<float>(m_span.time_of_step(m_time))});
     if (s.contact != none)
         m_state.contacts[s.contact].flags |= contact_flag::touching | contact_flag::begun;
 }
@@ -55,37 +121,53 @@ void ImpactSet::sum_impulse(const ImpactRow& r)
 
 // Slower than what presses the body on gives in a sub-step is settling, and so are the blows that pressing is taken in; shallower than half a degree
 // along a chain is rolling.
-bool ImpactSet::is_worth_telling(const ImpactRow& row, const Source& s) const
+bool ImpactSet::is_worth_telling(const Blow& blow) const
 {
+    const ImpactRow& row = m_rows[static_cast<std::size_t>(blow.row)];
+    const Source& s = m_sources[static_cast<std::size_t>(blow.row)];
     const bool along_chain = m_state.shapes[s.other].owner != s.other;
     const double shallow = along_chain ? 0.01 * std::fabs(s.slide) : 0;
-    const double blow = both_give_way(row) ? 2 * blow_of(s) : 0;
-    return row.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed), -s.touch.acceleration * m_span.h,
-                                    blow, shallow});
+    const double settling = s.rests ? 2 * hop_speed(s, std::max(-s.touch.acceleration, 0.0)) : 0;
+    const double pressed = both_give_way(row) ? 2 * blow_of(s) : 0;
+    return blow.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed), settling, pressed, shallow});
 }
 
-ImpactEvent ImpactSet::event_of(const ImpactRow& row, const Source& s, bool own_is_a) const
+bool ImpactSet::own_is_a(const Source& s) const { return s.contact == none || m_state.contacts[s.contact].shape_a == s.own; }
+
+ImpactEvent ImpactSet::event_of(const Strike& strike) const
 {
-    const auto sign = static_cast<float>(own_is_a ? -1 : 1);
-    auto e = event_between<ImpactEvent>(m_state, own_is_a ? s.own : s.other, own_is_a ? s.other : s.own);
-    e.point = {m_origin.x + s.touch.x, m_origin.y + s.touch.y};
+    const Blow& blow = strike.blow;
+    const ImpactRow& row = strike.row;
+    const Source& s = m_sources[static_cast<std::size_t>(blow.row)];
+    const bool is_a = own_is_a(s);
+    const auto sign = static_cast<float>(is_a ? -1 : 1);
+    auto e = event_between<ImpactEvent>(m_state, is_a ? s.own : s.other, is_a ? s.other : s.own);
+    e.point = {m_origin.x + strike.x, m_origin.y + strike.y};
     e.normal = sign * Vec2{static_cast<float>(row.nx), static_cast<float>(row.ny)};
     e.time = static_cast<float>(m_span.time_of_step(m_time));
-    e.approach_speed = static_cast<float>(row.approach);
-    e.impulse = static_cast<float>(row.normal);
-    e.friction_impulse = static_cast<float>(row.tangent);
-    e.energy_lost = static_cast<float>(row.energy_lost);
-    e.restitution = static_cast<float>(row.restitution);
+    e.impulse = static_cast<float>(blow.normal);
+    e.friction_impulse = static_cast<float>(blow.tangent);
+    e.energy_lost = static_cast<float>(energy_lost(blow, row));
+    e.restitution = static_cast<float>(blow.restitution);
     e.friction = static_cast<float>(row.friction);
-    e.kick_speed = static_cast<float>(row.kick);
-    const float speed_other = sign * static_cast<float>(s.speed_other);
-    const float speed_own = sign * static_cast<float>(s.speed_other - row.approach);
-    const float mass_other = point_mass(row.a, row, row.turn_a);
-    const float mass_own = point_mass(row.b, row, row.turn_b);
-    e.speed_a = own_is_a ? speed_own : speed_other;
-    e.speed_b = own_is_a ? speed_other : speed_own;
-    e.effective_mass_a = own_is_a ? mass_own : mass_other;
-    e.effective_mass_b = own_is_a ? mass_other : mass_own;
+    e.kick_speed = static_cast<float>(blow.kick);
+    e.effective_mass_a = point_mass(row.a, row, row.turn_a);
+    e.effective_mass_b = point_mass(row.b, row, row.turn_b);
+    const ContactVelocities& v = blow.before;
+    const ContactVelocities& u = blow.after;
+    e.velocity_a = {static_cast<float>(v.ax), static_cast<float>(v.ay)};
+    e.velocity_b = {static_cast<float>(v.bx), static_cast<float>(v.by)};
+    e.velocity_after_a = {static_cast<float>(u.ax), static_cast<float>(u.ay)};
+    e.velocity_after_b = {static_cast<float>(u.bx), static_cast<float>(u.by)};
+    if (is_a)
+    {
+        std::swap(e.effective_mass_a, e.effective_mass_b);
+        std::swap(e.velocity_a, e.velocity_b);
+        std::swap(e.velocity_after_a, e.velocity_after_b);
+    }
+    e.speed_a = dot(e.velocity_a, e.normal);
+    e.speed_b = dot(e.velocity_b, e.normal);
+    e.approach_speed = e.speed_a - e.speed_b;
     return e;
 }
 

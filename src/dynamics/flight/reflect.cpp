@@ -250,24 +250,99 @@ enum class Asked : std::uint8_t
     All          ///< none may be made to approach either
 };
 
+// An impact that is being resolved, round after round.
+struct Impact
+{
+    Bodies& bodies;
+    std::vector<ImpactRow>& rows;
+    double least;
+    ImpactWork& work;
+    std::vector<Blow>& blows;
+    int round = 0;
+    bool is_rubbing = false; ///< what friction does is part of the blows before it
+};
+
+ContactVelocities plus(const ContactVelocities& v, const ContactVelocities& u, double sign)
+{
+    return {v.ax + sign * u.ax, v.ay + sign * u.ay, v.bx + sign * u.bx, v.by + sign * u.by};
+}
+
+// Until it is closed, a blow takes whatever its row gives.
+void open(const Impact& impact, const ImpactRow& row, Blow& blow)
+{
+    blow.normal -= row.normal;
+    blow.tangent -= row.tangent;
+    blow.after = plus(blow.after, contact_velocities(impact.bodies, row), -1);
+}
+
+void close(const Impact& impact, const ImpactRow& row, Blow& blow)
+{
+    blow.normal += row.normal;
+    blow.tangent += row.tangent;
+    blow.after = plus(blow.after, contact_velocities(impact.bodies, row), 1);
+}
+
+template <class Change>
+void for_each_last_blow(const Impact& impact, const Change& change)
+{
+    for (const ImpactRow& row : impact.rows)
+    {
+        if (row.last_blow >= 0)
+            change(impact, row, impact.blows[static_cast<std::size_t>(row.last_blow)]);
+    }
+}
+
+void begin_blow(const Impact& impact, int index, double approach, const Bounce& bounce)
+{
+    ImpactRow& row = impact.rows[static_cast<std::size_t>(index)];
+    if (impact.is_rubbing && row.last_blow >= 0)
+        return;
+    row.last_blow = static_cast<int>(impact.blows.size());
+    const ContactVelocities before = contact_velocities(impact.bodies, row);
+    impact.blows.push_back({.row = index,
+                            .round = impact.round,
+                            .approach = approach,
+                            .restitution = bounce.restitution,
+                            .kick = bounce.kick,
+                            .before = before,
+                            .after = before});
+    open(impact, row, impact.blows.back());
+}
+
+double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& rows)
+{
+    double greatest = 0;
+    for (const ImpactRow& row : rows)
+    {
+        if (row.kind != ImpactRow::Kind::Hold)
+            greatest = std::max(greatest, -gap_rate(bodies, row));
+    }
+    return greatest;
+}
+
+constexpr double slow =
+    1e-3; // of the fastest approach: such a contact is at rest, and is struck in a later round by what this one does
+
 // A round of reflections; false where nothing approaches.
-bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work,
-                  Asked asked = Asked::Approaching)
+bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::Approaching)
 {
     std::vector<Demand> demands;
+    const std::size_t first_blow = impact.blows.size();
+    ++impact.round;
     bool approaching = false;
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    const double least = std::max(impact.least, slow * greatest_approach(impact.bodies, impact.rows));
+    for (std::size_t i = 0; i < impact.rows.size(); ++i)
     {
-        ImpactRow& row = rows[i];
+        const ImpactRow& row = impact.rows[i];
         if (row.kind == ImpactRow::Kind::Hold)
         {
             demands.push_back({static_cast<int>(i)});
             continue;
         }
-        const double u = -gap_rate(bodies, row);
+        const double u = -gap_rate(impact.bodies, row);
         if (u <= least)
         { // what leans on a limit does not get past it: it is as hard as the world
-            if (row.kind == ImpactRow::Kind::Limit && u > -least)
+            if (row.kind == ImpactRow::Kind::Limit && u > -impact.least)
                 demands.push_back({static_cast<int>(i)});
             else if (asked == Asked::All)
                 demands.push_back({static_cast<int>(i), u});
@@ -275,17 +350,17 @@ bool reflect_once(Bodies& bodies, std::vector<ImpactRow>& rows, double least, co
         }
         approaching = true;
         const Bounce bounce = law(static_cast<int>(i), u);
-        if (row.approach == 0)
-        {
-            row.approach = u;
-            row.restitution = bounce.restitution;
-        }
-        row.kick += bounce.kick;
+        begin_blow(impact, static_cast<int>(i), u, bounce);
         demands.push_back({static_cast<int>(i), (1 + bounce.restitution) * u + bounce.kick});
     }
     if (!approaching)
         return false;
-    answer(bodies, rows, demands, work);
+    answer(impact.bodies, impact.rows, demands, impact.work);
+    if (!impact.is_rubbing)
+    {
+        for (std::size_t i = first_blow; i < impact.blows.size(); ++i)
+            close(impact, impact.rows[static_cast<std::size_t>(impact.blows[i].row)], impact.blows[i]);
+    }
     return true;
 }
 
@@ -341,17 +416,6 @@ void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
         answer(bodies, rows, demands, work);
 }
 
-double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& rows)
-{
-    double greatest = 0;
-    for (const ImpactRow& row : rows)
-    {
-        if (row.kind != ImpactRow::Kind::Hold)
-            greatest = std::max(greatest, -gap_rate(bodies, row));
-    }
-    return greatest;
-}
-
 } // namespace
 
 double gap_rate(const Bodies& bodies, const ImpactRow& row) { return rate_along(bodies, row, normal_of(row)); }
@@ -360,17 +424,26 @@ double slip_rate(const Bodies& bodies, const ImpactRow& row)
     return rate_along(bodies, row, tangent_of(row)) - row.surface_speed;
 }
 
-bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work)
+ContactVelocities contact_velocities(const Bodies& bodies, const ImpactRow& row)
 {
+    const ImpactBody& a = bodies[static_cast<std::size_t>(row.a)];
+    const ImpactBody& b = bodies[static_cast<std::size_t>(row.b)];
+    return {a.vx - a.w * row.arm_a_y, a.vy + a.w * row.arm_a_x, b.vx - b.w * row.arm_b_y, b.vy + b.w * row.arm_b_x};
+}
+
+bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work,
+             std::vector<Blow>& blows)
+{
+    Impact impact{bodies, rows, least, work, blows};
     const BounceLaw still = [](int, double) { return Bounce{}; };
     stop_holds(bodies, rows, work);
     int round = 0;
-    while (round < round_limit && reflect_once(bodies, rows, least, law, work) && !work.is_spent())
+    while (round < round_limit && reflect_once(impact, law) && !work.is_spent())
         ++round;
     // A ball between two that close in bounces for ever: what is left is taken without bounce.
     // A long row only takes its time; what is jammed gets nowhere.
     double half_way = 0;
-    while (round < 2 * round_limit && !work.is_spent() && reflect_once(bodies, rows, least, still, work, Asked::All))
+    while (round < 2 * round_limit && !work.is_spent() && reflect_once(impact, still, Asked::All))
     {
         if (++round == round_limit + round_limit / 2)
             half_way = greatest_approach(bodies, rows);
@@ -379,13 +452,16 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
         return false;
     if (round == 2 * round_limit && greatest_approach(bodies, rows) > 0.99 * half_way)
         return false;
+    for_each_last_blow(impact, open);
+    impact.is_rubbing = true;
     rub(bodies, rows);
     // Friction on an arm may press another point in.
     for (round = 0; round < round_limit; ++round)
     {
-        if (!reflect_once(bodies, rows, least, still, work, round < one_by_one ? Asked::Approaching : Asked::All))
+        if (!reflect_once(impact, still, round < one_by_one ? Asked::Approaching : Asked::All))
             break;
     }
+    for_each_last_blow(impact, close);
     return !work.is_spent();
 }
 

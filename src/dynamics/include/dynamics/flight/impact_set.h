@@ -40,7 +40,6 @@ private:
         std::int32_t joint = none;
         Touch touch{};
         double slide = 0; ///< speed of the own center along perp(n) before
-        double speed_other = 0;
         bool kicked = false;
         bool rests = false; ///< its bounce was none
     };
@@ -66,6 +65,8 @@ private:
     void stop_until_next();
     void note_before();
     Bounce law(int index, double u);
+    [[nodiscard]] double hop_speed(const Source& s, double pressing) const;
+    [[nodiscard]] double last_bounces(const ImpactRow& row, double pressing, double restitution) const;
     [[nodiscard]] bool is_small_blow(const ImpactRow& row, const Source& s, double u) const;
     [[nodiscard]] double size_of(const Source& s) const;
     [[nodiscard]] double blow_of(const Source& s) const;
@@ -78,10 +79,22 @@ private:
     void defer(int index) const;
 
     // What the user hears: impact_tell.cpp
-    void tell(std::size_t i);
+    /// A blow of one contact, or of both that two flat faces have.
+    struct Strike
+    {
+        Blow blow{};
+        ImpactRow row{};
+        double x = 0; ///< where it acts
+        double y = 0;
+    };
+    void tell_touch(std::size_t i);
+    void tell_blows();
+    [[nodiscard]] Strike strike_of(const Blow& blow) const;
+    [[nodiscard]] bool are_one(const Blow& first, const Blow& second) const;
     void sum_impulse(const ImpactRow& r);
-    [[nodiscard]] bool is_worth_telling(const ImpactRow& row, const Source& s) const;
-    [[nodiscard]] ImpactEvent event_of(const ImpactRow& row, const Source& s, bool own_is_a) const;
+    [[nodiscard]] bool is_worth_telling(const Blow& blow) const;
+    [[nodiscard]] bool own_is_a(const Source& s) const;
+    [[nodiscard]] ImpactEvent event_of(const Strike& strike) const;
     [[nodiscard]] float point_mass(int member, const ImpactRow& row, double turn) const;
 
     // What goes on pressing: impact_hold.cpp
@@ -108,6 +121,7 @@ private:
     std::vector<ImpactBody> m_held{}; ///< what held them up to now, as accelerations
     std::vector<Source> m_sources{};  ///< beside m_rows
     std::vector<ImpactRow> m_rows{};
+    std::vector<Blow> m_blows{};
 };
 
 } // namespace carom::internal

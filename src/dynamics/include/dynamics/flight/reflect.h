@@ -50,13 +50,35 @@ struct ImpactRow
     double arm_b_y = 0;
     double friction = 0;
     double surface_speed = 0; ///< of b against a along the tangent
-    // What comes out.
-    double approach = 0;    ///< speed of the first approach; 0: it never approached
-    double restitution = 0; ///< of that
-    double kick = 0;
+    // What comes out, of all rounds together.
+    int last_blow = -1; ///< -1: it never approached
     double normal = 0;  ///< impulse
     double tangent = 0; ///< along perp(n), on b
     double energy_lost = 0;
+};
+
+/// Velocities of the two bodies of a row at its contact.
+struct ContactVelocities
+{
+    double ax = 0;
+    double ay = 0;
+    double bx = 0;
+    double by = 0;
+};
+
+/// One row in one round: each approach is a blow of its own. Friction goes to the last blow of its row, and so does the impulse that stops a contact
+/// which friction presses in again.
+struct Blow
+{
+    int row = 0;
+    int round = 0;       ///< those of a round strike at once
+    double approach = 0; ///< m/s, > 0
+    double restitution = 0;
+    double kick = 0;    ///< m/s
+    double normal = 0;  ///< impulse
+    double tangent = 0; ///< along perp(n), on b
+    ContactVelocities before{};
+    ContactVelocities after{};
 };
 
 struct Bounce
@@ -77,10 +99,10 @@ struct ImpactWork
     [[nodiscard]] bool is_spent() const { return left <= 0; }
 };
 
-/// Changes the velocities of the bodies and fills in the rows. Approaches slower than `least` count as none. False where they are jammed, for between
-/// what closes in on them there is no way to go, or the work is spent: energy has not risen, but some still approach.
+/// Changes the velocities of the bodies, fills in the rows and appends the blows. Approaches slower than `least` count as none. False where they are
+/// jammed, for between what closes in on them there is no way to go, or the work is spent: energy has not risen, but some still approach.
 [[nodiscard]] bool reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law,
-                           ImpactWork& work);
+                           ImpactWork& work, std::vector<Blow>& blows);
 
 /// How a row that no longer parts would accelerate without the forces asked for.
 struct Pressing
@@ -101,5 +123,6 @@ void press(std::vector<ImpactBody>& accelerations, const std::vector<ImpactRow>&
 /// Rate of the gap, and of b's surface against a's along the tangent.
 [[nodiscard]] double gap_rate(const std::vector<ImpactBody>& bodies, const ImpactRow& row);
 [[nodiscard]] double slip_rate(const std::vector<ImpactBody>& bodies, const ImpactRow& row);
+[[nodiscard]] ContactVelocities contact_velocities(const std::vector<ImpactBody>& bodies, const ImpactRow& row);
 
 } // namespace carom::internal
