@@ -755,25 +755,6 @@ void add_touch(Touches& touches, const Touch& t, double length)
     twin->probes.of_b |= probes.of_b | t.probes.of_b;
 }
 
-// Two that are convex touch on one side. Near the tip of a thin one its other face is as near as the one that is touched.
-void drop_far_sides(Touches& touches)
-{
-    const auto is_far_side = [&](const Touch& t)
-    {
-        return std::any_of(touches.begin(), touches.end(),
-                           [&](const Touch& o) { return o.nx * t.nx + o.ny * t.ny < 0 && o.distance > t.distance; });
-    };
-    Touches kept;
-    for (const Touch& t : touches)
-    {
-        if (!is_far_side(t))
-            kept.list[kept.count++] = t;
-    }
-    touches = kept;
-}
-
-bool is_convex(const LeafView& v) { return v.leaf->type != LeafType::Arc; }
-
 } // namespace
 
 Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, double tolerance,
@@ -799,8 +780,6 @@ Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& 
             t.probes.add(number, on_a);
             add_touch(touches, t, length);
         });
-    if (touches.count > 1 && is_convex(a) && is_convex(b))
-        drop_far_sides(touches);
     return touches;
 }
 
