@@ -140,11 +140,13 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     if (effective <= 0)
         return;
     const std::string v = with_index("v", first);
-    const float by_formula = before + (first ? -1.0f : 1.0f) * impulse / effective;
-    const float scale = std::max({std::abs(before), std::abs(after), impulse / effective});
+    const std::string sign = first ? " − " : " + ";
+    const float change = impulse / effective;
+    const float by_formula = first ? before - change : before + change;
+    const float scale = std::max({std::abs(before), std::abs(after), change});
     const bool is_alone = std::abs(by_formula - after) <= 0.005f * scale;
-    const std::string way = is_alone ? v + (first ? " − " : " + ") + "j/" + with_index("m", first) + " = " + number(before) +
-                                           (first ? " − " : " + ") + number(impulse) + "/" + number(effective) + " = "
+    const std::string way = is_alone ? v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
+                                           number(impulse) + "/" + number(effective) + " = "
                                      : v + " from " + number(before) + " to ";
     story.push_back({Kind::Formula, p.name + ": " + way + number(after) + " m/s"});
 }

@@ -44,7 +44,7 @@ struct ContactEndEvent
 ///
 ///     energy_lost = -P · ((velocity_b - velocity_a) + (velocity_after_b - velocity_after_a)) / 2
 ///
-/// Where the two are alone in the blow, it can be checked by hand, friction on long arms apart:
+/// The impulse of two bodies that are alone in the blow can be checked by hand, unless friction acts on a long arm:
 ///
 ///     impulse = m_a m_b / (m_a + m_b) * ((1 + restitution) * approach_speed + kick_speed)
 ///

@@ -187,7 +187,7 @@ struct Facing
     // Does any of the edge between the corners lie before the edge?
     [[nodiscard]] bool meets() const { return !(along[0] < 0 && along[1] < 0) && !(along[0] > end && along[1] > end); }
 
-    // Where such an edge is cut off at the end of the other, its lowest corner, just beside that end, may still be the nearest.
+    // Clipping a steep edge at the end of the other may cut off its lowest corner, which is still the nearest just beside that end.
     [[nodiscard]] bool is_steep() const
     {
         const float rise = dot(n, corners[1] - corners[0]);

@@ -295,7 +295,7 @@ private:
         }
     }
 
-    // What flies off is not pushed again by warm starting.
+    // Points that fly off are not pushed again by warm starting.
     static void take_impulses(ContactRow& row, float e, float kick)
     {
         for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
@@ -308,7 +308,7 @@ private:
         }
     }
 
-    // Of the points that struck; impulses along one line add up to one between their points. A corner that only bears a load has no part in it.
+    // The points that struck count as one between them, for their impulses act along one line. A corner that only bears a load has no part in it.
     void fill_impact(const ContactRow& row, ImpactEvent& event) const
     {
         Vec2 arm_a{};

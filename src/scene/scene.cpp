@@ -66,7 +66,7 @@ Scene::Scene(const SceneDef& def) : m_data(std::make_unique<SceneData>())
 }
 
 Scene::~Scene() = default;
-// What is moved from is an empty scene.
+// A scene that has been moved from is empty.
 Scene::Scene(Scene&& other) noexcept : Scene(other.m_data->def) { std::swap(m_data, other.m_data); }
 
 Scene& Scene::operator=(Scene&& other) noexcept

@@ -107,7 +107,7 @@ Bounce ImpactSet::law(int index, double u)
     return bounce;
 }
 
-// A hop this slow is none: it is over within half a sub-step, and low. What turns fast has accelerations that last no sub-step.
+// A hop this slow is none: it is over within a sub-step, and low. What turns fast has accelerations that last no sub-step.
 double ImpactSet::hop_speed(const Source& s, double pressing) const
 {
     const double within_time = 0.5 * pressing * m_span.h;
@@ -115,7 +115,7 @@ double ImpactSet::hop_speed(const Source& s, double pressing) const
     return is_limit ? within_time : std::min(within_time, std::sqrt(2 * pressing * low_hop * size_of(s)));
 }
 
-// Bounce after bounce lower, all are over by then, and before the bodies have turned to press elsewhere.
+// A blow this slow is the last: it and all lower bounces after it are over within a sub-step, and before the bodies have turned to press elsewhere.
 double ImpactSet::last_bounces(const ImpactRow& row, double pressing, double restitution) const
 {
     const auto turning = [&](int member) { return std::fabs(m_members[static_cast<std::size_t>(member)].path.w); };

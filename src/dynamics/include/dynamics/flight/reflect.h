@@ -50,7 +50,7 @@ struct ImpactRow
     double arm_b_y = 0;
     double friction = 0;
     double surface_speed = 0; ///< of b against a along the tangent
-    // What comes out, of all rounds together.
+    // The result, summed over all rounds.
     int last_blow = -1; ///< -1: it never approached
     double normal = 0;  ///< impulse
     double tangent = 0; ///< along perp(n), on b
