@@ -27,12 +27,14 @@ double stop_rate(float error, float h) { return static_cast<double>(-(error > 0 
 
 } // namespace
 
+float least_theta(float turn) { return turn > followed ? 1 - 0.5f * followed / turn : 0.5f; }
+
 AxisSpring make_spring(float hertz, float damping_ratio, float mass, float h, float most_turn)
 {
     const float turn = 2 * pi * hertz * h;
     const float followed_turn = std::min(turn, most_turn);
     const float drag = std::min(2 * damping_ratio * turn, most_turn);
-    return {mass * followed_turn * followed_turn / (h * h), mass * drag / h, std::max(0.5f, 1 - 0.5f * followed / followed_turn)};
+    return {mass * followed_turn * followed_turn / (h * h), mass * drag / h, least_theta(followed_turn)};
 }
 
 SpringLine AxisSpring::line(float stretch, float h) const
@@ -70,6 +72,15 @@ AxisPiece AxisLaw::solve(double free_rate, double inverse_mass) const
     else if (piece.rate >= upper)
         piece.kind = AxisPiece::Kind::AtUpper;
     piece.rate = std::min(std::max(piece.rate, lower), std::max(lower, upper));
+    return piece;
+}
+
+AxisPiece AxisLaw::between_stops(double rate) const
+{
+    AxisPiece piece;
+    piece.spring = spring;
+    piece.rate = rate;
+    piece.constant = std::copysign(most, target - rate);
     return piece;
 }
 

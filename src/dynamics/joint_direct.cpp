@@ -50,8 +50,9 @@ bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::
 
 } // namespace
 
-void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints)
+void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints, Masses masses)
 {
+    m_mass_kind = masses;
     m_view = view;
     m_state = &state;
     m_joints = joints;
@@ -228,9 +229,51 @@ void DirectSolve::note_stretch(const Item& item)
 Triple DirectSolve::inverse_mass(const Node& node) const
 {
     const StateConstants& c = m_view.constants[node.state];
-    const bool counts_as_harder = !m_matrix.has_loops() && node.stretch > most_stretch; // loops give way instead
+    const bool counts_as_harder =
+        m_mass_kind == Masses::Loaded && !m_matrix.has_loops() && node.stretch > most_stretch; // loops give way instead
     const float share = counts_as_harder ? most_stretch / node.stretch : 1;
     return as_triple(c.inverse_mass, share * c.inverse_inertia);
+}
+
+// No oscillation of a chain is faster than the two bodies of its stiffest joint would swing against fixed neighbours.
+void DirectSolve::fit_springs()
+{
+    if (!m_ready)
+        return;
+    for (Node& n : m_nodes)
+    {
+        n.sprung = 0;
+        n.springs = 0;
+    }
+    for (const Item& item : m_items)
+    {
+        if (!item.is_sprung())
+            continue;
+        const JointRow& axis = item.work->rows.axis;
+        const float stiffness = item.work->spring.stiffness;
+        add_spring(node(item.a), stiffness, axis.d, axis.arm_a);
+        add_spring(node(item.b), stiffness, axis.d, axis.arm_b);
+    }
+    for (const Item& item : m_items)
+    {
+        if (!item.is_sprung())
+            continue;
+        JointWork& work = m_joints[item.joint];
+        const Node& a = node(item.a);
+        const Node& b = node(item.b);
+        const float alone = work.spring.stiffness * work.rows.axis_inverse_mass;
+        const float rate = a.springs > 1 || b.springs > 1 ? std::max(alone, a.sprung + b.sprung) : alone;
+        work.spring.theta = std::max(work.spring.theta, least_theta(m_view.h * std::sqrt(rate)));
+    }
+}
+
+void DirectSolve::add_spring(Node& node, float stiffness, Vec2 d, float arm) const
+{
+    if (node.state == none)
+        return;
+    const StateConstants& c = m_view.constants[node.state];
+    node.sprung += stiffness * (c.inverse_mass.x * d.x * d.x + c.inverse_mass.y * d.y * d.y + c.inverse_inertia * arm * arm);
+    ++node.springs;
 }
 
 // --- the passes ---------------------------------------------------------------------------------------------------------------------
@@ -520,11 +563,15 @@ bool DirectSolve::take_next_pieces(bool all)
     {
         const Item& item = m_items[axis.item];
         const double k = as_double(item.work->rows.axis_inverse_mass);
-        const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held);
-        const AxisPiece next = axis.law.solve(rate - k * (axis.before + m_impulses[as_index(axis.row)]), k);
+        const double impulse = m_impulses[as_index(axis.row)];
+        const bool gives_way = m_compliances[as_index(axis.row)] != JointMatrix::off; // with the rows of a loop
+        const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held) +
+                            (gives_way ? m_compliance * m_matrix.weight(axis.row) * impulse : 0);
+        const AxisPiece next = axis.law.solve(rate - k * (axis.before + impulse), k);
         if (std::fabs(next.rate - rate) <= same_rate * std::max(1.0, std::fabs(rate)))
             continue;
-        axis.piece = next;
+        const bool jumps = axis.piece.is_at_stop() && next.is_at_stop(); // over all that is between them
+        axis.piece = jumps ? axis.law.between_stops(rate) : next;
         changed = true;
         if (!all)
             return true;
@@ -532,15 +579,14 @@ bool DirectSolve::take_next_pieces(bool all)
     return changed;
 }
 
-// Each gives what its law allows of what it has found.
+// Each goes on giving what it gives: nothing comes from that but what held rows take.
 void DirectSolve::give_up_on_pieces()
 {
     for (Axis& axis : m_axes)
     {
-        const double found = axis.before + m_impulses[as_index(axis.row)];
-        axis.piece.constant = axis.law.split(axis.piece, found, axis.piece.rate).sum();
-        axis.piece.spring = {};
-        axis.piece.kind = AxisPiece::Kind::Free;
+        axis.law.scope = {};
+        axis.piece = {};
+        axis.piece.constant = axis.before;
     }
 }
 
@@ -669,7 +715,7 @@ void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, 
     for (int i = 0; i < 4; ++i)
     {
         place_joints(view, state, joints);
-        direct.prepare(view, state, joints);
+        direct.prepare(view, state, joints, DirectSolve::Masses::Own);
         if (direct.is_ready())
             direct.close_gaps();
     }

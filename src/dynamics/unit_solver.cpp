@@ -331,7 +331,7 @@ private:
     {
         refresh_rows();
         place_joints(m_view, m_ctx.state, m_joints);
-        prepare_direct();
+        prepare_direct(DirectSolve::Masses::Own);
         solve(false);
         relax_deep_overlaps();
     }
@@ -455,7 +455,7 @@ private:
     void warm_start_all()
     {
         kick_springs_before(m_view, m_ctx.state, m_joints);
-        prepare_direct();
+        prepare_direct(DirectSolve::Masses::Loaded);
         if (!m_joints.empty())
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         if (m_starts_by_body)
@@ -478,7 +478,8 @@ private:
     void take_forbidden_speeds()
     {
         direct_solve().look_again();
-        prepare_direct();
+        prepare_direct(DirectSolve::Masses::Own);
+        direct_solve().fit_springs();
         if (is_direct())
             m_output.direct->take_forbidden_speeds();
     }
@@ -500,13 +501,13 @@ private:
     }
 
     // At the present pose.
-    void prepare_direct()
+    void prepare_direct(DirectSolve::Masses masses)
     {
         if (m_joints.empty())
             return;
         if (m_unit.flier_count > 0)
             m_output.direct->look_again();
-        m_output.direct->prepare(m_view, m_ctx.state, m_joints);
+        m_output.direct->prepare(m_view, m_ctx.state, m_joints, masses);
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace carom;
@@ -153,6 +154,34 @@ TEST(HingeSprings, AreStableAtAnyStiffnessDampingStepAndNumberOfLinks)
                         }
                         EXPECT_LT(most, bound);
                     }
+                }
+            }
+        }
+    }
+}
+
+// The tip of a falling chain whips: joints swing fast between their limits, and the chain's own oscillations are three times as fast as a joint's.
+TEST(HingeSprings, WhipWithoutGainingEnergy)
+{
+    for (const int count : {8, 12})
+    {
+        for (const float hertz : {5.0f, 15.0f, 30.0f})
+        {
+            for (const auto& [rate, bound] : {std::pair(30, 150.0), {60, 10.0}, {120, 2.0}})
+            {
+                for (int i = 0; i < 8; ++i)
+                {
+                    const float bend = (0.4f + 0.05f * static_cast<float>(i)) / static_cast<float>(count);
+                    SCOPED_TRACE(say(count, {hertz, 0}, false, bend, true, 1 / static_cast<float>(rate)));
+                    SprungBars chain(count, {hertz, 0}, false, bend, true);
+                    const double start = chain.stored(hertz) + chain.height();
+                    double most = 0;
+                    for (int k = 0; k < rate * (slow_build ? 1 : 10); ++k)
+                    {
+                        chain.scene.step(1 / static_cast<float>(rate));
+                        most = std::max(most, chain.kinetic() + chain.stored(hertz) + chain.height() - start);
+                    }
+                    EXPECT_LT(most, bound); // of 400 J that it has when it hangs straight down
                 }
             }
         }

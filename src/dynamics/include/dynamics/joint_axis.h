@@ -35,6 +35,9 @@ struct AxisSpring
 /// hertz and damping ratio of a mass on the spring. Beyond `most_turn` of omega h it is as stiff as that.
 [[nodiscard]] AxisSpring make_spring(float hertz, float damping_ratio, float mass, float h, float most_turn);
 
+/// The theta that an oscillation of this omega h asks for.
+[[nodiscard]] float least_theta(float turn);
+
 constexpr float direct_spring_turn = 16; ///< in the direct solve, where that is as good as rigid
 constexpr float soft_spring_turn = 0.5f; ///< where rows are solved one after the other
 
@@ -54,6 +57,7 @@ struct AxisPiece
     SpringLine spring;
 
     [[nodiscard]] bool keeps_rate() const { return kind != Kind::Free; }
+    [[nodiscard]] bool is_at_stop() const { return kind == Kind::AtLower || kind == Kind::AtUpper; }
     [[nodiscard]] double impulse(double at) const { return constant + spring.impulse(at); }
 };
 
@@ -101,6 +105,8 @@ struct AxisLaw
 
     /// The solution of rate = free_rate + inverse_mass * impulse(rate).
     [[nodiscard]] AxisPiece solve(double free_rate, double inverse_mass) const;
+    /// The piece next to a stop at that rate.
+    [[nodiscard]] AxisPiece between_stops(double rate) const;
     /// Splits an impulse among the spring, the motor and the stops.
     [[nodiscard]] AxisImpulses split(const AxisPiece& piece, double impulse, double rate) const;
 };

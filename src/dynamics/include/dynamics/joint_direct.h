@@ -17,10 +17,18 @@ class DirectSolve
 public:
     static constexpr int most_rows = 128;
 
+    enum class Masses
+    {
+        Loaded, ///< bodies that a load stretches count as harder to turn
+        Own     ///< speeds alone change: with other masses that might give energy
+    };
+
     /// Once a step, and after a body has taken off or landed: who is connected with whom is found anew.
     void look_again() { m_looks_again = true; }
     /// At the present pose. Not ready where there is nothing to hold or too much of it: then the soft rows have to do.
-    void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints);
+    void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints, Masses masses);
+    /// Once a step: springs that share bodies swing faster together than each alone, and damp what a sub-step cannot follow.
+    void fit_springs();
     [[nodiscard]] bool is_ready() const { return m_ready; }
     void warm_start();
     void solve(bool use_bias);
@@ -74,6 +82,7 @@ private:
 
         [[nodiscard]] int rows() const { return held + (work->rows.has_axis() ? 1 : 0); }
         [[nodiscard]] const JointRow& row(int r) const { return r < held ? work->rows.held[r] : work->rows.axis; }
+        [[nodiscard]] bool is_sprung() const { return work->rows.has_axis() && work->spring.is_there(); }
         [[nodiscard]] bool take_lines();
         [[nodiscard]] float& impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
     };
@@ -94,6 +103,8 @@ private:
     {
         std::int32_t state = none;
         float stretch = 0; ///< (omega h)²
+        float sprung = 0;  ///< omega² that its springs would give it if nothing else moved
+        int springs = 0;
         Placement ahead{};
         Triple change{}; ///< of its velocity
     };
@@ -106,6 +117,7 @@ private:
     void fill_jacobian(const Item& item, JointJacobian& jacobian) const;
     void note_stretch(const Item& item);
     [[nodiscard]] Triple inverse_mass(const Node& node) const;
+    void add_spring(Node& node, float stiffness, Vec2 d, float arm) const;
     [[nodiscard]] Node& node(int i) { return m_nodes[static_cast<std::size_t>(i)]; }
     [[nodiscard]] const Node& node(int i) const { return m_nodes[static_cast<std::size_t>(i)]; }
 
@@ -141,6 +153,7 @@ private:
     bool m_looks_again = true;
     bool m_fits = false; ///< there is something to solve, and not too much
     bool m_ready = false;
+    Masses m_mass_kind = Masses::Own;
     bool m_turns_too_far = false;
     float m_longest_arm = 0;
 
