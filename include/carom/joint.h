@@ -48,8 +48,8 @@ struct DistanceDef
     std::uint64_t user_data = 0;
 };
 
-/// A hinge. The joint's angle is angle_b - angle_a - reference_angle, between -pi and pi: turns are not counted. Limits within
-/// that range hold; of a limit at -pi or pi, at the very end, the hinge turns past.
+/// A hinge. The joint's angle is angle_b - angle_a - reference_angle: within -pi and pi when it is made, and from then on turns are counted. Limits may be
+/// any number of turns away. A teleport and a target pose turn a body by the shortest way; Joint::set_def shifts the angle by the change of the reference.
 ///
 /// The spring's stiffness is J (2 pi spring_hertz)² in N m/rad, its damping 2 spring_damping_ratio J (2 pi spring_hertz) in
 /// N m s/rad. J is the inertia of the two bodies about the hinge: I + m r² of a body that hangs on the world, or
@@ -64,8 +64,8 @@ struct RevoluteDef
     Vec2 anchor_b{};
     float reference_angle = 0; ///< radians
     bool enable_limit = false;
-    float lower_angle = 0;       ///< radians, -pi to pi, <= upper_angle
-    float upper_angle = 0;       ///< radians, -pi to pi
+    float lower_angle = 0;       ///< radians, <= upper_angle
+    float upper_angle = 0;       ///< radians
     float limit_restitution = 0; ///< 0 to 1: how much of the speed comes back from a limit
     bool enable_motor = false;
     float motor_speed = 0;      ///< rad/s
@@ -116,7 +116,7 @@ public:
     [[nodiscard]] BodyId body_b() const;
     [[nodiscard]] Position anchor_a() const; ///< in the world
     [[nodiscard]] Position anchor_b() const;
-    /// Length (spring, distance) in m, angle (revolute) in radians, translation (prismatic) in m.
+    /// Length (spring, distance) in m, angle (revolute, with all turns) in radians, translation (prismatic) in m.
     [[nodiscard]] float coordinate() const;
     /// Rate of change of the coordinate, m/s or rad/s.
     [[nodiscard]] float speed() const;

@@ -14,6 +14,7 @@
 #include "dynamics/stages.h"
 #include "dynamics/stop_at_wall.h"
 #include "dynamics/task_sizes.h"
+#include "dynamics/turns.h"
 #include "dynamics/unit_rows.h"
 #include "dynamics/wake.h"
 
@@ -59,11 +60,17 @@ void commit_kinematic(const StepContext& ctx, int body)
         const BodyTarget& target = ctx.state.targets[static_cast<std::size_t>(body)];
         sim.center = target.center;
         sim.rotation = target.rotation;
+        count_turns(ctx.state.turns[static_cast<std::size_t>(body)], sim.previous_rotation, sim.rotation);
         return;
     }
     sim.center += ctx.dt * sim.velocity;
     if (sim.angular_velocity != 0)
-        sim.rotation = renormalized(Rotation::from_angle(ctx.dt * sim.angular_velocity) * sim.rotation);
+    {
+        const float way = ctx.dt * sim.angular_velocity;
+        sim.rotation = renormalized(Rotation::from_angle(way) * sim.rotation);
+        count_turns(ctx.state.turns[static_cast<std::size_t>(body)], sim.previous_rotation, sim.rotation,
+                    static_cast<double>(way));
+    }
 }
 
 void commit_kinematic_bodies(StepContext& ctx)
@@ -144,7 +151,10 @@ void commit_state(const StepContext& ctx, std::int32_t index)
     sim.center.x += x;
     sim.center.y += y;
     if (s.delta_rotation != Rotation{})
+    {
         sim.rotation = renormalized(s.delta_rotation * sim.rotation);
+        count_turns(ctx.state.turns[static_cast<std::size_t>(body)], sim.previous_rotation, sim.rotation, s);
+    }
     sim.velocity = s.velocity;
     sim.angular_velocity = s.angular_velocity;
 }

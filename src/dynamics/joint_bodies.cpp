@@ -2,6 +2,7 @@
 
 #include "core/trigonometry.h"
 #include "dynamics/joint_matrix.h"
+#include "dynamics/turns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +36,12 @@ JointPose place_anchors(const JointWork& work, const Placement& a, const Placeme
 
 float angle_between(const JointWork& work, const Placement& a, const Placement& b)
 {
-    return work.angle0 + angle_of(b.turn * inverse(a.turn));
+    if (work.wraps)
+        return work.angle0 + angle_of(b.turn * inverse(a.turn));
+    return work.angle0 + (angle_of(b.turn) - angle_of(a.turn)) + 2 * pi * static_cast<float>(b.turns - a.turns);
 }
 
-Placement placement(const BodyState& s) { return {s.delta_position, s.delta_rotation}; }
+Placement placement(const BodyState& s) { return {s.delta_position, s.delta_rotation, s.turns}; }
 
 } // namespace
 
@@ -64,10 +67,11 @@ Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement
 
 Placement placed_ahead(const SolverView& view, std::int32_t state)
 {
-    const BodyState& s = view.states[state];
-    const Rotation turned =
-        s.angular_velocity != 0 ? Rotation::from_angle(view.h * s.angular_velocity) * s.delta_rotation : s.delta_rotation;
-    return {s.delta_position + drift(view, state), turned};
+    BodyState s = view.states[state];
+    s.delta_position += drift(view, state);
+    if (s.angular_velocity != 0)
+        turn_by(s, view.h * s.angular_velocity);
+    return placement(s);
 }
 
 JointPose present_pose(const SolverView& view, const JointWork& work)

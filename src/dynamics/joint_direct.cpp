@@ -18,6 +18,7 @@
 
 #include "core/index.h"
 #include "dynamics/scene_data.h"
+#include "dynamics/turns.h"
 
 #include <algorithm>
 #include <bit>
@@ -706,7 +707,7 @@ void DirectSolve::close_gaps()
             continue;
         BodyState& s = m_view.states[n.state];
         s.delta_position += Vec2{static_cast<float>(share * n.change.x), static_cast<float>(share * n.change.y)};
-        s.delta_rotation = Rotation::from_angle(static_cast<float>(share * n.change.turn)) * s.delta_rotation;
+        turn_by(s, static_cast<float>(share * n.change.turn));
     }
 }
 

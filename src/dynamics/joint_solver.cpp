@@ -90,15 +90,6 @@ void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& r
 
 } // namespace
 
-float hinge_angle(const SceneState& state, const JointRecord& joint)
-{
-    const auto rotation = [&](int body)
-    { return body == none ? Rotation{} : state.sims[static_cast<std::size_t>(body)].rotation; };
-    const Rotation relative =
-        rotation(joint.body_b) * inverse(rotation(joint.body_a)) * Rotation::from_angle(-joint.reference_angle);
-    return static_cast<float>(arc_tangent(relative.s, relative.c));
-}
-
 JointArms joint_arms(const SceneState& state, const JointRecord& joint)
 {
     const auto place = [&](int body, Vec2 anchor, Vec2& arm)
@@ -133,6 +124,7 @@ JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPla
     work.gap0 = arms.gap;
     work.axis0 = joint.body_a == none ? joint.axis_a
                                       : rotate(ctx.state.sims[static_cast<std::size_t>(joint.body_a)].rotation, joint.axis_a);
+    work.wraps = joint.kind == JointType::Prismatic;
     if (has_angle(joint))
         work.angle0 = hinge_angle(ctx.state, joint);
     const SolverView view{ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0};

@@ -8,6 +8,7 @@
 #include "dynamics/prepare.h"
 #include "dynamics/rows.h"
 #include "dynamics/stages.h"
+#include "dynamics/turns.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/unit_rows.h"
 #include "dynamics/unit_solver.h"
@@ -40,9 +41,7 @@ void fall(const StepContext& ctx, std::int32_t index)
     };
     s.delta_position.x = sum(s.velocity.x, c.acceleration.x, c.linear_decay);
     s.delta_position.y = sum(s.velocity.y, c.acceleration.y, c.linear_decay);
-    const float angle = sum(s.angular_velocity, c.angular_acceleration, c.angular_decay);
-    if (angle != 0)
-        s.delta_rotation = Rotation::from_angle(angle);
+    turn_from_start(s, static_cast<double>(sum(s.angular_velocity, c.angular_acceleration, c.angular_decay)));
 }
 
 void fall(const StepContext& ctx, const Unit& unit)

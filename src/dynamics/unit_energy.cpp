@@ -1,5 +1,7 @@
 #include "dynamics/unit_energy.h"
 
+#include "dynamics/turns.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -565,7 +567,10 @@ void UnitEnergy::hold_back_body(std::int32_t state, float rest, bool is_carried)
         rotation = turn * rotation;
     }
     s.delta_position = position + rest * (s.delta_position - position);
-    s.delta_rotation = Rotation::from_angle(rest * (s.delta_rotation * carom::inverse(rotation)).angle()) * rotation;
+    const float turn = (s.delta_rotation * carom::inverse(rotation)).angle();
+    const Rotation before = s.delta_rotation;
+    s.delta_rotation = Rotation::from_angle(rest * turn) * rotation;
+    s.turns = static_cast<std::int16_t>(s.turns + turns_by(before, s.delta_rotation, as_double((rest - 1) * turn)));
 }
 
 } // namespace carom::internal

@@ -97,7 +97,8 @@ void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
 
 void fill_joint_group(const StepContext& ctx, WideJoint& group)
 {
-    wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.scratch.constants.data(), ctx.h);
+    wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.state.turns.data(),
+                               ctx.scratch.constants.data(), ctx.h);
 }
 
 void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)

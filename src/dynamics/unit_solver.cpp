@@ -15,6 +15,7 @@
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
 #include "dynamics/springs.h"
+#include "dynamics/turns.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/unit_bounces.h"
 #include "dynamics/wide_kernels.h"
@@ -596,7 +597,7 @@ private:
             return;
         s.delta_position += drift(m_view, i);
         if (s.angular_velocity != 0)
-            s.delta_rotation = Rotation::from_angle(m_ctx.h * s.angular_velocity) * s.delta_rotation;
+            turn_by(s, m_ctx.h * s.angular_velocity);
     }
 
     // The last line of defence, for what something far heavier presses into what does not give way: no deeper than half of what is inside it.

@@ -2,6 +2,7 @@
 
 #include "carom/scene.h"
 #include "dynamics/body_store.h"
+#include "dynamics/turns.h"
 #include "dynamics/wake.h"
 #include "scene/access.h"
 
@@ -71,6 +72,8 @@ BodyId Scene::create_body(const BodyDef& def)
     const auto index = static_cast<std::size_t>(slot);
     grow(state.sims, index + 1);
     grow(state.colors, index + 1);
+    grow(state.turns, index + 1);
+    state.turns[index] = 0;
     state.sims[index] = make_sim(def);
     grow(m_data->body_user_data, index + 1);
     m_data->body_user_data[index] = def.user_data;
@@ -370,7 +373,9 @@ void Body::teleport(Position position, float angle)
         return;
     t.wake_neighbours();
     BodySim& sim = t.sim();
-    sim.rotation = sim.previous_rotation = Rotation::from_angle(angle);
+    const Rotation rotation = Rotation::from_angle(angle);
+    count_turns(m_data->state.turns[static_cast<std::size_t>(t.slot)], sim.rotation, rotation);
+    sim.rotation = sim.previous_rotation = rotation;
     sim.center = sim.previous_center = position + rotate(sim.rotation, sim.local_center);
     t.record().has_target = t.record().had_target = false;
     // Contacts that no longer meet end in the next step; the others are looked at anew, without the impulses of the old place.

@@ -136,6 +136,8 @@ void add_joint(Hasher& h, const JointRecord& j)
     for (const float value : {j.reference_angle, j.stiffness, j.damping, j.lower, j.upper, j.limit_restitution, j.motor_speed,
                               j.max_motor, j.hertz, j.damping_ratio, j.spring_target})
         h.add(value);
+    if (j.turns != 0)
+        h.add(j.turns);
     for (const float impulse : j.impulses)
         h.add(impulse);
     for (const float error : j.left_errors)
@@ -160,6 +162,8 @@ std::uint64_t Scene::state_hash() const
         add_body(h, body, state.sims[static_cast<std::size_t>(i)]);
         if (body.sleep_speed != m_data->tolerances.sleep_speed)
             h.add(body.sleep_speed);
+        if (const std::int32_t turns = state.turns[static_cast<std::size_t>(i)]; turns != 0)
+            h.add(turns);
         if (body.has_target)
         {
             add(h, state.targets[static_cast<std::size_t>(i)].center);

@@ -3,6 +3,7 @@
 #include "carom/scene.h"
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
+#include "dynamics/turns.h"
 #include "dynamics/wake.h"
 #include "scene/access.h"
 
@@ -37,8 +38,7 @@ bool check_def(const Checker& check, const DistanceDef& d)
 bool check_def(const Checker& check, const RevoluteDef& d)
 {
     return check_common(check, d.anchor_a, d.anchor_b) && check.finite("RevoluteDef::reference_angle", d.reference_angle) &&
-           check.in_range("RevoluteDef::lower_angle", d.lower_angle, -pi, pi) &&
-           check.in_range("RevoluteDef::upper_angle", d.upper_angle, -pi, pi) &&
+           check.finite("RevoluteDef::lower_angle", d.lower_angle) && check.finite("RevoluteDef::upper_angle", d.upper_angle) &&
            check.holds(d.lower_angle <= d.upper_angle, "RevoluteDef::upper_angle", internal::to_text(d.upper_angle),
                        "must be at least lower_angle") &&
            check.in_range("RevoluteDef::limit_restitution", d.limit_restitution, 0, 1) &&
@@ -313,6 +313,7 @@ JointId Scene::create_joint(const JointDef& def)
         def);
     if (!sound)
         return {};
+    begin_counting(state, record);
     const int slot = state.joints.create(record);
     link_joint(state, slot);
     grow(m_data->joint_user_data, static_cast<std::size_t>(state.joints.capacity()));
@@ -401,7 +402,7 @@ float ConstJoint::coordinate() const
     {
     case JointType::Spring:
     case JointType::Distance: return length(b.point - a.point);
-    case JointType::Revolute: return (b.rotation * inverse(a.rotation) * Rotation::from_angle(-r.reference_angle)).angle();
+    case JointType::Revolute: return hinge_angle(m_data->state, r);
     case JointType::Prismatic: break;
     }
     return dot(rotate(a.rotation, r.axis_a), b.point - a.point);

@@ -24,6 +24,7 @@ struct Hinges
     explicit Hinges(Random& random)
     {
         state.sims.resize(2 * lane_count);
+        state.turns.assign(2 * lane_count, 0);
         for (int i = 0; i < lane_count; ++i)
         {
             JointRecord joint;
@@ -51,7 +52,7 @@ struct Hinges
     [[nodiscard]] WideJoint filled(const WideKernels& kernels) const
     {
         WideJoint filled = wide;
-        kernels.fill_joints(filled, &state.joints[0], state.sims.data(), constants.data(), h);
+        kernels.fill_joints(filled, &state.joints[0], state.sims.data(), state.turns.data(), constants.data(), h);
         return filled;
     }
 };

@@ -1,5 +1,7 @@
 #include "dynamics/flight/hold.h"
 
+#include "dynamics/turns.h"
+
 namespace carom::internal {
 
 void correct_state(const FlightSpan& span, std::int32_t state, double left, double dvx, double dvy, double dw)
@@ -12,7 +14,7 @@ void correct_state(const FlightSpan& span, std::int32_t state, double left, doub
     s.velocity += dv;
     s.angular_velocity += static_cast<float>(dw);
     s.delta_position += time * dv;
-    s.delta_rotation = s.delta_rotation * Rotation::from_angle(time * static_cast<float>(dw));
+    turn_by(s, time * static_cast<float>(dw));
 }
 
 namespace {

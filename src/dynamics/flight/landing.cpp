@@ -5,6 +5,7 @@
 #include "dynamics/contact_update.h"
 #include "dynamics/flight/hold.h"
 #include "dynamics/prepare.h"
+#include "dynamics/turns.h"
 
 #include <cmath>
 #include <span>
@@ -152,7 +153,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
     s.velocity = {static_cast<float>(center.vx), static_cast<float>(center.vy)};
     s.angular_velocity = static_cast<float>(f.w);
     s.delta_position = {static_cast<float>(center.x), static_cast<float>(center.y)};
-    s.delta_rotation = f.angle != 0 ? Rotation::from_angle(static_cast<float>(f.angle)) : Rotation{};
+    turn_from_start(s, f.angle);
     if (f.joint != none)
         sum_reaction(span, f, center);
     if (f.held_count == 0 && !f.rests)

@@ -51,8 +51,15 @@ CAROM_INLINE const BodySim* sim_of(const BodySim* sims, std::int32_t body) { ret
 
 CAROM_INLINE Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 
-// As hinge_angle of joint_solver.cpp.
-CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], const Turn& a, const Turn& b)
+// To the nearest whole number, where there are less than four million.
+CAROM_INLINE F8 rounded(F8 x)
+{
+    const F8 large = all(12582912.0f);
+    return (x + large) - large;
+}
+
+// As hinge_angle of turns.cpp; turns are whole ones of each body.
+CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], const Turn& a, const Turn& b, const std::int32_t* turns)
 {
     Rotation references[lane_count];
     for (int i = 0; i < lane_count; ++i)
@@ -62,7 +69,12 @@ CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], con
     }
     const Turn reference = {lanes_from([&](int i) { return references[i].c; }), lanes_from([&](int i) { return references[i].s; })};
     const Turn relative = b * Turn{a.c, -a.s} * reference;
-    return arc_tangent(relative.s, relative.c);
+    const F8 angle = arc_tangent(relative.s, relative.c);
+    const auto turns_of = [&](std::int32_t body) { return body < 0 ? 0 : turns[body]; };
+    const F8 whole = lanes_from(
+        [&](int i) { return static_cast<float>(turns_of(joints[i]->body_b) - turns_of(joints[i]->body_a) - joints[i]->turns); });
+    const F8 part = arc_tangent(b.s, b.c) - arc_tangent(a.s, a.c) - lanes_from([&](int i) { return joints[i]->reference_angle; }) - angle;
+    return angle + all(2 * pi) * (whole + rounded(part * all(0.5f / pi)));
 }
 
 // Of bodies on hinges: 1 / (I + m r²).
@@ -111,7 +123,7 @@ CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[la
 }
 
 // All but a, b, joint and turns, which say what goes there.
-void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const StateConstants* constants, float h)
+void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const std::int32_t* turns, const StateConstants* constants, float h)
 {
     static_assert(offsetof(JointRecord, anchor_b) == offsetof(JointRecord, anchor_a) + 8 && slot_x == 0 && slot_y == 1);
     const JointRecord* of_lane[lane_count];
@@ -135,7 +147,7 @@ void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const St
     start(j, a, b);
     if (j.turns != 0)
     {
-        const F8 angles = hinge_angles(of_lane, turns_of(a), turns_of(b));
+        const F8 angles = hinge_angles(of_lane, turns_of(a), turns_of(b), turns);
         store(j.angle.start, angles);
         store(j.angle.now, angles);
     }
@@ -250,7 +262,12 @@ CAROM_INLINE void place(WideJoint& j, const BodyState* states)
     store(j.now.gap_x, load(j.start.gap_x) + (b.x - a.x) + (bx - bx0) - (ax - ax0));
     store(j.now.gap_y, load(j.start.gap_y) + (b.y - a.y) + (by - by0) - (ay - ay0));
     if (j.turns != 0)
-        store(j.angle.now, load(j.angle.start) + angle_of(b.c * a.c + b.s * a.s, b.s * a.c - b.c * a.s));
+    {
+        const F8 turned = angle_of(b.c * a.c + b.s * a.s, b.s * a.c - b.c * a.s);
+        const F8 beside = angle_of(b.c, b.s) - angle_of(a.c, a.s) - turned;
+        const F8 turns = lanes_from([&](int i) { return static_cast<float>(states[j.b.v[i]].turns - states[j.a.v[i]].turns); });
+        store(j.angle.now, load(j.angle.start) + turned + all(2 * pi) * (turns + rounded(beside * all(0.5f / pi))));
+    }
 }
 
 // The anchors stay together.

@@ -33,7 +33,8 @@ std::int32_t move(BodyState* states, const StateConstants* constants, std::int32
         const I8 flies = have(body_flag::flier);
         const I8 drifts = have(body_flag::unbound);
         const F8 angle = h * v.w;
-        if (bits(flies | (magnitude(angle) < all(0.25f))) != 0xff)
+        const I8 turns_little = (magnitude(angle) < all(0.25f)) & (p.c > all(-0.9f)); // counts no turn
+        if (bits(flies | turns_little) != 0xff)
             break;
         F8 way_x = h * v.x;
         F8 way_y = h * v.y;

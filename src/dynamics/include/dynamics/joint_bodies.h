@@ -90,6 +90,7 @@ struct Placement
 {
     Vec2 shift{};
     Rotation turn{};
+    std::int32_t turns = 0; ///< whole ones beside it
 };
 /// Where the present velocities lead it to by the end of the sub-step.
 [[nodiscard]] Placement placed_ahead(const SolverView& view, std::int32_t state);

@@ -62,6 +62,7 @@ struct JointWork
     Vec2 axis0{};                ///< slider's axis at the start of the step
     Vec2 gap0{};                 ///< anchor b - anchor a at the start of the step
     float angle0 = 0;            ///< joint angle at the start of the step
+    bool wraps = false;          ///< its angle is that of the shortest way
     float approach[2] = {};      ///< towards the lower and upper limit, before a sub-step's forces
     float bounce[2] = {};        ///< speeds at which it is to leave them
     JointErrors errors_before{}; ///< when the sub-step began

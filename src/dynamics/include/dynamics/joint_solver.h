@@ -4,11 +4,9 @@
 
 #include "dynamics/joint_direct.h"
 #include "dynamics/step_context.h"
+#include "dynamics/turns.h"
 
 namespace carom::internal {
-
-/// Angle of body b against body a, less the reference angle; (-pi, pi].
-[[nodiscard]] float hinge_angle(const SceneState& state, const JointRecord& joint);
 
 /// Anchors from the centers of mass at the start of the step, and anchor b - anchor a; world axes.
 struct JointArms

@@ -15,6 +15,7 @@ inline void start_state(const SceneState& state, int body, BodyState& s)
     s.velocity = sim.velocity;
     s.angular_velocity = sim.angular_velocity;
     s.flags = state.bodies[body].type == BodyType::Dynamic ? body_flag::dynamic | body_flag::unbound : 0;
+    s.turns = 0;
     s.delta_position = {};
     s.delta_rotation = {};
 }

@@ -94,16 +94,16 @@ struct WaitingForce
 };
 
 namespace body_flag {
-inline constexpr std::uint32_t dynamic = 1;
-inline constexpr std::uint32_t flier = 2; ///< in flight: moved by flight, not by the solver
-inline constexpr std::uint32_t unbound =
+inline constexpr std::uint16_t dynamic = 1;
+inline constexpr std::uint16_t flier = 2; ///< in flight: moved by flight, not by the solver
+inline constexpr std::uint16_t unbound =
     4; ///< no forces but those that are even over a sub-step, and joints': it drifts along exact parabolas
-inline constexpr std::uint32_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
-inline constexpr std::uint32_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
-inline constexpr std::uint32_t traced = 32;   ///< its path is recorded: it is near a trigger
-inline constexpr std::uint32_t unsound = 64;  ///< its force law gave what is no force: it is put aside after the step
-inline constexpr std::uint32_t stopped = 256; ///< short of where the solver had it, by a wall on the way
-inline constexpr std::uint32_t alone = 128;   ///< free, with nothing near that it could meet in this step
+inline constexpr std::uint16_t at_lower = 8;  ///< a hinge limit blocks turning clockwise
+inline constexpr std::uint16_t at_upper = 16; ///< a hinge limit blocks turning counter-clockwise
+inline constexpr std::uint16_t traced = 32;   ///< its path is recorded: it is near a trigger
+inline constexpr std::uint16_t unsound = 64;  ///< its force law gave what is no force: it is put aside after the step
+inline constexpr std::uint16_t stopped = 256; ///< short of where the solver had it, by a wall on the way
+inline constexpr std::uint16_t alone = 128;   ///< free, with nothing near that it could meet in this step
 } // namespace body_flag
 
 /// What every solver pass touches. Pose changes count from the start of the step.
@@ -111,7 +111,8 @@ struct BodyState
 {
     Vec2 velocity{};
     float angular_velocity = 0;
-    std::uint32_t flags = 0;
+    std::uint16_t flags = 0;
+    std::int16_t turns = 0; ///< whole ones beside delta_rotation, see turns.h
     Vec2 delta_position{};
     Rotation delta_rotation{};
 };
@@ -322,6 +323,7 @@ struct JointRecord
     float limit_restitution = 0;
     Vec2 anchor_a{};
     Vec2 anchor_b{};
+    std::int32_t turns = 0; ///< that the bodies had counted when it was made
     std::int32_t next[2] = {none, none};
     std::int32_t previous[2] = {none, none};
     Vec2 axis_a{1, 0};
@@ -345,6 +347,7 @@ struct SceneState
     Pool<BodyRecord> bodies;
     std::vector<BodySim> sims;         ///< by body slot
     std::vector<std::uint64_t> colors; ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
+    std::vector<std::int32_t> turns;   ///< by body slot: whole turns, see turns.h
     std::vector<BodyTarget> targets;   ///< by body slot, as far as any body has had one
     std::vector<WaitingForce> waiting_forces; ///< likewise
     Pool<ShapeRecord> shapes;

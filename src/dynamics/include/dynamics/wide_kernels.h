@@ -106,8 +106,8 @@ struct WideKernels
     /// Returns the least separation, at most 0.
     float (*relax)(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck);
     /// Joints from their records, bodies, and the constants of their states, for sub-steps of h. `joints` has a, b, joint and turns of each lane.
-    void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const StateConstants* constants,
-                        float h);
+    void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const std::int32_t* turns,
+                        const StateConstants* constants, float h);
     /// The same where no angle matters, of hinges that have been solved in the last step: that poses are others is all that has changed.
     void (*follow_joints)(WideJoint& joints, const BodySim* sims);
     void (*warm_start_joints)(WideJoint* joints, std::int32_t count, BodyState* states);
