@@ -58,7 +58,7 @@ struct BodyDef
     bool awake = true;
     bool can_sleep = true;
     /// Slower than this for half a second (the centre of mass, and the farthest point as the body turns) it may fall asleep, m/s, >= 0; 0: 0.05 for each m of
-    /// SceneDef::length_scale.
+    /// SceneDef::length_scale. It must also stay where it is: what still gets away from there at a twentieth of this, drifting, rolling or slipping, stays awake.
     float sleep_speed = 0;
     std::uint64_t user_data = 0; ///< yours; never read by the engine
 };

@@ -55,6 +55,7 @@ void move_center(SceneState& state, int body, Vec2 local_center)
     const Vec2 shift = center - sim.center;
     sim.velocity += cross(sim.angular_velocity, shift);
     sim.previous_center += shift;
+    state.quiet_starts[static_cast<std::size_t>(body)].center += shift;
     sim.center = center;
     sim.local_center = local_center;
     state.graph_dirty = true; // lanes of hinges have anchors from there

@@ -21,7 +21,8 @@ namespace {
 
 constexpr float creeping = 0.2f;      // of the sleep speed
 constexpr float creep_time = 0.5f;    // s
-constexpr float drift = 0.2f;         // of the sleep speed
+constexpr float at_rest = 0.05f;      // of the sleep speed, over the time to stay
+constexpr float time_to_stay = 0.25f; // s, in one place
 constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
 
 // Twice in the time it takes to fall asleep: to look in each step of 1/60 s costs a pile of which some never rest a twentieth.
@@ -62,11 +63,26 @@ float quiet_speed(const SceneState& state, const BodyRecord& record)
     return share * record.sleep_speed;
 }
 
-// Overlap is pushed out without a velocity: what still comes out is not at rest.
-bool is_pushed_out(const StepContext& ctx, const BodySim& sim, float limit)
+// What rocks comes back to where it was. What drifts, rolls, slips or is pushed out of an overlap has gone some way, however slowly.
+bool has_stayed(const BodySim& sim, const QuietStart& start, float speed)
 {
-    const Vec2 way = sim.center - sim.previous_center;
-    return length(way - ctx.dt * sim.velocity) > ctx.dt * limit;
+    const float turn = std::fabs((sim.rotation * inverse(start.rotation)).s);
+    return std::max(length(sim.center - start.center), turn * sim.extent) <= at_rest * speed * (sim.sleep_time - start.time);
+}
+
+// Counts the time for which a body has been slow. It is tired from time_to_sleep on, if it has also stayed where it was for the last part of that.
+void count_quiet_time(const StepContext& ctx, int body, BodySim& sim, float speed)
+{
+    QuietStart& start = ctx.state.quiet_starts[static_cast<std::size_t>(body)];
+    if (sim.sleep_time == 0)
+        start = {sim.previous_center, sim.previous_rotation, 0};
+    sim.sleep_time += ctx.dt;
+    if (sim.sleep_time < start.time + time_to_stay)
+        return;
+    if (!has_stayed(sim, start, speed))
+        sim.sleep_time = std::min(sim.sleep_time, time_to_sleep - time_to_stay);
+    sim.sleep_time = std::min(sim.sleep_time, time_to_sleep);
+    start = {sim.center, sim.rotation, sim.sleep_time};
 }
 
 // In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
@@ -81,8 +97,11 @@ void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
     }
     const BodyRecord& record = ctx.state.bodies[body];
     const float limit = quiet_speed(ctx.state, record);
-    const bool is_quiet = speed <= limit && record.can_sleep && !record.has_target && !is_pushed_out(ctx, sim, drift * limit);
-    sim.sleep_time = is_quiet ? sim.sleep_time + ctx.dt : 0;
+    const bool is_quiet = speed <= limit && record.can_sleep && !record.has_target;
+    if (is_quiet)
+        count_quiet_time(ctx, body, sim, record.sleep_speed);
+    else
+        sim.sleep_time = 0;
     if (sim.sleep_time >= time_to_sleep && speed < creeping * limit && record.type == BodyType::Dynamic &&
         bears_in_crowd(ctx, sim))
         slow_down(sim, std::max(1 - ctx.dt / creep_time, 0.0f));

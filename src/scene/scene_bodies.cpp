@@ -74,6 +74,7 @@ BodyId Scene::create_body(const BodyDef& def)
     grow(state.colors, index + 1);
     grow(state.turns, index + 1);
     state.turns[index] = 0;
+    grow(state.quiet_starts, index + 1);
     state.sims[index] = make_sim(def);
     grow(m_data->body_user_data, index + 1);
     m_data->body_user_data[index] = def.user_data;

@@ -164,6 +164,14 @@ std::uint64_t Scene::state_hash() const
             h.add(body.sleep_speed);
         if (const std::int32_t turns = state.turns[static_cast<std::size_t>(i)]; turns != 0)
             h.add(turns);
+        if (state.sims[static_cast<std::size_t>(i)].sleep_time > 0)
+        {
+            const QuietStart& start = state.quiet_starts[static_cast<std::size_t>(i)];
+            add(h, start.center);
+            h.add(start.rotation.c);
+            h.add(start.rotation.s);
+            h.add(start.time);
+        }
         if (body.has_target)
         {
             add(h, state.targets[static_cast<std::size_t>(i)].center);

@@ -127,13 +127,13 @@ TEST(DynamicsSleep, EachBodyAtItsOwnSpeed)
         return body;
     };
     const BodyId usual = drifting(0, 0);
-    const BodyId sleepy = drifting(3, 0.1f);
+    const BodyId sleepy = drifting(3, 2);
     EXPECT_EQ(scene.body(usual).sleep_speed(), 0.05f) << "the scene's";
-    EXPECT_EQ(scene.body(sleepy).sleep_speed(), 0.1f);
+    EXPECT_EQ(scene.body(sleepy).sleep_speed(), 2);
     steps(scene, 60);
     EXPECT_TRUE(scene.body(usual).is_awake());
     EXPECT_FALSE(scene.body(sleepy).is_awake());
-    scene.body(usual).set_sleep_speed(0.1f);
+    scene.body(usual).set_sleep_speed(2);
     scene.body(sleepy).set_sleep_speed(0);
     scene.body(sleepy).set_velocity({0.08f, 0});
     steps(scene, 60);

@@ -307,6 +307,14 @@ enum JointSlot
 /// What a joint may be off by: its held rows, then how far it has passed its lower and upper limit, as numbers below 0.
 inline constexpr int joint_errors = 4;
 
+/// Where a body was a while ago, or when it became quiet; while its sleep_time is not 0.
+struct QuietStart
+{
+    Position center{};
+    Rotation rotation{};
+    float time = 0; ///< its sleep_time then
+};
+
 struct JointRecord
 {
     JointType kind = JointType::Spring;
@@ -345,10 +353,11 @@ inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.imp
 struct SceneState
 {
     Pool<BodyRecord> bodies;
-    std::vector<BodySim> sims;         ///< by body slot
-    std::vector<std::uint64_t> colors; ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
-    std::vector<std::int32_t> turns;   ///< by body slot: whole turns, see turns.h
-    std::vector<BodyTarget> targets;   ///< by body slot, as far as any body has had one
+    std::vector<BodySim> sims;            ///< by body slot
+    std::vector<std::uint64_t> colors;    ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
+    std::vector<std::int32_t> turns;      ///< by body slot: whole turns, see turns.h
+    std::vector<QuietStart> quiet_starts; ///< by body slot
+    std::vector<BodyTarget> targets;      ///< by body slot, as far as any body has had one
     std::vector<WaitingForce> waiting_forces; ///< likewise
     Pool<ShapeRecord> shapes;
     Pool<RareTraits> rare_traits;
