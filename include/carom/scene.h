@@ -70,13 +70,13 @@ struct SceneDef
     /// by that much. Overlap of what rests does not come from it but from the load on soft contacts (contact_hertz): with boxes of 1 m,
     /// 0.06 mm under one and 4.3 mm under nine. It grows with the load's acceleration, not with length_scale.
     float length_scale = 1;
-    int substeps = 4;             ///< per step, 1 to 64
+    int substeps = 4;             ///< per step, 1 to 64; a step of more than 1/30 s has as many for each 1/30 s of it
     float fixed_step = 1.0f / 60; ///< what update() steps by, s, 1e-5 to 10
     float max_frame_time = 0.25f; ///< most that update() catches up in one call, s
     MixRule friction_rule = MixRule::GeometricMean;
     MixRule restitution_rule = MixRule::Average;
     MixFunction mix_function = nullptr;
-    // At 1/60 s and 4 sub-steps the cap of 0.15 of the sub-step rate makes 36 of 60: a pile of a thousand mixed bodies rests with 5.9 mm of mean overlap, a
+    // The longest sub-step of the last second counts. At 1/60 s and 4 sub-steps the cap of 0.15 of the sub-step rate makes 36 of 60: a pile of a thousand mixed bodies rests with 5.9 mm of mean overlap, a
     // column of a hundred boxes stands, and a pyramid of a hundred rows comes to rest. Stiffer it swings on, softer it sags by half as much again. Damped by
     // half as much, what a blow presses together is shot apart and heaps that move overlap by up to a tenth more; one at rest overlaps a little less.
     float contact_hertz = 60;        ///< stiffness of overlap recovery, 1/s, > 0

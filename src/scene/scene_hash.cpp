@@ -152,6 +152,8 @@ std::uint64_t Scene::state_hash() const
     Hasher h;
     h.add(state.step_count);
     h.add(state.accumulator);
+    h.add(state.substep_of_impulses);
+    h.add(state.longest_substep);
     add(h, state.gravity);
     h.add(state.ignored.hash());
     for (int i = 0; i < state.bodies.capacity(); ++i)

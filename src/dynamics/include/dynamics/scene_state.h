@@ -376,6 +376,8 @@ struct SceneState
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
+    float substep_of_impulses = 0;          ///< s, of which the impulses are that contacts and joints keep
+    float longest_substep = 0;              ///< s, of late
     bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since units were built
     Vec2 gravity{};
     float slop = 0;                 ///< the scene's, see Tolerances

@@ -433,6 +433,8 @@ struct Scratch
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
     std::vector<std::vector<PairFate>> fates_of_task;
+    std::vector<ContactImpulses> impulses_before; ///< see uneven_steps.h
+    std::vector<std::array<float, joint_slots>> joint_impulses_before;
     std::vector<std::int32_t> made_contacts; ///< see ContactBatch
     std::vector<std::int32_t> destroyed_contacts;
     std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
