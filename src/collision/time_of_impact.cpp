@@ -390,7 +390,7 @@ double next_step(const Sight& sight)
     return std::max(plain, sight.hollow_radius > 0 ? std::min(step, 0.5 * sight.hollow_radius / sight.speed) : step);
 }
 
-constexpr int max_looks = 8192;     // a pebble that turns with 50,000 rad/s takes hundreds; others need 3 to 10
+constexpr int max_looks = 1024;     // a pebble that turns with 50,000 rad/s takes hundreds; others need 3 to 10
 constexpr double touch = 1e-7;      // of the size: a nanometre on a pinball
 constexpr double blind_step = 1e-3; // of the size, along a surface that does not answer
 
@@ -440,11 +440,13 @@ struct FlushBeside
 };
 
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
-                                          double least_approach, const Press& press, const FlushBeside& flush)
+                                          double least_approach, const Press& press, const FlushBeside& flush,
+                                          std::int64_t& looks)
 {
     double t = 0;
     for (int i = 0; i < max_looks && t <= duration; ++i)
     {
+        ++looks;
         Sight sight = approach.look(t);
         if (!sight.faces)
         {
@@ -702,8 +704,9 @@ Axis line_of_centers(const FramePath& a, const FramePath& b)
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
                                  double duration, double least_approach, const Press& press, const ProbeSet& held, Axis axis,
-                                 const Flush& flush)
+                                 const Flush& flush, std::int64_t* looks)
 {
+    std::int64_t looks_taken = 0;
     const double length = std::min(probe_size(a), probe_size(b));
     std::optional<Interval> interval;
     if (!axis.is_none())
@@ -711,20 +714,22 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
     const Faces faces_of_a(a, path_a, path_b, duration, nearly_touch * length);
     const Faces faces_of_b(b, path_b, path_a, duration, nearly_touch * length);
     std::optional<Touch> first;
-    for_each_probe_pair(
-        a, b,
-        [&](const Probe& probe, int number, bool on_a)
-        {
-            if (held.has(number, on_a) || (interval && interval->leaves_out(probe, on_a)) ||
-                (on_a ? faces_of_b : faces_of_a).are_out_of_reach(probe))
-                return;
-            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration, length);
-            const double left = first ? first->time : duration;
-            const std::optional<Touch> hit =
-                first_touch_of_probe(approach, length, on_a, left, least_approach, press, FlushBeside(flush, on_a, a, b));
-            if (hit && (!first || hit->time < first->time))
-                first = hit;
-        });
+    for_each_probe_pair(a, b,
+                        [&](const Probe& probe, int number, bool on_a)
+                        {
+                            if (held.has(number, on_a) || (interval && interval->leaves_out(probe, on_a)) ||
+                                (on_a ? faces_of_b : faces_of_a).are_out_of_reach(probe))
+                                return;
+                            const Approach approach(probe, on_a ? path_a : path_b, on_a ? b : a, on_a ? path_b : path_a, duration,
+                                                    length);
+                            const double left = first ? first->time : duration;
+                            const std::optional<Touch> hit = first_touch_of_probe(
+                                approach, length, on_a, left, least_approach, press, FlushBeside(flush, on_a, a, b), looks_taken);
+                            if (hit && (!first || hit->time < first->time))
+                                first = hit;
+                        });
+    if (looks != nullptr)
+        *looks += looks_taken;
     return first;
 }
 

@@ -2,6 +2,7 @@
 // is left over waits for the next one, and the report says so.
 
 #include "regressions/numbers.h"
+#include "support/slow_build.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>
@@ -76,4 +77,38 @@ TEST(ABlow, CostsSoMuchAndNoMore)
         }
     }
     EXPECT_TRUE(any_capped);
+}
+
+// All of them at once: who is met next is looked for as often as the impacts ask, which has its budget, too.
+TEST(ABlow, ThrownApartTheyGainNothing)
+{
+    bool any_capped = false;
+    for (const auto& [speed, spin] : {std::pair(10.0f, 1e4f), {1e3f, 1e2f}, {1e4f, 1e4f}, {1e5f, 1e3f}})
+    {
+        SCOPED_TRACE(std::to_string(speed) + " m/s, " + std::to_string(spin) + " rad/s");
+        Random random(7);
+        Scene scene({.gravity = {0, 0}, .sleeping = false});
+        const int rows = slow_build ? 5 : 12;
+        for (int row = 0; row < rows; ++row)
+        {
+            for (int i = 0; i < rows - row; ++i)
+            {
+                const BodyId b =
+                    add_dynamic(scene, {1.05 * (i + 0.5 * row), 0.5 + row}, box(0.5f, 0.5f), {.restitution = 0.5f}).body;
+                scene.body(b).set_velocity(random.vec(d(speed)));
+                scene.body(b).set_angular_velocity(random.rangef(-d(spin), d(spin)));
+            }
+        }
+        double before = energy_of(scene);
+        for (int i = 0; i < 5; ++i)
+        {
+            const StepReport& report = scene.step(dt);
+            EXPECT_LT(report.flight_impacts, 20'000);
+            any_capped |= report.has(StepFlag::ImpactsCapped);
+            const double after = energy_of(scene);
+            EXPECT_LT(after, before * (1 + 1e-5));
+            before = after;
+        }
+    }
+    EXPECT_TRUE(any_capped || slow_build);
 }

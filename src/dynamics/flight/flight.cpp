@@ -122,8 +122,23 @@ void note_all_reaches(const FlightSpan& span)
 constexpr std::int64_t work_of_unit = 20'000;
 constexpr std::int64_t work_of_flier = 500;
 
+constexpr std::int64_t looks_of_unit = 200'000; // four times what wild scenes take
+constexpr std::int64_t looks_of_flier = 100;
+
 constexpr int fliers_per_share = 16;
 constexpr int enough_fliers = 32; // to share
+
+// The work is spent: who has an event left stays where it is until the next sub-step.
+void stop_who_would_meet(const FlightSpan& span)
+{
+    for (Flier& f : span.fliers())
+    {
+        if (f.landed || f.event_time > span.h || is_capped(span, f))
+            continue;
+        f.impacts = span.most_impacts;
+        span.output.capped = true;
+    }
+}
 
 // Where nothing has happened yet each looks for itself.
 void find_first_events(const FlightSpan& span, Crew& crew)
@@ -283,8 +298,12 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     trace_all(span);
     note_all_reaches(span);
     find_first_events(span, crew);
-    while (Flier* next = earliest(span))
+    for (Flier& f : span.fliers())
+        f.looks = 0; // the first cannot be left out
+    output.looks_left = (looks_of_unit + looks_of_flier * unit.flier_count) / ctx.slices;
+    while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)
         process(span, *next);
+    stop_who_would_meet(span);
     for (Flier& f : span.fliers())
         finish_flight(span, f);
 }

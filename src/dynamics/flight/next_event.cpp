@@ -12,10 +12,14 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace carom::internal {
 
 namespace {
+
+// In one search; what turns by thousands of radians in a sub-step takes them. Whom it has not looked at then it does not meet in this sub-step.
+constexpr std::int64_t most_looks = 50'000;
 
 // Of a pair whose other corners may come down yet: held at one of them it turns about that.
 ProbeSet held_corners(std::span<const Hold> holds, std::int32_t own, std::int32_t other)
@@ -153,9 +157,10 @@ private:
                       });
     }
 
-    [[nodiscard]] bool is_new(int own, int shape) const
+    [[nodiscard]] bool is_new(int own, int shape)
     {
         const SceneState& state = m_span.state;
+        ++m_flier.looks;
         return !state.shapes[shape].trigger && !has_contact(state, own, shape) && may_collide(state, own, shape);
     }
 
@@ -186,6 +191,11 @@ private:
         const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
         if (was_found_apart(contact, body, other) || is_out_of_reach(body) || is_wall_out_of_reach(shape, body))
             return;
+        if (m_flier.looks > most_looks)
+        {
+            m_flier.crowded = true; // its way is checked against walls
+            return;
+        }
         // Before its last change the other's path is not this one; until then the two have not met.
         const double start = other != nullptr ? std::max(m_flier.time, other->time) : m_flier.time;
         const double left = std::min(m_span.h, m_flier.event_time) - start;
@@ -195,6 +205,7 @@ private:
         const FramePath own_path = start > m_flier.time ? path_after(own_way().path, start - m_flier.time) : own_way().path;
         const LeafView a = leaf_view(state, shape);
         const LeafView b = leaf_view(state, own);
+        ++m_flier.looks;
         const Axis line = line_of_centers(target, own_path);
         const Axis normal = normal_at_start(shape, contact);
         if (stays_apart_along(line, a, target, b, own_path, left) || stays_apart_along(normal, a, target, b, own_path, left))
@@ -203,7 +214,8 @@ private:
         {
             return first_touch(a, target, b, own_path, left, m_span.least_approach,
                                state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : Press{},
-                               held_corners(m_span.holds_of(m_flier), own, shape), normal.is_none() ? line : normal, flush);
+                               held_corners(m_span.holds_of(m_flier), own, shape), normal.is_none() ? line : normal, flush,
+                               &m_flier.looks);
         };
         std::optional<Touch> hit = find({});
         if (hit)
@@ -346,6 +358,7 @@ void find_next_event(const FlightSpan& span, Flier& f)
 {
     while (!try_find_next_event(span, f))
         span.state.contacts[f.passes].flags |= contact_flag::passing;
+    span.output.looks_left -= std::exchange(f.looks, 0);
 }
 
 void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact)
@@ -357,6 +370,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     if (!was_to_meet_it)
         Search(span, f).consider_contact(contact);
     time_in_list(span, f) = f.event_time;
+    span.output.looks_left -= std::exchange(f.looks, 0);
     if (was_to_meet_it || f.passes != none)
         find_next_event(span, f);
 }

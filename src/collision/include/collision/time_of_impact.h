@@ -106,11 +106,11 @@ struct Flush
 
 /// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
 /// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew by `press`. The corners of
-/// `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look.
+/// `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look. Adds the looks taken to `looks`.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach,
                                                const Press& press = {}, const ProbeSet& held = {}, Axis axis = {},
-                                               const Flush& flush = {});
+                                               const Flush& flush = {}, std::int64_t* looks = nullptr);
 
 /// True where nothing of the two can meet in that time: along an axis from a to b they stay apart. False says nothing.
 [[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,

@@ -144,6 +144,7 @@ struct Flier
     std::int32_t body = none;
     std::int32_t joint = none; ///< the hinge to the world; none: free
     std::int32_t impacts = 0;  ///< in this sub-step
+    std::int64_t looks = 0;    ///< at who may be met next, that nobody has counted yet
     double x = 0;              ///< reference point
     double y = 0;
     double vx = 0;

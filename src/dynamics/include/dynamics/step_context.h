@@ -394,7 +394,8 @@ struct UnitOutput : Told
     std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
     std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where a unit of this place in the order has had any
     int flight_impacts = 0;
-    ImpactWork impact_work{}; ///< left in this sub-step
+    ImpactWork impact_work{};    ///< left in this sub-step
+    std::int64_t looks_left = 0; ///< at who may be met next, likewise
     bool capped = false;
     bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
 
