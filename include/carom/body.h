@@ -95,10 +95,14 @@ public:
     [[nodiscard]] std::uint64_t user_data() const;
     [[nodiscard]] Position world_point(Vec2 local) const;
     [[nodiscard]] Vec2 local_point(Position world) const;
-    /// The shapes, joints and touching contacts of the body, copied: the scene may change while you iterate.
+    /// The shapes, joints and touching contacts of the body, copied: the scene may change while you iterate. Contacts are those that the last step has
+    /// solved, with its impulses; where the body has been moved since then, they are of where it was.
     [[nodiscard]] std::vector<ShapeId> shapes() const;
     [[nodiscard]] std::vector<JointId> joints() const;
     [[nodiscard]] std::vector<ContactInfo> contacts() const;
+    /// What it touches where the bodies stand now, to the slop (SceneDef::length_scale), after a step, a teleport or anything else: looked for anew at each
+    /// call. The body's own shape is shape_a. No triggers, no impulses, and nothing that filters, joints or ignore_pair keep apart.
+    [[nodiscard]] std::vector<ContactInfo> touches_now() const;
 
 protected:
     friend class Scene;

@@ -34,7 +34,7 @@ struct PointHit
     float distance = 0; ///< m; negative inside
 };
 
-/// A touching or nearly touching pair, from Scene::contacts.
+/// A touching or nearly touching pair, from Scene::contacts or Body::contacts as the last step has solved it, or from Body::touches_now.
 struct ContactInfo
 {
     struct Point

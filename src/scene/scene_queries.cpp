@@ -3,6 +3,8 @@
 #include "carom/scene.h"
 #include "collision/manifold.h"
 #include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
+#include "dynamics/contact_update.h"
 #include "dynamics/half_space_box.h"
 #include "dynamics/kept_manifold.h"
 #include "geometry/bounds.h"
@@ -316,6 +318,63 @@ std::vector<ContactInfo> ConstBody::contacts() const
         if (is_listed(contact) && (contact.flags & contact_flag::touching) != 0)
             list.push_back(describe(state, edge >> 1));
     }
+    return list;
+}
+
+namespace {
+
+// Where the two stand now.
+ContactInfo describe_touch(const SceneState& state, int own, int other, float slop)
+{
+    Contact contact;
+    contact.shape_a = own;
+    contact.shape_b = other;
+    contact.body_a = state.shapes[own].body;
+    contact.body_b = state.shapes[other].body;
+    const Manifold m =
+        world_manifold(state, contact, pose_at_start(state, contact.body_a), pose_at_start(state, contact.body_b), slop);
+    ContactInfo info;
+    info.shape_a = shape_id(state, own);
+    info.shape_b = shape_id(state, other);
+    info.normal = m.normal;
+    info.touching = m.count > 0;
+    info.point_count = m.count;
+    const Position center = state.sims[static_cast<std::size_t>(contact.body_a)].center;
+    for (int i = 0; i < m.count; ++i)
+        info.points[i] = {center + m.points[i].anchor_a, m.points[i].separation, 0, 0};
+    return info;
+}
+
+// Leaves whose boxes a leaf may touch.
+template <class Visit>
+void visit_near_leaf(const SceneState& state, int leaf, float slop, Visit&& visit)
+{
+    const QueryFilter all{};
+    if (state.shapes[leaf].leaf.type == LeafType::HalfSpace)
+        visit_leaves(state, all, [&](const FloatBox& node) { return reaches_half_space(state, leaf, node, slop); }, visit);
+    else
+        visit_box(state, all, grow(box_of(outer_bounds(leaf_view(state, leaf), pose_of(state, leaf))), slop), visit);
+}
+
+} // namespace
+
+std::vector<ContactInfo> ConstBody::touches_now() const
+{
+    std::vector<ContactInfo> list;
+    if (!check_live(*m_data, "Body::touches_now", "body", m_id))
+        return list;
+    const SceneState& state = m_data->state;
+    const float slop = m_data->tolerances.slop;
+    const auto meet = [&](int own, int other)
+    {
+        if (state.shapes[own].trigger || state.shapes[other].trigger || !may_collide(state, own, other))
+            return true;
+        if (const ContactInfo info = describe_touch(state, own, other, slop); info.touching)
+            list.push_back(info);
+        return true;
+    };
+    for_each_leaf(state, slot_of(m_id),
+                  [&](int own) { visit_near_leaf(state, own, slop, [&](int other) { return meet(own, other); }); });
     return list;
 }
 
