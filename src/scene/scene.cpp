@@ -187,6 +187,7 @@ void Scene::ignore_pair(BodyId a, BodyId b)
     SceneState& state = m_data->state;
     if (!state.ignored.insert(pair_key(slot_of(a), slot_of(b))))
         return;
+    state.bodies[slot_of(a)].ignores = state.bodies[slot_of(b)].ignores = true;
     for_each_contact(state, slot_of(a),
                      [&](int contact)
                      {

@@ -99,8 +99,8 @@ void Scene::destroy(BodyId id)
     leave_awake(*m_data, slot);
     if (const auto index = static_cast<std::size_t>(slot); index < state.waiting_forces.size())
         state.waiting_forces[index] = {};
-    for (int other = 0; other < state.bodies.capacity() && !state.ignored.empty(); ++other)
-        state.ignored.erase(pair_key(slot, other));
+    if (state.bodies[slot].ignores)
+        state.ignored.erase_if([slot](std::uint64_t key) { return is_in_pair(key, slot); });
     state.bodies.destroy(slot);
     state.graph_dirty = true;
 }

@@ -143,6 +143,13 @@ TEST(CorePairSet, AgreesWithASet)
             mine.erase(key);
             want.erase(key);
         }
+        if (random.chance(0.01))
+        {
+            const int slot = random.below(60);
+            const auto is_its = [slot](std::uint64_t k) { return is_in_pair(k, slot); };
+            mine.erase_if(is_its);
+            std::erase_if(want, is_its);
+        }
         const std::uint64_t asked = pair_key(random.below(60), random.below(60));
         ASSERT_EQ(mine.contains(asked), want.contains(asked));
     }

@@ -22,3 +22,25 @@ TEST(DeterminismHash, IgnoredPairsAreInIt)
     EXPECT_FALSE(hash(true, false));
     EXPECT_TRUE(hash(true, true));
 }
+
+// Whoever comes to the slot of one that is gone ignores nobody.
+TEST(DeterminismHash, IgnoredPairsGoWithTheirBodies)
+{
+    const auto meet = [](bool had_pairs)
+    {
+        Scene scene;
+        const BodyId ground = add_static(scene, HalfSpace{}).body;
+        for (int i = 0; i < 3; ++i)
+        {
+            const BodyId before = add_dynamic(scene, {0, 1}, Circle{}).body;
+            if (had_pairs)
+                scene.ignore_pair(before, ground);
+            scene.destroy(before);
+        }
+        const BodyId body = add_dynamic(scene, {0, 1}, Circle{}).body;
+        steps(scene, 60);
+        EXPECT_NEAR(scene.body(body).position().y, 0.5, 0.01);
+        return scene.state_hash();
+    };
+    EXPECT_EQ(meet(true), meet(false));
+}

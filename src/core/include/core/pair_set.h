@@ -1,12 +1,14 @@
 #pragma once
 
-// A set of unordered index pairs: open addressing over 64-bit keys, linear probing, backward-shift deletion. Only asked, never
-// iterated: its order cannot leak into the simulation.
+// A set of unordered index pairs: open addressing over 64-bit keys, linear probing, backward-shift deletion. Only asked, and
+// iterated to erase alone: its order cannot leak into the simulation.
 
 #include "core/hash.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace carom::internal {
@@ -16,6 +18,12 @@ namespace carom::internal {
     const auto low = static_cast<std::uint64_t>(static_cast<std::uint32_t>(a < b ? a : b));
     const auto high = static_cast<std::uint64_t>(static_cast<std::uint32_t>(a < b ? b : a));
     return (high << 32) | low;
+}
+
+[[nodiscard]] constexpr bool is_in_pair(std::uint64_t key, int a)
+{
+    const auto index = static_cast<std::uint32_t>(a);
+    return static_cast<std::uint32_t>(key) == index || static_cast<std::uint32_t>(key >> 32) == index;
 }
 
 class PairSet
@@ -62,6 +70,16 @@ public:
         }
         m_keys[hole] = vacant;
         --m_count;
+    }
+
+    template <class Predicate>
+    void erase_if(const Predicate& predicate)
+    {
+        std::vector<std::uint64_t> keys;
+        std::copy_if(m_keys.begin(), m_keys.end(), std::back_inserter(keys),
+                     [&](std::uint64_t key) { return key != vacant && predicate(key); });
+        for (const std::uint64_t key : keys)
+            erase(key);
     }
 
 private:

@@ -34,6 +34,7 @@ struct BodyRecord
     bool gives_way = false;          ///< dynamic, with an inverse mass or inertia that is not 0
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     bool had_target = false;         ///< and that it has reached in the last step
+    bool ignores = false;            ///< is or was in a pair of SceneState::ignored
     std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
     std::int32_t last_shape = none;
