@@ -76,9 +76,10 @@ struct SceneDef
     MixRule friction_rule = MixRule::GeometricMean;
     MixRule restitution_rule = MixRule::Average;
     MixFunction mix_function = nullptr;
-    // The longest sub-step of the last second counts. At 1/60 s and 4 sub-steps the cap of 0.15 of the sub-step rate makes 36 of 60: a pile of a thousand mixed bodies rests with 5.9 mm of mean overlap, a
-    // column of a hundred boxes stands, and a pyramid of a hundred rows comes to rest. Stiffer it swings on, softer it sags by half as much again. Damped by
-    // half as much, what a blow presses together is shot apart and heaps that move overlap by up to a tenth more; one at rest overlaps a little less.
+    // At 1/60 s and 4 sub-steps the cap of 0.15 of the sub-step rate (the longest sub-step of the last second counts) makes 36 of 60: a pile of a thousand mixed
+    // bodies rests with 5.9 mm of mean overlap, a column of a hundred boxes stands, and a pyramid of a hundred rows comes to rest. Stiffer it swings on, softer
+    // it sags by half as much again. Damped by half as much, what a blow presses together is shot apart and heaps that move overlap by up to a tenth more; one
+    // at rest overlaps a little less.
     float contact_hertz = 60;        ///< stiffness of overlap recovery, 1/s, > 0
     float contact_damping_ratio = 9; ///< > 0
     float contact_push_speed = 3;    ///< overlap is removed no faster than this times length_scale, 1/s, >= 0
