@@ -100,7 +100,7 @@ public:
     [[nodiscard]] std::vector<ShapeId> shapes() const;
     [[nodiscard]] std::vector<JointId> joints() const;
     [[nodiscard]] std::vector<ContactInfo> contacts() const;
-    /// What it touches where the bodies stand now, to the slop (SceneDef::length_scale), after a step, a teleport or anything else: looked for anew at each
+    /// The contacts of the body where all bodies stand now, to the slop (SceneDef::length_scale), after a step, a teleport or anything else: looked for anew at each
     /// call. The body's own shape is shape_a. No triggers, no impulses, and nothing that filters, joints or ignore_pair keep apart.
     [[nodiscard]] std::vector<ContactInfo> touches_now() const;
 

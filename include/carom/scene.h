@@ -136,8 +136,8 @@ public:
     /// Everything there is, in slot order, copied: the scene may change while you iterate.
     [[nodiscard]] std::vector<BodyId> bodies() const;
     [[nodiscard]] std::vector<JointId> joints() const;
-    [[nodiscard]] std::vector<ContactInfo> contacts()
-        const; ///< pairs with contact points as the last step has solved them, asleep ones included
+    /// Pairs with contact points as the last step has solved them, asleep ones included.
+    [[nodiscard]] std::vector<ContactInfo> contacts() const;
 
     /// Callbacks live beside the state: they are not in the hash. Default-constructed ones remove them.
     void set_callbacks(ShapeId shape, ShapeCallbacks callbacks);

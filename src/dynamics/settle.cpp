@@ -63,7 +63,7 @@ float quiet_speed(const SceneState& state, const BodyRecord& record)
     return share * record.sleep_speed;
 }
 
-// What rocks comes back to where it was. What drifts, rolls, slips or is pushed out of an overlap has gone some way, however slowly.
+// A body that rocks comes back to where it was. One that drifts, rolls, slips or is pushed out of an overlap has gone some way, however slowly.
 bool has_stayed(const BodySim& sim, const QuietStart& start, float speed)
 {
     const float turn = std::fabs((sim.rotation * inverse(start.rotation)).s);

@@ -323,7 +323,7 @@ std::vector<ContactInfo> ConstBody::contacts() const
 
 namespace {
 
-// Where the two stand now.
+// The contact of two leaves where their bodies stand now.
 ContactInfo describe_touch(const SceneState& state, int own, int other, float slop)
 {
     Contact contact;

@@ -135,7 +135,7 @@ TEST(HingesForgetTurns, WhateverTurnsTheBodies)
     // One that is made now begins within a turn.
     const JointId late = scene.create_joint(RevoluteDef{.body_a = crank, .body_b = wheel});
     EXPECT_LE(std::abs(scene.joint(late).coordinate()), pi + 1e-4f);
-    // What it has counted decides the future: it is in the hash.
+    // The count decides the future: it is in the hash.
     Scene one(weightless());
     Scene two(weightless());
     for (Scene* s : {&one, &two})

@@ -308,7 +308,7 @@ enum JointSlot
 /// What a joint may be off by: its held rows, then how far it has passed its lower and upper limit, as numbers below 0.
 inline constexpr int joint_errors = 4;
 
-/// Where a body was a while ago, or when it became quiet; while its sleep_time is not 0.
+/// The pose of a body a while ago, or when it became quiet. It is valid while the sleep_time is not 0.
 struct QuietStart
 {
     Position center{};
