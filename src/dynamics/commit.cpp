@@ -92,11 +92,13 @@ bool is_sound(const BodyState& s, double x, double y)
 }
 
 // The solver's bodies see what they may meet on the way that they set out on; struck or pulled from it, one that goes farther than its own
-// size may have been led anywhere.
+// size may have been led anywhere; and what is pressed into a wall creeps.
 bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 {
     if (!ctx.scene.def.continuous || (s.flags & (body_flag::flier | body_flag::alone)) != 0)
         return false;
+    if ((s.flags & body_flag::pressed) != 0)
+        return true;
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     if (dot(s.delta_position, s.delta_position) <= sim.size * sim.size)
         return false;
@@ -138,13 +140,14 @@ void commit_state(const StepContext& ctx, std::int32_t index)
         s.flags |= body_flag::unsound;
         return;
     }
-    const double part = crowded || may_have_passed(ctx, s, body) ? free_part_of_path(ctx, body, x, y) : 1;
-    if (part < 1)
+    const Position way{x, y};
+    const Position free = crowded || may_have_passed(ctx, s, body) ? free_way(ctx, body, way, s.delta_rotation) : way;
+    if (free != way)
     {
         s.flags |= body_flag::stopped;
-        s.velocity *= without_work(ctx, s, index, (1 - part) * x, (1 - part) * y);
-        x *= part;
-        y *= part;
+        s.velocity *= without_work(ctx, s, index, x - free.x, y - free.y);
+        x = free.x;
+        y = free.y;
     }
     sim.previous_center = sim.center;
     sim.previous_rotation = sim.rotation;

@@ -156,6 +156,11 @@ float row_separation(const SolverView& view, const ContactRow& row, const RowPoi
     return p.base + dot(d, row.n);
 }
 
+float row_speed(const SolverView& view, const ContactRow& row, const RowPoint& p)
+{
+    return dot(Pair(view, row).relative_velocity(p), row.n);
+}
+
 void warm_start(const SolverView& view, std::span<ContactRow> rows)
 {
     for (ContactRow& row : rows)

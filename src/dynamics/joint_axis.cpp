@@ -21,7 +21,6 @@ namespace {
 
 // A sub-step follows an oscillation up to this omega h at the midpoint; of faster ones it could only see every other swing.
 constexpr float followed = 1;
-constexpr float way_back = 0.2f; // of what a body is beyond a stop, per sub-step
 
 double stop_rate(float error, float h) { return static_cast<double>(-(error > 0 ? error : way_back * error) / h); }
 

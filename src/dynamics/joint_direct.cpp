@@ -13,6 +13,9 @@
 // sub-step can follow that only while omega h is below 1. Beyond it, a body of a tree counts as harder to turn, just so far; the rows of a loop, which a taut
 // chain stretches without bound, give way instead: their compliance grows with the third power of the stretch, because so falls the pull. It falls again
 // by half a sub-step, lest the gap that it has left be closed at once.
+//
+// Where a wall holds what joints pull, no impulse is right: joints and contacts would outbid each other without end. The joints then yield. They are as
+// soft as their bodies are heavy, for which the turns of joints and contacts converge to one small pull, and what has opened closes slowly.
 
 #include "dynamics/joint_direct.h"
 
@@ -36,7 +39,8 @@ constexpr int most_newton_steps = 6;
 constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
 constexpr int rounds_of_all = 8;   // of the active set; then axes change one at a time, which ends
 constexpr int most_rounds = 64;
-constexpr double loop_compliance = 1e-3; // of a row's weight
+constexpr double loop_compliance = 1e-3;  // of a row's weight
+constexpr double yielding_compliance = 1; // likewise
 constexpr double most_softening = 400;
 constexpr double same_rate = 1e-6;
 
@@ -58,6 +62,7 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
     m_state = &state;
     m_joints = joints;
     m_turns_too_far = false;
+    m_yields = std::ranges::any_of(joints, &JointWork::yields);
     if (std::exchange(m_looks_again, false))
         m_fits = find_edges() && !m_edges.empty();
     m_ready = m_fits;
@@ -281,10 +286,12 @@ void DirectSolve::add_spring(Node& node, float stiffness, Vec2 d, float arm) con
 
 void DirectSolve::solve(bool use_bias)
 {
-    if (use_bias && find_pose_ahead())
+    if (use_bias && !m_yields && find_pose_ahead())
         return;
     note_speeds();
-    take_step(Stage::Now);
+    if (use_bias && m_yields)
+        close_slowly();
+    take_step(use_bias && m_yields ? Stage::Soft : Stage::Now);
 }
 
 void DirectSolve::take_step(Stage stage)
@@ -445,6 +452,25 @@ void DirectSolve::note_speeds()
     }
 }
 
+void DirectSolve::close_slowly()
+{
+    const double most = as_double(m_view.push_speed);
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            m_speeds[as_index(item.first_row + r)] += std::clamp(as_double(m_view.inverse_h * item.row(r).error), -most, most);
+    }
+}
+
+// Stops come back no farther than that.
+AxisActs DirectSolve::slow(AxisActs acts) const
+{
+    const float most = m_view.h * m_view.push_speed / way_back;
+    acts.lower_error = std::max(acts.lower_error, -most);
+    acts.upper_error = std::max(acts.upper_error, -most);
+    return acts;
+}
+
 // --- impulses -----------------------------------------------------------------------------------------------------------------------
 
 void DirectSolve::find_impulses(Stage stage)
@@ -466,6 +492,8 @@ void DirectSolve::begin_axes(Stage stage)
 {
     m_compliance = !m_matrix.has_loops() ? 0 : stage == Stage::Ahead ? loop_compliance * m_softening : loop_compliance;
     m_leak = stage == Stage::Ahead ? m_compliance : 0;
+    if (m_yields && stage != Stage::Held)
+        m_compliance = m_leak = std::max(m_compliance, yielding_compliance);
     m_axes.clear();
     for (std::size_t i = 0; i < m_items.size(); ++i)
     {
@@ -479,8 +507,9 @@ void DirectSolve::begin_axes(Stage stage)
         axis.restore = axis_impulses(*item.record);
         if (stage == Stage::Held)
             continue;
-        axis.law = stage == Stage::Ahead ? rows.acts.law_ahead(item.work->spring, m_view.h)
-                                         : rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
+        axis.law = stage == Stage::Ahead  ? rows.acts.law_ahead(item.work->spring, m_view.h)
+                   : stage == Stage::Soft ? slow(rows.acts).law_ahead(item.work->spring, m_view.h)
+                                          : rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
         for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
             spring->compliance *= m_spring_softening;
         axis.before = axis.law.scope.sum(axis.restore);
@@ -522,7 +551,7 @@ void DirectSolve::solve_pieces()
         double& wanted = m_impulses[as_index(axis.row)];
         const SpringLine& spring = axis.piece.spring;
         if (axis.piece.keeps_rate())
-            wanted = axis.piece.rate - speed;
+            wanted = axis.piece.rate - speed - axis_leak() * m_matrix.weight(axis.row) * axis.before;
         else if (spring.is_there())
             wanted = spring.rest - speed - spring.compliance * (axis.before - axis.piece.constant);
         else
@@ -567,7 +596,7 @@ bool DirectSolve::take_next_pieces(bool all)
         const double impulse = m_impulses[as_index(axis.row)];
         const bool gives_way = m_compliances[as_index(axis.row)] != JointMatrix::off; // with the rows of a loop
         const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held) +
-                            (gives_way ? m_compliance * m_matrix.weight(axis.row) * impulse : 0);
+                            (gives_way ? m_matrix.weight(axis.row) * (m_compliance * impulse + axis_leak() * axis.before) : 0);
         const AxisPiece next = axis.law.solve(rate - k * (axis.before + impulse), k);
         if (std::fabs(next.rate - rate) <= same_rate * std::max(1.0, std::fabs(rate)))
             continue;

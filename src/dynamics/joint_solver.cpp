@@ -118,6 +118,7 @@ JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPla
         for (float& impulse : ctx.state.joints[place.joint].impulses)
             impulse /= static_cast<float>(ctx.slices);
     }
+    work.yields = joint.yields;
     const JointArms arms = joint_arms(ctx.state, joint);
     work.ra0 = arms.a;
     work.rb0 = arms.b;

@@ -120,9 +120,6 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
     row.coupling = m.count == 2 ? coupling(ca, cb, row) : 0;
 }
 
-namespace {
-
-// Half of what is inside the side that gives way; boxes that were put deeper into each other come out by themselves.
 float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives)
 {
     auto depth = static_cast<float>(0.5 * inner_radius(leaf_view(state, a_gives ? contact.shape_a : contact.shape_b)));
@@ -130,8 +127,6 @@ float core_depth(const SceneState& state, const Contact& contact, const Manifold
         depth = std::max(depth, -manifold.points[i].separation);
     return depth;
 }
-
-} // namespace
 
 void scale_row(ContactRow& row, float by)
 {

@@ -9,6 +9,7 @@
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/contact_colors.h"
+#include "dynamics/prepare.h"
 #include "dynamics/scene_data.h"
 #include "dynamics/sort_by_unit.h"
 #include "dynamics/task_sizes.h"
@@ -289,7 +290,7 @@ private:
             const std::int32_t at = some.place_for(l)++;
             (l.has(link_flag::in_lane) ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
                 m_unit.first_link + static_cast<std::int32_t>(i);
-            if (l.has(link_flag::in_lane) && l.has(link_flag::round) && l.points() == 1)
+            if (l.has(link_flag::in_lane) && l.points() > 0)
                 add_core(l, at, some);
         }
         for (std::int32_t part = 0; part <= m_unit.parts; ++part)
@@ -297,15 +298,17 @@ private:
         for_each_row_bin([&](int color) { some.rows[color] = 0; });
     }
 
-    // A ball against what does not give way.
+    // Against what does not give way: of balls, and of what joints pull.
     void add_core(const Link& l, std::int32_t lane, SomePlaces& some) const
     {
-        if (is_dynamic(m_unit, l.a) && is_dynamic(m_unit, l.b))
+        const bool a_gives = is_dynamic(m_unit, l.a);
+        if (a_gives && is_dynamic(m_unit, l.b))
             return;
         const Contact& contact = m_state.contacts[l.contact];
-        const Leaf& leaf = m_state.shapes[is_dynamic(m_unit, l.a) ? contact.shape_a : contact.shape_b].leaf;
-        if (leaf.type == LeafType::Circle)
-            some.cores.push_back({lane - m_unit.first_wide * lane_count, 0.5f * leaf.r0});
+        const ShapeRecord& shape = m_state.shapes[a_gives ? contact.shape_a : contact.shape_b];
+        if (shape.leaf.type == LeafType::Circle || m_state.bodies[shape.body].first_joint != none)
+            some.cores.push_back(
+                {lane - m_unit.first_wide * lane_count, l.points(), core_depth(m_state, contact, contact.manifold, a_gives)});
     }
 
     // Cores of one body are of different colours: in the order of lanes wherever in a bin these are.

@@ -18,6 +18,9 @@ namespace carom::internal {
 
 namespace {
 
+constexpr int most_passes = 4;
+constexpr double nearly_all = 0.999; // of a way
+
 struct Core
 {
     Vec2 center; ///< in the body's frame
@@ -44,13 +47,11 @@ FloatBox box_around(Position start, double radius, double dx, double dy)
                           start.x + std::max(dx, 0.0) + radius, start.y + std::max(dy, 0.0) + radius);
 }
 
-double free_part(const StepContext& ctx, int shape, double dx, double dy)
+// Of the straight way of a shape's core, along which the body goes by `way`.
+double free_part(const StepContext& ctx, int shape, const Core& core, Position start, Position way)
 {
     const SceneState& state = ctx.state;
-    const BodySim& sim = state.sims[static_cast<std::size_t>(state.shapes[shape].body)];
-    const Core core = core_of(leaf_view(state, shape));
-    const Position start = transform(sim.pose(), core.center);
-    const FramePath path{{0, 0, dx, dy, 0, 0}};
+    const FramePath path{{0, 0, way.x, way.y, 0, 0}};
     const Leaf disc = {.type = LeafType::Circle, .r0 = static_cast<float>(core.radius)};
     double part = 1;
     const auto visit = [&](int other)
@@ -66,7 +67,7 @@ double free_part(const StepContext& ctx, int shape, double dx, double dy)
             part = hit->time; // 0 where the core is in the wall already and would go deeper
         return true;
     };
-    const FloatBox box = box_around(start, core.radius, dx, dy);
+    const FloatBox box = box_around(start, core.radius, way.x, way.y);
     state.broad_phase.query(Layer::Resting, box, visit);
     for (const std::int32_t half_space : state.broad_phase.unbounded())
     {
@@ -118,18 +119,32 @@ void forget_surroundings(StepContext& ctx)
     ctx.scratch.surroundings.assign(static_cast<std::size_t>(ctx.state.broad_phase.block_count()), Surroundings::Unknown);
 }
 
-double free_part_of_path(const StepContext& ctx, int body, double dx, double dy)
+Position free_way(const StepContext& ctx, int body, Position way, Rotation turn)
 {
-    double part = 1;
-    if (!may_meet_walls(ctx, body, dx, dy))
-        return part;
-    for_each_leaf(ctx.state, body,
-                  [&](int shape)
-                  {
-                      if (!ctx.state.shapes[shape].trigger)
-                          part = std::min(part, free_part(ctx, shape, dx, dy));
-                  });
-    return part;
+    const SceneState& state = ctx.state;
+    if (!may_meet_walls(ctx, body, way.x, way.y))
+        return way;
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    bool met = true;
+    for (int pass = 0; pass < most_passes && met; ++pass)
+    {
+        met = false;
+        const auto stop = [&](int shape)
+        {
+            if (state.shapes[shape].trigger)
+                return;
+            const Core core = core_of(leaf_view(state, shape));
+            const Vec2 arm = rotate(sim.rotation, core.center - sim.local_center);
+            const Vec2 turned = rotate(turn, arm) - arm;
+            const Position own{way.x + static_cast<double>(turned.x), way.y + static_cast<double>(turned.y)};
+            const double part = free_part(ctx, shape, core, sim.center + arm, own);
+            met |= part < nearly_all;
+            way.x -= (1 - part) * own.x;
+            way.y -= (1 - part) * own.y;
+        };
+        for_each_leaf(state, body, stop);
+    }
+    return met ? Position{} : way;
 }
 
 } // namespace carom::internal

@@ -145,6 +145,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
     joint.force = (1 / ctx.dt) * work.force_sum;
     joint.torque = work.torque_sum / ctx.dt;
     std::ranges::transform(work.errors(), work.moved, joint.left_errors, std::minus<>());
+    joint.yields = work.yields;
 }
 
 } // namespace

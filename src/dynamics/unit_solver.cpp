@@ -18,6 +18,7 @@
 #include "dynamics/turns.h"
 #include "dynamics/unit_bins.h"
 #include "dynamics/unit_bounces.h"
+#include "dynamics/walls.h"
 #include "dynamics/wide_kernels.h"
 #include "dynamics/wide_prepare.h"
 
@@ -36,7 +37,6 @@ namespace {
 constexpr int turns = 3;
 constexpr int settle_turns = 16;
 constexpr int enough_states = 256; // to share
-constexpr int guard_passes = 8;
 constexpr int passes_of_deep_overlaps = 7;
 constexpr float follow_turn = 0.03f; // rad
 
@@ -92,6 +92,7 @@ public:
         place_joints(m_view, m_ctx.state, m_joints);
         if (!m_joints.empty())
             take_forbidden_speeds();
+        find_pulled_rows();
         note_moved_joints();
         add_rows_beyond_seams();
         for (int k = 0; k < m_ctx.substeps; ++k)
@@ -101,6 +102,43 @@ public:
     }
 
 private:
+    // Contacts of what joints connect, with what does not give way: those that stand in lanes, once more by themselves.
+    void find_pulled_rows()
+    {
+        m_output.pulled_rows.clear();
+        for (const JointWork& work : m_joints)
+        {
+            for (const std::int32_t s : {work.a, work.b})
+            {
+                if (!is_dynamic(s) || (m_view.states[s].flags & body_flag::jointed) != 0)
+                    continue;
+                m_view.states[s].flags |= body_flag::jointed;
+                const int body = m_scratch.state_bodies[as_index(s)];
+                if (m_unit.wide_count > 0)
+                    for_each_contact(m_ctx.state, body, [&](int contact) { add_pulled_row(contact, body, s); });
+            }
+        }
+    }
+
+    void add_pulled_row(int index, int body, std::int32_t own)
+    {
+        const Contact& contact = m_ctx.state.contacts[index];
+        if (contact.manifold.count == 0 || is_left_out(contact))
+            return;
+        const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
+        if (other == none || is_dynamic(other))
+            return;
+        const bool is_a = contact.body_a == body;
+        m_output.pulled_rows.push_back(prepare_row(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
+    }
+
+    [[nodiscard]] static bool is_left_out(const Contact& contact)
+    {
+        return (contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0;
+    }
+
+    [[nodiscard]] bool is_dynamic(std::int32_t state) const { return (m_view.states[state].flags & body_flag::dynamic) != 0; }
+
     void add_rows_beyond_seams()
     {
         if (!m_unit.precise)
@@ -119,8 +157,7 @@ private:
     void add_row_beyond_seam(int index, int body, std::int32_t own)
     {
         const Contact& contact = m_ctx.state.contacts[index];
-        const bool left_out = (contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0;
-        if (contact.manifold.count > 0 || left_out || !may_come_to_face(contact, m_unit))
+        if (contact.manifold.count > 0 || is_left_out(contact) || !may_come_to_face(contact, m_unit))
             return;
         const bool is_a = contact.body_a == body;
         const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
@@ -164,7 +201,7 @@ private:
         if (is_direct() && m_output.direct->turns_too_far())
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
         kick_springs_after(m_view, m_ctx.state, m_joints);
-        guard_cores();
+        walls().guard_cores();
         if (m_unit.precise && has_fliers())
             relax(); // they must not meet what overlap is pushed out with
         fly(k);
@@ -237,6 +274,7 @@ private:
         const int first_kinematic = m_unit.first_state + 1 + m_unit.dynamic_count;
         integrate_positions(first_kinematic, m_unit.first_state + m_unit.state_count);
         const auto parts = std::span(m_scratch.parts).subspan(as_index(m_unit.first_state + 1), as_index(m_unit.dynamic_count));
+        const Walls walls = this->walls();
         m_bins.crossing(m_crew, solve);
         m_bins.in_parts(m_crew,
                         [&](int part)
@@ -245,7 +283,7 @@ private:
                             const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
                             m_bins.of_part(part, solve);
                             integrate_positions(first, first + static_cast<int>(states.size()));
-                            m_bins.of_part(part, [this](int begin, int end) { guard_wide_cores(begin, end); });
+                            m_bins.of_part(part, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
                             m_bins.of_part(part, relax);
                         });
         m_bins.crossing(m_crew, relax);
@@ -512,9 +550,27 @@ private:
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
 
-    // What holds bodies together has the last word, and where they are few, joints and contacts take turns. Contacts of a few bodies are solved
-    // until they agree: what a wall stops last still comes into its neighbours, and overlap is pushed out against the forces.
+    // What holds bodies together has the last word; but nothing goes through a wall for it.
     void solve(bool use_bias)
+    {
+        solve_in_turns(use_bias);
+        if (!is_direct() || !has_contacts() || m_output.direct->yields())
+            return;
+        const float before = walls().entry();
+        m_output.direct->solve(use_bias);
+        if (const float after = walls().entry(); after <= m_ctx.scene.tolerances.slop || after <= before)
+            return;
+        m_output.direct->yield();
+        if (!use_bias)
+            take_from_sums(0, m_unit.wide_count);
+        solve_in_turns(use_bias);
+    }
+
+    [[nodiscard]] bool has_contacts() { return !m_rows.empty() || !late_rows().empty() || m_unit.wide_count > 0; }
+
+    // Where bodies are few, joints and contacts take turns. Contacts of a few bodies are solved until they agree: what a wall stops last still comes into its
+    // neighbours, and overlap is pushed out against the forces.
+    void solve_in_turns(bool use_bias)
     {
         const std::size_t contacts = m_rows.size() + late_rows().size();
         const bool alternate = is_direct() && contacts > 0 && m_unit.wide_count == 0;
@@ -536,8 +592,6 @@ private:
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
                 break;
         }
-        if (is_direct() && (contacts > 0 || m_unit.wide_count > 0))
-            m_output.direct->solve(use_bias);
     }
 
     struct Velocity
@@ -600,69 +654,10 @@ private:
             turn_by(s, m_ctx.h * s.angular_velocity);
     }
 
-    // The last line of defence, for what something far heavier presses into what does not give way: no deeper than half of what is inside it.
-    void guard_cores()
-    {
-        // Between two walls neither is to push it through the other.
-        float part = 1;
-        for (int pass = 0; pass < guard_passes && guard_rows(part) > 1; ++pass)
-            part = 0.5f;
-        guard_wide_cores(0, m_unit.wide_count);
-    }
-
-    // Of groups first to last.
-    void guard_wide_cores(int first, int last) const
+    [[nodiscard]] Walls walls()
     {
         const auto cores = std::span(m_scratch.cores).subspan(as_index(m_unit.first_core), as_index(m_unit.core_count));
-        auto core = std::ranges::lower_bound(cores, first * lane_count, {}, &WideCore::lane);
-        for (; core != cores.end() && core->lane < last * lane_count; ++core)
-            guard_wide_core(*core);
-    }
-
-    void guard_wide_core(const WideCore& core) const
-    {
-        const WideRow& row = m_wide[core.lane / lane_count];
-        const int i = core.lane % lane_count;
-        const bool a_gives = row.inverse_mass_a.v[i] != 0;
-        if (!a_gives && row.inverse_mass_b.v[i] == 0)
-            return;
-        const BodyState& a = m_view.states[row.a.v[i]];
-        const BodyState& b = m_view.states[row.b.v[i]];
-        const Vec2 n{row.nx.v[i], row.ny.v[i]};
-        const WidePoint& p = row.points[0];
-        const float separation = p.base.v[i] + dot(b.delta_position - a.delta_position, n) +
-                                 turned(b, p.along_b.v[i], p.across_b.v[i]) - turned(a, p.along_a.v[i], p.across_a.v[i]);
-        const float depth = -separation - core.depth;
-        if (depth > 0)
-            m_view.states[a_gives ? row.a.v[i] : row.b.v[i]].delta_position += (a_gives ? -depth : depth) * n;
-    }
-
-    // n · (R r - r)
-    [[nodiscard]] static float turned(const BodyState& s, float along, float across)
-    {
-        return (s.delta_rotation.c - 1) * along + s.delta_rotation.s * across;
-    }
-
-    // Says how many it found too deep.
-    int guard_rows(float part)
-    {
-        int too_deep = 0;
-        for_each_row([&](const ContactRow& row) { too_deep += row.core > 0 && row.count > 0 && guard_core(row, part) ? 1 : 0; });
-        return too_deep;
-    }
-
-    bool guard_core(const ContactRow& row, float part)
-    {
-        float separation = row_separation(m_view, row, row.points[0]);
-        if (row.count == 2)
-            separation = std::min(separation, row_separation(m_view, row, row.points[1]));
-        const float depth = -separation - row.core;
-        if (depth <= 0)
-            return false;
-        const bool a_gives = m_view.constants[row.a].inverse_mass != Vec2{};
-        BodyState& body = m_view.states[a_gives ? row.a : row.b];
-        body.delta_position += part * (a_gives ? -depth : depth) * row.n;
-        return true;
+        return {m_view, {m_rows, late_rows(), m_output.pulled_rows, {m_wide, as_index(m_unit.wide_count)}, cores}};
     }
 
     // --- contacts in small units: looked at anew within the step -----------------------------------------------------------------------
@@ -860,8 +855,56 @@ private:
     {
         for_each_row(sum_impulses);
         finish_joint_substep(m_view, m_ctx.state, m_joints);
+        if (!m_joints.empty() && m_output.direct->yields())
+            go_on_yielding();
         if (m_ctx.scene.def.record_substeps && (k + 1) % m_ctx.slices == 0)
             record_poses(k);
+    }
+
+    // Until they are closed again.
+    void go_on_yielding()
+    {
+        const float near = m_ctx.h * m_view.push_speed;
+        const auto is_closed = [&](const JointWork& work)
+        { return std::ranges::all_of(work.errors(), [&](float error) { return std::fabs(error) <= near; }); };
+        const bool are_closed = std::ranges::all_of(m_joints, is_closed);
+        for (JointWork& work : m_joints)
+            work.yields = !are_closed;
+        forget_pull();
+    }
+
+    // Its loads are arbitrary, and no start for the next sub-step: on a long lever they would turn a body faster than it can follow.
+    void forget_pull()
+    {
+        const auto is_pulled = [&](std::int32_t a, std::int32_t b)
+        { return ((m_view.states[a].flags | m_view.states[b].flags) & body_flag::pressed) != 0; };
+        for (const JointWork& work : m_joints)
+        {
+            forget_impulses(m_ctx.state.joints[work.joint]);
+            for (const std::int32_t s : {work.a, work.b})
+            {
+                if (is_dynamic(s))
+                    m_view.states[s].flags |= body_flag::pressed;
+            }
+        }
+        for_each_row(
+            [&](ContactRow& row)
+            {
+                if (!is_pulled(row.a, row.b))
+                    return;
+                for (RowPoint& p : row.points)
+                    p.normal_impulse = p.tangent_impulse = 0;
+            });
+        for (WideRow& row : std::span(m_wide, as_index(m_unit.wide_count)))
+        {
+            for (int i = 0; i < lane_count; ++i)
+            {
+                if (!is_pulled(row.a.v[i], row.b.v[i]))
+                    continue;
+                for (WidePoint& p : row.points)
+                    p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
+            }
+        }
     }
 
     static void sum_impulses(ContactRow& row)

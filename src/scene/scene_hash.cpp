@@ -127,7 +127,8 @@ void add_contact(Hasher& h, const SceneState& state, int index)
 void add_joint(Hasher& h, const JointRecord& j)
 {
     h.add(static_cast<int>(j.kind) | (static_cast<int>(j.collide_connected) << 8) | (static_cast<int>(j.enable_limit) << 9) |
-          (static_cast<int>(j.enable_motor) << 10) | (static_cast<int>(j.knows_errors) << 11));
+          (static_cast<int>(j.enable_motor) << 10) | (static_cast<int>(j.knows_errors) << 11) |
+          (static_cast<int>(j.yields) << 12));
     h.add(j.body_a);
     h.add(j.body_b);
     add(h, j.anchor_a);

@@ -38,6 +38,7 @@ struct AxisSpring
 /// The theta that an oscillation of this omega h asks for.
 [[nodiscard]] float least_theta(float turn);
 
+constexpr float way_back = 0.2f;         ///< of what a body is beyond a stop, per sub-step
 constexpr float direct_spring_turn = 16; ///< in the direct solve, where that is as good as rigid
 constexpr float soft_spring_turn = 0.5f; ///< where rows are solved one after the other
 

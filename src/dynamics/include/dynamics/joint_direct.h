@@ -30,6 +30,13 @@ public:
     /// Once a step: springs that share bodies swing faster together than each alone, and damp what a sub-step cannot follow.
     void fit_springs();
     [[nodiscard]] bool is_ready() const { return m_ready; }
+    /// A wall holds what they pull. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap is pushed out.
+    void yield()
+    {
+        m_yields = true;
+        m_turns_too_far = false;
+    }
+    [[nodiscard]] bool yields() const { return m_yields; }
     void warm_start();
     void solve(bool use_bias);
     /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
@@ -46,7 +53,8 @@ private:
     {
         Ahead, ///< errors at the pose that the velocities lead to are 0
         Now,   ///< J v = 0 at the pose reached
-        Held   ///< the same of the held rows alone
+        Soft,  ///< the same, and errors close slowly
+        Held   ///< J v = 0 of the held rows alone
     };
 
     /// The part of a row that stands in J, and so in the matrix.
@@ -131,6 +139,9 @@ private:
     [[nodiscard]] double largest_error() const;
     [[nodiscard]] double largest_turn() const;
     void start_anew();
+    void close_slowly();
+    [[nodiscard]] double axis_leak() const { return m_yields ? m_leak : 0; }
+    [[nodiscard]] AxisActs slow(AxisActs acts) const;
 
     void take_step(Stage stage);
     void give_blow(Stage stage);
@@ -155,13 +166,14 @@ private:
     bool m_ready = false;
     Masses m_mass_kind = Masses::Own;
     bool m_turns_too_far = false;
+    bool m_yields = false;
     float m_longest_arm = 0;
 
     std::vector<Edge> m_found;
     std::vector<Edge> m_edges; ///< of the layout
     JointMatrix m_matrix;
     bool m_is_new = false;   ///< the layout: nothing stands in the matrix
-    double m_compliance = 0; ///< of loops, in the present stage
+    double m_compliance = 0; ///< of loops and of what yields, in the present stage
     double m_leak = 0;
     double m_softening = 1; ///< of loops
     double m_spring_softening = 1;

@@ -67,6 +67,7 @@ struct JointWork
     float bounce[2] = {};        ///< speeds at which it is to leave them
     JointErrors errors_before{}; ///< when the sub-step began
     JointErrors moved{};         ///< of these, what others than the solver have moved and it has not made good yet
+    bool yields = false;         ///< as in JointRecord
     Vec2 force_sum{};            ///< impulses over the step
     float torque_sum = 0;
     JointPose pose{}; ///< as the bodies stand, since place_joints

@@ -48,6 +48,9 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
 /// A body in flight; joint: the hinge to the world that it turns on, or none.
 [[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint);
 
+/// To which depth a contact with what does not give way may go: half of what is inside the other side. Boxes that were put deeper come out by themselves.
+[[nodiscard]] float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives);
+
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the row.
 void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& manifold);
 

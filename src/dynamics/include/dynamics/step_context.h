@@ -144,11 +144,12 @@ static_assert(sizeof(Link) == 16);
                                       static_cast<std::uint32_t>(color + 1) << 8);
 }
 
-/// A ball in a wide row against what does not give way.
+/// A lane against what does not give way, of a ball or of what joints pull.
 struct WideCore
 {
-    std::int32_t lane; ///< of the unit: group * lane_count + lane
-    float depth;
+    std::int32_t lane;   ///< of the unit: group * lane_count + lane
+    std::int32_t points; ///< of its contact
+    float depth;         ///< to which it may go
 };
 
 inline constexpr int few_parts = 16; ///< of a unit whose rows stay in the cache that processors share
@@ -381,6 +382,7 @@ struct UnitOutput : Told
     std::size_t told_impacts = 0;           ///< the first so many are known to force laws
     std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
     std::vector<ContactRow> late_rows;
+    std::vector<ContactRow> pulled_rows; ///< see Walls
     std::vector<DeferredImpulse> deferred;
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
     std::vector<std::int32_t> struck_lanes;   ///< of the unit, in this sub-step

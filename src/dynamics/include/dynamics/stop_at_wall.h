@@ -7,8 +7,8 @@ namespace carom::internal {
 /// Before the first body of a step is asked for.
 void forget_surroundings(StepContext& ctx);
 
-/// How much of a body's displacement over the step (from its place in the records) is free of static shapes: 1 for all of it. For bodies
+/// How far a body that also turns comes on its way over the step (from its place in the records) before static shapes stop it. For bodies
 /// that were struck so hard in the step that they went beyond what their rows could see.
-[[nodiscard]] double free_part_of_path(const StepContext& ctx, int body, double dx, double dy);
+[[nodiscard]] Position free_way(const StepContext& ctx, int body, Position way, Rotation turn);
 
 } // namespace carom::internal
