@@ -190,11 +190,13 @@ private:
             return;
         float approach = 0;
         float load = 0;
-        for (int i = 0; i < row.count; ++i)
+        for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
         {
-            load += row.points[i].normal_impulse;
-            if (row.points[i].normal_impulse > 0)
-                approach = std::max(approach, row.points[i].approach);
+            if (p.approach > 0 && came_at(row, p) <= 0)
+                p.approach = 0; // the normal has turned away from it meanwhile
+            load += p.normal_impulse;
+            if (p.normal_impulse > 0)
+                approach = std::max(approach, p.approach);
         }
         if (load <= 0)
             return;
@@ -203,6 +205,14 @@ private:
             begin_touch(row, k, m_output);
         if (approach > m_ctx.rest_speed)
             resolve_impact(row, approach, k, m_output);
+    }
+
+    // Along the normal that it has now, when the sub-step began.
+    [[nodiscard]] float came_at(const ContactRow& row, const RowPoint& p) const
+    {
+        const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
+        const BodySpeeds& b = m_scratch.speeds[as_index(row.b)];
+        return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), row.n);
     }
 
     void resolve_impact(ContactRow& row, float approach, int k, Told& told)
@@ -225,8 +235,9 @@ private:
         fill_impact(row, event);
         take_impulses(row, e, kick.speed);
         forget_pushes(before, row);
-        append(told.impacts, event);
         ++told.bulk_impacts;
+        if (event.impulse > 0) // others may have parted them
+            append(told.impacts, event);
     }
 
     [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
@@ -322,6 +333,8 @@ private:
             arm_a += p.normal_impulse * p.ra;
             arm_b += p.normal_impulse * p.rb;
         }
+        if (event.impulse <= 0)
+            return;
         arm_a *= 1 / event.impulse;
         arm_b *= 1 / event.impulse;
         const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
