@@ -47,12 +47,19 @@ void push_along(Bodies& bodies, const ImpactRow& r, const Direction& d, double i
     b.w += b.inverse_inertia * impulse * d.turn_b;
 }
 
-// 1 / m of the direction: J M^-1 J^T.
+constexpr double least_turn = 1e-10; // of what an arm could turn at most: less is rounding
+
+// 1 / m of the direction: J M^-1 J^T; 0 where nothing gives way, as through the pivot of a body that only turns.
 double compliance(const Bodies& bodies, const ImpactRow& r, const Direction& d)
 {
+    const ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
+    const ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
     const auto of = [&](const ImpactBody& body, double turn)
     { return d.x * d.x * body.inverse_mass_x + d.y * d.y * body.inverse_mass_y + turn * turn * body.inverse_inertia; };
-    return of(bodies[static_cast<std::size_t>(r.a)], d.turn_a) + of(bodies[static_cast<std::size_t>(r.b)], d.turn_b);
+    const double k = of(a, d.turn_a) + of(b, d.turn_b);
+    const double at_most = (r.arm_a_x * r.arm_a_x + r.arm_a_y * r.arm_a_y) * a.inverse_inertia +
+                           (r.arm_b_x * r.arm_b_x + r.arm_b_y * r.arm_b_y) * b.inverse_inertia;
+    return k > least_turn * at_most ? k : 0;
 }
 
 /// A row in a round: its rate is to grow by at least `wanted`; joints' rows by exactly that.
