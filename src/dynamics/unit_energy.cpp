@@ -440,7 +440,7 @@ void UnitEnergy::restore(bool exact)
         if (group.touches)
             group.slop_work += as_double(m_slop) / m_slices * force_on(i);
         group.is_passive &= !decays(m_view.constants[i]) && !flies(i) && !(group.is_carried && group.is_anchored);
-        group.is_passive &= !group.is_carried || body(i).mass_x == body(i).mass_y;
+        group.is_passive &= !group.is_carried || (body(i).mass_x > 0 && body(i).mass_x == body(i).mass_y);
     }
     for (int g = 0; g < m_count; ++g)
     {
@@ -534,8 +534,12 @@ void UnitEnergy::scale(int index, bool exact)
         if (body(i).group != index)
             continue;
         const Motion frame = frame_of(group, drift, i);
-        s.velocity += change * (s.velocity - Vec2{static_cast<float>(frame.x), static_cast<float>(frame.y)});
-        s.angular_velocity += change * (s.angular_velocity - static_cast<float>(frame.w));
+        const StateConstants& c = m_view.constants[i];
+        const auto scale = [&](float& speed, double of_frame, float inverse_mass)
+        { speed += inverse_mass != 0 ? change * (speed - static_cast<float>(of_frame)) : 0; }; // locked, it is not moved
+        scale(s.velocity.x, frame.x, c.inverse_mass.x);
+        scale(s.velocity.y, frame.y, c.inverse_mass.y);
+        scale(s.angular_velocity, frame.w, c.inverse_inertia);
     }
 }
 
