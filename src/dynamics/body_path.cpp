@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 namespace carom::internal {
@@ -128,22 +129,17 @@ bool BodyPath::ends_there(std::span<const PathPiece> pieces, double tolerance) c
 
 FramePath BodyPath::from(double time) const
 {
-    for (std::size_t i = m_pieces.size(); i-- > 0;)
-    {
-        if (m_pieces[i].start <= time)
-            return path_after(m_pieces[i].path, time - m_pieces[i].start);
-    }
-    return path_after(m_chord, time);
+    const auto next = std::ranges::upper_bound(m_pieces, time, {}, &PathPiece::start);
+    if (next == m_pieces.begin())
+        return path_after(m_chord, time);
+    const PathPiece& piece = *std::prev(next);
+    return path_after(piece.path, time - piece.start);
 }
 
 double BodyPath::next_bend(double time) const
 {
-    for (const PathPiece& piece : m_pieces)
-    {
-        if (piece.start > time)
-            return std::min(piece.start, m_dt);
-    }
-    return m_dt;
+    const auto next = std::ranges::upper_bound(m_pieces, time, {}, &PathPiece::start);
+    return next == m_pieces.end() ? m_dt : std::min(next->start, m_dt);
 }
 
 FloatBox deflected_box(const StepContext& ctx, int body)
