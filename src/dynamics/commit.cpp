@@ -188,6 +188,8 @@ void forget_errors_of_stopped(StepContext& ctx)
 
 void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
 {
+    if (!ctx.state.bodies[d.body].gives_way)
+        return;
     wake_body(ctx.scene, d.body);
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(d.body)];
     sim.velocity.x += sim.inverse_mass.x * d.impulse.x;
@@ -325,6 +327,8 @@ void commit(StepContext& ctx)
     update_triggers(ctx);
     for (const std::int32_t body : scratch.unsound)
         quarantine(ctx, body, ctx.dt);
+    if (!scratch.unsound.empty())
+        forget_events_of(ctx, scratch.unsound);
     settle_bodies(ctx);
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/index.h"
 #include "core/prefetch.h"
+#include "core/refuse.h"
 #include "dynamics/joint_solver.h"
 #include "dynamics/prepare.h"
 #include "dynamics/unit_bins.h"
@@ -144,6 +145,12 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
     JointRecord& joint = ctx.state.joints[work.joint];
     joint.force = (1 / ctx.dt) * work.force_sum;
     joint.torque = work.torque_sum / ctx.dt;
+    if (!is_finite(joint.force) || !is_finite(joint.torque))
+    { // more than a number holds is nothing to go on with
+        forget_impulses(joint);
+        joint.force = {};
+        joint.torque = 0;
+    }
     std::ranges::transform(work.errors(), work.moved, joint.left_errors, std::minus<>());
     joint.yields = work.yields;
 }

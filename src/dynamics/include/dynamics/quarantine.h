@@ -2,10 +2,14 @@
 
 #include "dynamics/step_context.h"
 
+#include <span>
+
 namespace carom::internal {
 
 /// Takes a body whose motion is no longer finite out of the simulation, at its last finite pose and at rest: its contacts end, it is
 /// disabled and reported, and the rest of the world goes on.
 void quarantine(StepContext& ctx, int body, float time);
+/// What the step would tell of these bodies: blows, and touches that began in it with their ends.
+void forget_events_of(StepContext& ctx, std::span<const std::int32_t> bodies);
 
 } // namespace carom::internal
