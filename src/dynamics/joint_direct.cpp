@@ -34,6 +34,8 @@ namespace carom::internal {
 namespace {
 
 constexpr float most_stretch = 1; // (omega h)²
+constexpr double most_gap =
+    0.01; // in arms: a wider one that others have made is closed by moving bodies, which gives them no speed
 constexpr int newton_steps = 2;
 constexpr int most_newton_steps = 6;
 constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
@@ -311,7 +313,7 @@ bool DirectSolve::find_pose_ahead()
         note_errors_ahead();
     }
     const double before = largest_error();
-    m_turns_too_far = before > 1 && !m_matrix.has_loops();
+    m_turns_too_far = (before > 1 || largest_gap() > most_gap) && !m_matrix.has_loops();
     if (m_turns_too_far)
         return false;
     m_spring_softening = 1;
@@ -425,6 +427,21 @@ double DirectSolve::largest_error() const
     }
     const double in_arms = m_longest_arm > 0 ? length / as_double(m_longest_arm) : 0;
     return as_double(m_view.h) * std::max(in_arms, angle);
+}
+
+// In arms, of what others than the solver have opened and it has not closed yet.
+double DirectSolve::largest_gap() const
+{
+    double gap = 0;
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            const float open = std::min(std::fabs(item.work->moved[as_index(r)]), std::fabs(item.row(r).error));
+            gap = item.row(r).slot == slot_lock ? gap : std::max(gap, as_double(open));
+        }
+    }
+    return m_longest_arm > 0 ? gap / as_double(m_longest_arm) : 0;
 }
 
 // The largest turn that an axis gives its bodies in the sub-step, in rad: held rows then err by the square of it.

@@ -137,6 +137,7 @@ private:
     void note_errors_ahead();
     [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
     [[nodiscard]] double largest_error() const;
+    [[nodiscard]] double largest_gap() const;
     [[nodiscard]] double largest_turn() const;
     void start_anew();
     void close_slowly();
