@@ -7,6 +7,7 @@
 #include "core/index.h"
 #include "core/nonzero.h"
 #include "core/prefetch.h"
+#include "core/refuse.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/material.h"
 #include "dynamics/scene_data.h"
@@ -236,7 +237,7 @@ private:
         take_impulses(row, e, kick.speed);
         forget_pushes(before, row);
         ++told.bulk_impacts;
-        if (event.impulse > 0) // others may have parted them
+        if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted them; or thrown them beyond all numbers
             append(told.impacts, event);
     }
 

@@ -5,6 +5,8 @@
 #include "dynamics/contact_store.h"
 #include "dynamics/flight/impact_set.h"
 
+#include "core/refuse.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -57,7 +59,8 @@ void ImpactSet::tell_blows()
         }
         if (!is_worth_telling(strike.blow))
             continue;
-        append(m_span.output.impacts, event_of(strike));
+        if (const ImpactEvent event = event_of(strike); is_finite(event.energy_lost) && is_finite(event.impulse))
+            append(m_span.output.impacts, event);
         ++m_span.output.flight_impacts;
     }
 }
