@@ -1,6 +1,7 @@
 // The public API must survive any sequence of calls with any values: it does what was asked or refuses with an Error, keeps every pose
 // finite, and what it says exists is there. Bytes choose the calls; values are small, huge or not finite; ids may be stale; callbacks
-// destroy what they are told about. Every step is judged (step_judge.h); in one session of two nothing does work, so that energy and momentum can be.
+// destroy what they are told about. Every step is judged (step_judge.h); in one session of two nothing does work and numbers are those of every day, so that
+// energy and momentum can be.
 
 #include "carom/carom.h"
 #include "fuzz/step_judge.h"
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <variant>
 #include <vector>
 
 using namespace carom;
@@ -71,7 +73,7 @@ struct Session
     std::vector<JointId> joints{JointId{}};
     StepJudge judge;
     int made_in_callbacks = 0;
-    bool is_passive = false; ///< nothing is made that does work
+    bool is_passive = false; ///< nothing is made that does work, nor what stops or turns without giving way
 
     template <class Id>
     static Id pick(Choices& c, const std::vector<Id>& ids)
@@ -138,6 +140,19 @@ Polygon polygon(Choices& c)
     return polygon;
 }
 
+// Of passive sessions, seen from both sides.
+Geometry two_sided(Geometry of)
+{
+    std::visit(
+        [](auto& g)
+        {
+            if constexpr (requires { g.sides; })
+                g.sides = Sides::Both;
+        },
+        of);
+    return of;
+}
+
 Geometry geometry(Choices& c)
 {
     switch (c.below(9))
@@ -164,6 +179,12 @@ Geometry geometry(Choices& c)
     }
 }
 
+Geometry geometry(const Session& s, Choices& c)
+{
+    const Geometry made = geometry(c);
+    return s.is_passive ? two_sided(made) : made;
+}
+
 ShapeDef shape_def(const Session& s, Choices& c)
 {
     ShapeDef def;
@@ -173,11 +194,11 @@ ShapeDef shape_def(const Session& s, Choices& c)
     def.friction = c.amount();
     def.restitution = c.amount() / 4;
     def.rolling_resistance = c.flag() ? 0 : c.amount();
-    def.one_way = c.flag() ? Vec2{} : c.vec();
     def.filter.group = c.below(3) - 1;
     def.trigger = c.below(4) == 0;
     if (s.is_passive)
         return def;
+    def.one_way = c.flag() ? Vec2{} : c.vec();
     def.surface_speed = c.flag() ? 0 : c.number();
     def.kick = {.speed = c.flag() ? 0 : c.amount(), .threshold = c.amount(), .cooldown = c.amount()};
     if (def.trigger || c.below(8) == 0) // elsewhere it is refused
@@ -192,19 +213,20 @@ void make_body(Session& s, Choices& c)
                 .angle = c.number(),
                 .velocity = c.vec()};
     if (c.flag())
-        def.velocity *= 100;
+        def.velocity *= s.is_passive ? 5.0f : 100.0f;
     def.angular_velocity = c.flag() ? 0 : 10 * c.number();
-    def.locks = {.linear_x = c.below(8) == 0, .linear_y = c.below(8) == 0, .angular = c.below(8) == 0};
+    if (!s.is_passive)
+        def.locks = {.linear_x = c.below(8) == 0, .linear_y = c.below(8) == 0, .angular = c.below(8) == 0};
     def.enabled = c.below(8) != 0;
     def.awake = c.below(8) != 0;
     s.bodies.push_back(s.scene.create_body(def));
-    s.shapes.push_back(s.scene.create_shape(s.bodies.back(), geometry(c), shape_def(s, c)));
+    s.shapes.push_back(s.scene.create_shape(s.bodies.back(), geometry(s, c), shape_def(s, c)));
 }
 
 void make_shape(Session& s, Choices& c)
 {
     const BodyId body = s.body(c);
-    const Geometry made = geometry(c);
+    const Geometry made = geometry(s, c);
     s.shapes.push_back(s.scene.create_shape(body, made, shape_def(s, c)));
 }
 
@@ -292,7 +314,7 @@ void change_body(Session& s, Choices& c)
         const Position p = c.position();
         return body.set_target_pose(p, c.number());
     }
-    case 3: return body.set_velocity((c.below(8) == 0 ? 1e5f : 250.0f) * c.vec());
+    case 3: return body.set_velocity((s.is_passive ? 10.0f : c.below(8) == 0 ? 1e5f : 250.0f) * c.vec());
     case 4: return body.set_angular_velocity(20 * c.number());
     case 5:
     {
@@ -306,9 +328,14 @@ void change_body(Session& s, Choices& c)
         return body.apply_impulse(impulse, c.position());
     }
     case 8: return body.apply_angular_impulse(c.number());
-    case 9: return body.set_locks({.linear_x = c.flag(), .linear_y = c.flag(), .angular = c.flag()});
+    case 9:
+        if (s.is_passive)
+            return;
+        return body.set_locks({.linear_x = c.flag(), .linear_y = c.flag(), .angular = c.flag()});
     case 10:
     {
+        if (s.is_passive)
+            return;
         const float mass = c.amount();
         const Vec2 center = c.vec();
         return body.set_mass({mass, center, c.amount()});
@@ -327,7 +354,7 @@ void change_shape(Session& s, Choices& c)
     if (c.flag())
         shape.set_def(shape_def(s, c));
     else
-        shape.set_geometry(geometry(c));
+        shape.set_geometry(geometry(s, c));
 }
 
 void destroy(Session& s, Choices& c)
@@ -457,7 +484,7 @@ void step(Session& s, Choices& c)
 {
     const int b = c.below(32);
     if (b == 0)
-        take_step(s, c.number());
+        take_step(s, c.number() / 16); // to a quarter of a second, or what is refused
     else if (b == 1)
         take_update(s, c);
     else

@@ -32,7 +32,7 @@ public:
     /// Before a step or an update.
     void begin(const Scene& scene)
     {
-        m_is_calm = m_is_passive && !std::exchange(m_is_disturbed, false) && is_closed(scene);
+        m_is_calm = m_is_passive && !m_is_disturbed && is_closed(scene);
         m_energy = energy(scene);
         m_bodies = groups(scene);
     }
@@ -48,6 +48,8 @@ public:
         if (!scene.report().quarantined.empty() || scene.report().has(StepFlag::TimeDropped))
             return;
         m_is_calm &= !m_meddled && time < longest_judged;
+        if (time > 0)
+            m_is_disturbed = m_meddled;
         if (!m_is_calm)
             return;
         momentum_is_kept(scene, time);
