@@ -37,8 +37,9 @@ struct Circle
     float radius = 0.5f; ///< m, > 0
 };
 
-/// A convex polygon with any number of vertices, at least 3, in either winding. Points on the line between their
-/// neighbours are dropped; a concave outline is refused (see split_concave).
+/// A convex polygon with any number of vertices, at least 3, in either winding. Points on the line between their neighbours are
+/// dropped, to a hundred-thousandth of the polygon's size and at least 1e-6 m: a circle keeps some 500. A concave outline is refused
+/// (see split_concave).
 struct Polygon
 {
     std::vector<Vec2> vertices{}; ///< m

@@ -55,12 +55,58 @@ double turn(Vec2 a, Vec2 b, Vec2 c)
     return abx * bcy - aby * bcx;
 }
 
-bool is_redundant(Vec2 a, Vec2 b, Vec2 c, float tolerance)
+/// The ways from a corner that leave all points passed on the line within the tolerance: a cone of directions.
+class Line
 {
-    if (length(b - a) <= tolerance)
-        return true;
-    const float base = length(c - a);
-    return base > 0 && std::fabs(turn(a, b, c)) <= static_cast<double>(tolerance) * base && dot(b - a, c - b) >= 0;
+public:
+    Line(Vec2 from, double tolerance) : m_from(from), m_tolerance(tolerance) {}
+
+    [[nodiscard]] bool may_end_at(Vec2 p) const
+    {
+        const Vec2 way = p - m_from;
+        const auto far = static_cast<double>(length(way));
+        if (far < m_far)
+            return false; // it goes back
+        const double angle = far > m_tolerance ? angle_of(way) : 0;
+        return m_far <= m_tolerance || (far > m_tolerance && angle >= m_least && angle <= m_most);
+    }
+
+    void pass(Vec2 p)
+    {
+        const Vec2 way = p - m_from;
+        const auto far = static_cast<double>(length(way));
+        m_far = std::max(m_far, far);
+        if (far <= m_tolerance)
+            return;
+        if (m_along == Vec2{})
+            m_along = way;
+        const double angle = angle_of(way);
+        const double reach = m_tolerance / far; // of the sine, which is less than the angle
+        m_least = std::max(m_least, angle - reach);
+        m_most = std::min(m_most, angle + reach);
+    }
+
+private:
+    [[nodiscard]] double angle_of(Vec2 way) const
+    {
+        const double across = static_cast<double>(m_along.x) * way.y - static_cast<double>(m_along.y) * way.x;
+        const double along = static_cast<double>(m_along.x) * way.x + static_cast<double>(m_along.y) * way.y;
+        return m_along == Vec2{} ? 0 : arc_tangent(across, along);
+    }
+
+    Vec2 m_from;
+    Vec2 m_along{}; ///< to the first point passed; angles count from there
+    double m_tolerance;
+    double m_far = 0;
+    double m_least = -4; ///< rad
+    double m_most = 4;
+};
+
+// The outermost to the left, the lowest of these.
+std::size_t surely_a_corner(std::span<const Vec2> points)
+{
+    const auto before = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+    return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), before) - points.begin());
 }
 
 } // namespace
@@ -70,20 +116,35 @@ std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance)
     std::vector<Vec2> points(outline.begin(), outline.end());
     if (signed_area(points) < 0)
         points = {points.rbegin(), points.rend()};
-    for (std::size_t i = 0; i < points.size() && points.size() >= 3;)
+    const std::size_t n = points.size();
+    if (n < 3)
+        return points;
+    std::vector<bool> is_kept(n, false);
+    std::size_t last = surely_a_corner(points);
+    const std::size_t end = last + n;
+    is_kept[last] = true;
+    while (last < end)
     {
-        const std::size_t n = points.size();
-        if (is_redundant(points[(i + n - 1) % n], points[i], points[(i + 1) % n], tolerance))
+        const Vec2 from = points[last % n];
+        Line line(from, static_cast<double>(tolerance));
+        std::size_t next = last + 1;
+        while (next < end)
         {
-            points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
-            i = i > 0 ? i - 1 : 0;
+            line.pass(points[next % n]);
+            if (!line.may_end_at(points[(next + 1) % n]))
+                break;
+            ++next;
         }
-        else
-        {
-            ++i;
-        }
+        last = next;
+        is_kept[last % n] = true;
     }
-    return points;
+    std::vector<Vec2> kept;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        if (is_kept[i])
+            kept.push_back(points[i]);
+    }
+    return kept;
 }
 
 bool is_convex(std::span<const Vec2> points)

@@ -6,6 +6,8 @@
 #include "geometry/leaf.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace carom {
 
@@ -47,38 +49,83 @@ bool crosses_itself(const Outline& o)
     return false;
 }
 
-bool is_ear(const Outline& o, const Loop& loop, std::size_t i)
+/// Corners of what is left of an outline, and of each whether it may be cut off. Cutting one off makes others free, or changes its two neighbours.
+class Ears
 {
-    const std::size_t n = loop.size();
-    const int a = loop[(i + n - 1) % n];
-    const int b = loop[i];
-    const int c = loop[(i + 1) % n];
-    if (o.turn(a, b, c) <= 0)
-        return false;
-    return std::none_of(
-        loop.begin(), loop.end(), [&](int p)
-        { return p != a && p != b && p != c && o.turn(a, b, p) >= 0 && o.turn(b, c, p) >= 0 && o.turn(c, a, p) >= 0; });
-}
+public:
+    explicit Ears(const Outline& o) : m_outline(o), m_blockers(o.points.size(), unknown)
+    {
+        for (int i = 0; i < static_cast<int>(o.points.size()); ++i)
+            m_rest.push_back(i);
+    }
+
+    /// The next triangle; empty where none is left.
+    Loop cut()
+    {
+        if (m_rest.size() < 3 || (m_rest.size() == 3 && turn_at(0) <= 0))
+            return {};
+        std::size_t ear = 0;
+        while (m_rest.size() > 3 && ear < m_rest.size() && !is_ear(ear))
+            ++ear;
+        if (ear == m_rest.size())
+            return {}; // only points in line are left
+        const Loop triangle = m_rest.size() == 3 ? m_rest : Loop{before(ear), m_rest[ear], after(ear)};
+        for (const int neighbour : {before(ear), after(ear)})
+            blocker(neighbour) = unknown;
+        blocker(m_rest[ear]) = gone;
+        m_rest.erase(m_rest.begin() + static_cast<std::ptrdiff_t>(ear));
+        return triangle;
+    }
+
+private:
+    static constexpr int unknown = -1;
+    static constexpr int nobody = -2;
+    static constexpr int gone = -3;
+    static constexpr int itself = -4; ///< it turns inwards
+
+    [[nodiscard]] int before(std::size_t i) const { return m_rest[(i + m_rest.size() - 1) % m_rest.size()]; }
+    [[nodiscard]] int after(std::size_t i) const { return m_rest[(i + 1) % m_rest.size()]; }
+    [[nodiscard]] double turn_at(std::size_t i) const { return m_outline.turn(before(i), m_rest[i], after(i)); }
+    int& blocker(int corner) { return m_blockers[static_cast<std::size_t>(corner)]; }
+
+    // What once stood in its triangle stands there until it is cut off itself.
+    bool is_ear(std::size_t i)
+    {
+        int& found = blocker(m_rest[i]);
+        if (found == unknown || (found >= 0 && blocker(found) == gone))
+            found = turn_at(i) <= 0 ? itself : who_blocks(i);
+        return found == nobody;
+    }
+
+    [[nodiscard]] int who_blocks(std::size_t i) const
+    {
+        const Outline& o = m_outline;
+        const int a = before(i);
+        const int b = m_rest[i];
+        const int c = after(i);
+        for (const int p : m_rest)
+        {
+            if (p != a && p != b && p != c && o.turn(a, b, p) >= 0 && o.turn(b, c, p) >= 0 && o.turn(c, a, p) >= 0)
+                return p;
+        }
+        return nobody;
+    }
+
+    const Outline& m_outline;
+    Loop m_rest;
+    std::vector<int> m_blockers; ///< by corner
+};
 
 std::vector<Loop> clip_ears(const Outline& o)
 {
-    Loop rest;
-    for (int i = 0; i < static_cast<int>(o.points.size()); ++i)
-        rest.push_back(i);
     std::vector<Loop> triangles;
-    while (rest.size() > 3)
+    Ears ears(o);
+    for (Loop triangle = ears.cut(); !triangle.empty(); triangle = ears.cut())
     {
-        std::size_t ear = 0;
-        while (ear < rest.size() && !is_ear(o, rest, ear))
-            ++ear;
-        if (ear == rest.size())
-            break; // only points in line are left
-        const std::size_t n = rest.size();
-        triangles.push_back({rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]});
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
+        triangles.push_back(triangle);
+        if (static_cast<int>(triangles.size()) + 2 >= static_cast<int>(o.points.size()))
+            break;
     }
-    if (rest.size() == 3 && o.turn(rest[0], rest[1], rest[2]) > 0)
-        triangles.push_back(rest);
     return triangles;
 }
 
@@ -113,22 +160,75 @@ Loop join(const Loop& a, const Loop& b)
     return {};
 }
 
-bool merge_one(const Outline& o, std::vector<Loop>& loops)
+/// Joins loops over the edges that they share while the result stays convex: always the first with the first that it can be joined with.
+class Merger
 {
-    for (std::size_t i = 0; i < loops.size(); ++i)
+public:
+    Merger(const Outline& o, std::vector<Loop> loops) : m_outline(o), m_loops(std::move(loops))
     {
-        for (std::size_t j = i + 1; j < loops.size(); ++j)
+        for (std::size_t i = 0; i < m_loops.size(); ++i)
+            take_edges(i);
+    }
+
+    std::vector<Loop> merge()
+    {
+        // A loop that could be joined with none may be joined with one that has grown: those before it are asked again.
+        for (std::size_t i = 0; i < m_loops.size();)
+            i = grow(i) ? first_around(i) : i + 1;
+        std::erase_if(m_loops, [](const Loop& loop) { return loop.empty(); });
+        return std::move(m_loops);
+    }
+
+private:
+    using Edge = std::pair<int, int>;
+
+    void take_edges(std::size_t i)
+    {
+        const Loop& loop = m_loops[i];
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            m_left_of[{loop[k], loop[(k + 1) % loop.size()]}] = i;
+    }
+
+    // Those on the other side of its edges, in order.
+    [[nodiscard]] std::vector<std::size_t> neighbours(std::size_t i) const
+    {
+        std::vector<std::size_t> found;
+        const Loop& loop = m_loops[i];
+        for (std::size_t k = 0; k < loop.size(); ++k)
         {
-            Loop joined = join(loops[i], loops[j]);
-            if (joined.empty() || !is_convex_loop(o, joined))
+            const auto other = m_left_of.find({loop[(k + 1) % loop.size()], loop[k]});
+            if (other != m_left_of.end())
+                found.push_back(other->second);
+        }
+        std::ranges::sort(found);
+        return found;
+    }
+
+    bool grow(std::size_t i)
+    {
+        for (const std::size_t j : neighbours(i))
+        {
+            Loop joined = j > i ? join(m_loops[i], m_loops[j]) : Loop{};
+            if (joined.empty() || !is_convex_loop(m_outline, joined))
                 continue;
-            loops[i] = std::move(joined);
-            loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(j));
+            m_loops[i] = std::move(joined);
+            m_loops[j].clear();
+            take_edges(i);
             return true;
         }
+        return false;
     }
-    return false;
-}
+
+    [[nodiscard]] std::size_t first_around(std::size_t i) const
+    {
+        const std::vector<std::size_t> around = neighbours(i);
+        return around.empty() ? i : std::min(i, around.front());
+    }
+
+    const Outline& m_outline;
+    std::vector<Loop> m_loops;             ///< empty: joined with one before it
+    std::map<Edge, std::size_t> m_left_of; ///< the loop that runs along an edge
+};
 
 } // namespace
 
@@ -146,12 +246,8 @@ std::vector<Polygon> split_concave(std::span<const Vec2> outline)
         return {};
     if (!check.holds(!crosses_itself(o), "outline", "an outline that crosses itself", "must be simple"))
         return {};
-    std::vector<Loop> loops = clip_ears(o);
-    while (merge_one(o, loops))
-    {
-    }
     std::vector<Polygon> polygons;
-    for (const Loop& loop : loops)
+    for (const Loop& loop : Merger(o, clip_ears(o)).merge())
     {
         Polygon polygon;
         for (int i : loop)

@@ -174,7 +174,8 @@ struct LeafView
 /// The chain that has these pieces, at least one.
 [[nodiscard]] Chain chain_of(std::span<const LeafView> pieces);
 
-/// Removes repeated and collinear points and turns the outline counter-clockwise. Tolerance in m.
+/// Removes repeated points and those that lie on a line, and turns the outline counter-clockwise. No removed point is farther from the outline that is left
+/// than the tolerance, m.
 [[nodiscard]] std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance);
 [[nodiscard]] bool is_convex(std::span<const Vec2> counter_clockwise);
 [[nodiscard]] double signed_area(std::span<const Vec2> outline);
