@@ -1,6 +1,7 @@
 // Bodies: making, destroying, and the verbs of carom::Body.
 
 #include "carom/scene.h"
+#include "core/rounding.h"
 #include "dynamics/body_store.h"
 #include "dynamics/turns.h"
 #include "dynamics/wake.h"
@@ -59,6 +60,7 @@ void remove_from_broad_phase(SceneData& data, int body)
 
 BodyId Scene::create_body(const BodyDef& def)
 {
+    const internal::RoundToNearest rounding;
     if (!check_body_def(def))
         return {};
     SceneState& state = m_data->state;
@@ -294,6 +296,7 @@ namespace {
 // The body behind a verb: its record and sim, where the id is live.
 struct Target
 {
+    RoundToNearest rounding;
     SceneData& data;
     int slot;
 

@@ -1,6 +1,7 @@
 // Joints: making, changing, destroying, reading back.
 
 #include "carom/scene.h"
+#include "core/rounding.h"
 #include "core/trigonometry.h"
 #include "dynamics/body_store.h"
 #include "dynamics/turns.h"
@@ -287,6 +288,7 @@ void destroy_joint(SceneData& data, int index)
 
 JointId Scene::create_joint(const JointDef& def)
 {
+    const internal::RoundToNearest rounding;
     const Checker check{"Scene::create_joint"};
     SceneState& state = m_data->state;
     JointRecord record;
@@ -434,6 +436,7 @@ std::uint64_t ConstJoint::user_data() const
 
 void Joint::set_def(const JointDef& def)
 {
+    const internal::RoundToNearest rounding;
     const Checker check{"Joint::set_def"};
     if (!check_live(*m_data, check.function, "joint", m_id))
         return;

@@ -242,6 +242,7 @@ void destroy_shape(SceneData& data, int shape)
 
 ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDef& def)
 {
+    const internal::RoundToNearest rounding;
     constexpr const char* function = "Scene::create_shape";
     if (!check_live(*m_data, function, "body", body))
         return {};
@@ -385,6 +386,7 @@ bool ConstShape::contains(Position point) const
 
 void Shape::set_def(const ShapeDef& def)
 {
+    const internal::RoundToNearest rounding;
     constexpr const char* function = "Shape::set_def";
     if (!check_live(*m_data, function, "shape", m_id) || !check_def(function, def))
         return;
@@ -428,6 +430,7 @@ void Shape::set_def(const ShapeDef& def)
 
 void Shape::set_geometry(const Geometry& geometry)
 {
+    const internal::RoundToNearest rounding;
     constexpr const char* function = "Shape::set_geometry";
     if (!check_live(*m_data, function, "shape", m_id))
         return;

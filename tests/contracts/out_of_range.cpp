@@ -3,7 +3,9 @@
 #include "contracts/contract.h"
 
 #include <cfenv>
+#include <thread>
 #include <utility>
+#include <vector>
 
 using namespace carom;
 using namespace carom::test;
@@ -76,16 +78,40 @@ TEST_F(Contract, AMovedFromSceneIsEmpty)
     scene.step(0.1f);
 }
 
+// Of the thread that calls, and of the workers.
 TEST_F(Contract, TheRoundingModeOfTheProgramChangesNothing)
 {
-    const auto run = [](int mode)
+    std::vector<BodyDef> defs;
+    for (int i = 0; i < 200; ++i)
+        defs.push_back(
+            {.type = BodyType::Dynamic, .position = {0.3 * (i % 20), 3 + 0.7 * (i / 20)}, .angle = 0.1f * static_cast<float>(i)});
+    const auto run = [&](int mode)
     {
-        Scene s{SceneDef{}};
-        add_static(s, box(10, 0.5f));
-        for (int i = 0; i < 20; ++i)
-            add_dynamic(s, {0.3 * i, 3 + 0.2 * i}, box(0.4f, 0.3f));
         const int before = std::fegetround();
         std::fesetround(mode);
+        SceneDef def;
+        def.tasks.worker_count = 2;
+        def.tasks.run = [](void*, int count, void (*task)(void*, int), void* context)
+        {
+            const auto every_other = [&](int first)
+            {
+                for (int i = first; i < count; i += 2)
+                    task(context, i);
+            };
+            std::thread other(every_other, 0); // which inherits the mode
+            every_other(1);
+            other.join();
+        };
+        Scene s{def};
+        add_static(s, box(10, 0.5f));
+        for (const BodyDef& of : defs)
+        {
+            const BodyId body = s.create_body(of);
+            s.create_shape(body, Polygon{.vertices = {{0.3f, 0}, {0.1f, 0.31f}, {-0.37f, 0.1f}, {-0.1f, -0.3f}}},
+                           {.density = 0.7f});
+            s.body(body).apply_impulse({0.1f, 0.3f}, of.position);
+        }
+        s.create_joint(RevoluteDef{.body_a = s.bodies()[1], .body_b = s.bodies()[2], .anchor_a = {0.1f, 0.2f}});
         steps(s, 60);
         EXPECT_EQ(std::fegetround(), mode);
         std::fesetround(before);

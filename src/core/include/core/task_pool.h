@@ -4,6 +4,7 @@
 // user's workers, the result is the same, because each task writes only what is its own.
 
 #include "carom/scene.h"
+#include "core/rounding.h"
 
 #include <atomic>
 #include <cstddef>
@@ -22,7 +23,12 @@ void run_tasks(const TaskHooks& hooks, int count, const Task& task)
         return;
     }
     hooks.run(
-        hooks.user, count, [](void* context, int index) { (*static_cast<const Task*>(context))(index); },
+        hooks.user, count,
+        [](void* context, int index)
+        {
+            const RoundToNearest rounding; // the worker's is what its thread began with
+            (*static_cast<const Task*>(context))(index);
+        },
         const_cast<Task*>(&task));
 }
 
