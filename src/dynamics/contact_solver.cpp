@@ -195,9 +195,8 @@ void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bia
 
 void note_approach(const SolverView& view, ContactRow& row)
 {
-    const Pair pair(view, row);
     for (int i = 0; i < row.count; ++i)
-        row.points[i].approach = -dot(pair.relative_velocity(row.points[i]), row.n);
+        row.points[i].approach = -row_speed(view, row, row.points[i]);
 }
 
 } // namespace carom::internal

@@ -14,7 +14,7 @@
 // chain stretches without bound, give way instead: their compliance grows with the third power of the stretch, because so falls the pull. It falls again
 // by half a sub-step, lest the gap that it has left be closed at once.
 //
-// Where a wall holds what joints pull, no impulse is right: joints and contacts would outbid each other without end. The joints then yield. They are as
+// No impulse is right where a wall holds a body that joints pull: joints and contacts would outbid each other without end. The joints then yield. They are as
 // soft as their bodies are heavy, for which the turns of joints and contacts converge to one small pull, and what has opened closes slowly.
 
 #include "dynamics/joint_direct.h"
@@ -34,8 +34,7 @@ namespace carom::internal {
 namespace {
 
 constexpr float most_stretch = 1; // (omega h)²
-constexpr double most_gap =
-    0.01; // in arms: a wider one that others have made is closed by moving bodies, which gives them no speed
+constexpr double most_gap = 0.01; // in arms: wider ones that others have made are closed by moving bodies, without speed
 constexpr int newton_steps = 2;
 constexpr int most_newton_steps = 6;
 constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
@@ -290,10 +289,11 @@ void DirectSolve::solve(bool use_bias)
 {
     if (use_bias && !m_yields && find_pose_ahead())
         return;
+    const Stage stage = use_bias && m_yields ? Stage::Soft : Stage::Now;
     note_speeds();
-    if (use_bias && m_yields)
+    if (stage == Stage::Soft)
         close_slowly();
-    take_step(use_bias && m_yields ? Stage::Soft : Stage::Now);
+    take_step(stage);
 }
 
 void DirectSolve::take_step(Stage stage)
@@ -429,7 +429,7 @@ double DirectSolve::largest_error() const
     return as_double(m_view.h) * std::max(in_arms, angle);
 }
 
-// In arms, of what others than the solver have opened and it has not closed yet.
+// The widest gap, in arms, that others than the solver have opened and it has not closed yet.
 double DirectSolve::largest_gap() const
 {
     double gap = 0;
@@ -437,8 +437,10 @@ double DirectSolve::largest_gap() const
     {
         for (int r = 0; r < item.held; ++r)
         {
+            if (item.row(r).slot == slot_lock)
+                continue;
             const float open = std::min(std::fabs(item.work->moved[as_index(r)]), std::fabs(item.row(r).error));
-            gap = item.row(r).slot == slot_lock ? gap : std::max(gap, as_double(open));
+            gap = std::max(gap, as_double(open));
         }
     }
     return m_longest_arm > 0 ? gap / as_double(m_longest_arm) : 0;
@@ -479,7 +481,7 @@ void DirectSolve::close_slowly()
     }
 }
 
-// Stops come back no farther than that.
+// Stops push back no faster than overlap is pushed out.
 AxisActs DirectSolve::slow(AxisActs acts) const
 {
     const float most = m_view.h * m_view.push_speed / way_back;

@@ -72,8 +72,6 @@ Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint
 
 namespace {
 
-constexpr float least_turn = 1e-10f; // of what an arm could turn at most: less is rounding
-
 // 1 / (J M^-1 J^T) of a unit direction d at lever arms ra, rb; 0 where nothing gives way, as through the pivot of a body that only turns.
 float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, Vec2 ra, Vec2 rb)
 {
@@ -82,7 +80,7 @@ float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, V
     const float k = d.x * d.x * (a.inverse_mass.x + b.inverse_mass.x) + d.y * d.y * (a.inverse_mass.y + b.inverse_mass.y) +
                     ca * ca * a.inverse_inertia + cb * cb * b.inverse_inertia;
     const float at_most = dot(ra, ra) * a.inverse_inertia + dot(rb, rb) * b.inverse_inertia;
-    return k > least_turn * at_most ? 1 / k : 0;
+    return k > static_cast<float>(least_turn) * at_most ? 1 / k : 0;
 }
 
 // Of the normal directions of two points. Points nearly in one place share their load anyhow; solving for both would only divide noise.

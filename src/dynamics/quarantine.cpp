@@ -11,15 +11,13 @@ namespace carom::internal {
 
 namespace {
 
-// What they bore in the step is as wrong as the body's state.
-void forget_loads(SceneState& state, int body)
+// The loads of the step are as wrong as the body's state.
+void forget_loads_of_joints(SceneState& state, int body)
 {
     for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
     {
         JointRecord& joint = state.joints[edge >> 1];
-        forget_impulses(joint);
-        joint.force = {};
-        joint.torque = 0;
+        forget_loads(joint);
         joint.knows_errors = false;
     }
 }
@@ -40,7 +38,7 @@ void quarantine(StepContext& ctx, int body, float time)
     sim.angular_velocity = 0;
     sim.force = {};
     sim.torque = 0;
-    forget_loads(state, body);
+    forget_loads_of_joints(state, body);
     for_each_contact(state, body, [&](int contact) { destroy_contact(ctx.scene, contact, ctx.scene.events, time); });
     leave_awake(ctx.scene, body);
     state.bodies[body].enabled = false;

@@ -298,7 +298,7 @@ private:
         for_each_row_bin([&](int color) { some.rows[color] = 0; });
     }
 
-    // Against what does not give way: of balls, and of what joints pull.
+    // Balls and bodies in joints have a core against walls.
     void add_core(const Link& l, std::int32_t lane, SomePlaces& some) const
     {
         const bool a_gives = is_dynamic(m_unit, l.a);

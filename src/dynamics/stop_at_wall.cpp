@@ -47,7 +47,7 @@ FloatBox box_around(Position start, double radius, double dx, double dy)
                           start.x + std::max(dx, 0.0) + radius, start.y + std::max(dy, 0.0) + radius);
 }
 
-// Of the straight way of a shape's core, along which the body goes by `way`.
+// The part of a way that the core of a shape can go before it meets a wall.
 double free_part(const StepContext& ctx, int shape, const Core& core, Position start, Position way)
 {
     const SceneState& state = ctx.state;

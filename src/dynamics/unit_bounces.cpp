@@ -208,7 +208,7 @@ private:
             resolve_impact(row, approach, k, m_output);
     }
 
-    // Along the normal that it has now, when the sub-step began.
+    // The approach speed when the sub-step began, along the normal that the row has now.
     [[nodiscard]] float came_at(const ContactRow& row, const RowPoint& p) const
     {
         const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
@@ -249,10 +249,7 @@ private:
     // How much separating speed a point still lacks.
     [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
     {
-        const BodyState& a = m_view.states[row.a];
-        const BodyState& b = m_view.states[row.b];
-        const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
-        return wanted_speed(p, e, kick) - dot(v, row.n);
+        return wanted_speed(p, e, kick) - row_speed(m_view, row, p);
     }
 
     void push(const ContactRow& row, RowPoint& p, float impulse)

@@ -146,11 +146,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
     joint.force = (1 / ctx.dt) * work.force_sum;
     joint.torque = work.torque_sum / ctx.dt;
     if (!is_finite(joint.force) || !is_finite(joint.torque))
-    { // more than a number holds is nothing to go on with
-        forget_impulses(joint);
-        joint.force = {};
-        joint.torque = 0;
-    }
+        forget_loads(joint); // the solver cannot start from numbers beyond all bounds
     std::ranges::transform(work.errors(), work.moved, joint.left_errors, std::minus<>());
     joint.yields = work.yields;
 }

@@ -550,7 +550,7 @@ private:
     }
     [[nodiscard]] bool is_direct() const { return !m_joints.empty() && m_output.direct->is_ready(); }
 
-    // What holds bodies together has the last word; but nothing goes through a wall for it.
+    // Joints have the last word over contacts, unless it leads a body into a wall.
     void solve(bool use_bias)
     {
         solve_in_turns(use_bias);
@@ -861,7 +861,7 @@ private:
             record_poses(k);
     }
 
-    // Until they are closed again.
+    // Joints yield until they are closed again.
     void go_on_yielding()
     {
         const float near = m_ctx.h * m_view.push_speed;
@@ -873,7 +873,7 @@ private:
         forget_pull();
     }
 
-    // Its loads are arbitrary, and no start for the next sub-step: on a long lever they would turn a body faster than it can follow.
+    // The loads of a pull into a wall are arbitrary and no start for the next sub-step: on a long lever they turn a body faster than a sub-step can follow.
     void forget_pull()
     {
         const auto is_pulled = [&](std::int32_t a, std::int32_t b)

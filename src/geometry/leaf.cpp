@@ -67,8 +67,10 @@ public:
         const auto far = static_cast<double>(length(way));
         if (far < m_far)
             return false; // it goes back
-        const double angle = far > m_tolerance ? angle_of(way) : 0;
-        return m_far <= m_tolerance || (far > m_tolerance && angle >= m_least && angle <= m_most);
+        if (m_far <= m_tolerance)
+            return true; // no point has left the corner yet
+        const double angle = angle_of(way);
+        return angle >= m_least && angle <= m_most;
     }
 
     void pass(Vec2 p)
@@ -91,7 +93,7 @@ private:
     {
         const double across = static_cast<double>(m_along.x) * way.y - static_cast<double>(m_along.y) * way.x;
         const double along = static_cast<double>(m_along.x) * way.x + static_cast<double>(m_along.y) * way.y;
-        return m_along == Vec2{} ? 0 : arc_tangent(across, along);
+        return arc_tangent(across, along);
     }
 
     Vec2 m_from;

@@ -62,10 +62,8 @@ public:
     /// The next triangle; empty where none is left.
     Loop cut()
     {
-        if (m_rest.size() < 3 || (m_rest.size() == 3 && turn_at(0) <= 0))
-            return {};
         std::size_t ear = 0;
-        while (m_rest.size() > 3 && ear < m_rest.size() && !is_ear(ear))
+        while (ear < m_rest.size() && !is_ear(ear))
             ++ear;
         if (ear == m_rest.size())
             return {}; // only points in line are left
@@ -121,11 +119,7 @@ std::vector<Loop> clip_ears(const Outline& o)
     std::vector<Loop> triangles;
     Ears ears(o);
     for (Loop triangle = ears.cut(); !triangle.empty(); triangle = ears.cut())
-    {
         triangles.push_back(triangle);
-        if (static_cast<int>(triangles.size()) + 2 >= static_cast<int>(o.points.size()))
-            break;
-    }
     return triangles;
 }
 

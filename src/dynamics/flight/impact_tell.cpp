@@ -1,11 +1,10 @@
 // What the user hears of an impact.
 
 #include "core/grow.h"
+#include "core/refuse.h"
 #include "dynamics/body_store.h"
 #include "dynamics/contact_store.h"
 #include "dynamics/flight/impact_set.h"
-
-#include "core/refuse.h"
 
 #include <algorithm>
 #include <cmath>

@@ -47,8 +47,6 @@ void push_along(Bodies& bodies, const ImpactRow& r, const Direction& d, double i
     b.w += b.inverse_inertia * impulse * d.turn_b;
 }
 
-constexpr double least_turn = 1e-10; // of what an arm could turn at most: less is rounding
-
 // 1 / m of the direction: J M^-1 J^T; 0 where nothing gives way, as through the pivot of a body that only turns.
 double compliance(const Bodies& bodies, const ImpactRow& r, const Direction& d)
 {

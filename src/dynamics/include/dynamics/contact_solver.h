@@ -38,7 +38,7 @@ void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bia
 void note_approach(const SolverView& view, ContactRow& row);
 
 [[nodiscard]] float row_separation(const SolverView& view, const ContactRow& row, const RowPoint& point);
-/// At which it grows.
+/// The speed at which the separation grows, m/s.
 [[nodiscard]] float row_speed(const SolverView& view, const ContactRow& row, const RowPoint& point);
 
 void apply_impulse(BodyState& state, const StateConstants& constants, Vec2 arm, Vec2 impulse);

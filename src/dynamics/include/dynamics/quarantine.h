@@ -9,7 +9,7 @@ namespace carom::internal {
 /// Takes a body whose motion is no longer finite out of the simulation, at its last finite pose and at rest: its contacts end, it is
 /// disabled and reported, and the rest of the world goes on.
 void quarantine(StepContext& ctx, int body, float time);
-/// What the step would tell of these bodies: blows, and touches that began in it with their ends.
+/// Removes the step's events of these bodies: blows, and touches that began in the step with their ends.
 void forget_events_of(StepContext& ctx, std::span<const std::int32_t> bodies);
 
 } // namespace carom::internal

@@ -31,6 +31,9 @@ struct Softness
     return {omega / a1, a2 * a3, a3};
 }
 
+/// An inverse mass below this share of what its arms could give at most is rounding: nothing gives way.
+inline constexpr double least_turn = 1e-10;
+
 /// Of a body, at another time than now; or how much they have changed.
 struct BodySpeeds
 {

@@ -353,6 +353,12 @@ struct JointRecord
 };
 
 inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }
+inline void forget_loads(JointRecord& joint)
+{
+    forget_impulses(joint);
+    joint.force = {};
+    joint.torque = 0;
+}
 
 struct SceneState
 {

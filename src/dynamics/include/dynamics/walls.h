@@ -27,7 +27,7 @@ public:
 
     /// The last line of defence, for what something far heavier presses into a wall: moves it back where it is deeper than half of what is inside it.
     void guard_cores() const;
-    /// Of the groups first to last alone.
+    /// The same for the lanes of groups first to last alone.
     void guard_wide_cores(int first, int last) const;
 
 private:
