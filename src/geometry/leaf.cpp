@@ -3,6 +3,7 @@
 #include "core/refuse.h"
 #include "core/trigonometry.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::internal {

@@ -1,5 +1,7 @@
 #include "dynamics/flight/reflect.h"
 
+#include "dynamics/rows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -95,7 +95,6 @@ private:
     [[nodiscard]] bool is_worth_telling(const Blow& blow) const;
     [[nodiscard]] bool own_is_a(const Source& s) const;
     [[nodiscard]] ImpactEvent event_of(const Strike& strike) const;
-    [[nodiscard]] float point_mass(int member, const ImpactRow& row, double turn) const;
 
     // What goes on pressing: impact_hold.cpp
     void hold_what_presses(std::vector<std::int32_t>& changed);
