@@ -14,8 +14,12 @@
 // chain stretches without bound, give way instead: their compliance grows with the third power of the stretch, because so falls the pull. It falls again
 // by half a sub-step, lest the gap that it has left be closed at once.
 //
-// No impulse is right where a wall holds a body that joints pull: joints and contacts would outbid each other without end. The joints then yield. They are as
-// soft as their bodies are heavy, for which the turns of joints and contacts converge to one small pull, and what has opened closes slowly.
+// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. The compliance bounds what they then bear, if the
+// error that they act on is bounded: a pull that is wide beside the arms turns bodies to where it is another one.
+//
+// No impulse is right where a wall holds a body that joints pull: joints and contacts would outbid each other without end. The joints then yield, as they do
+// where they stay far apart. They are as soft as their bodies are heavy, for which the turns of joints and contacts converge to one small pull, and what has
+// opened closes slowly.
 
 #include "dynamics/joint_direct.h"
 
@@ -33,8 +37,10 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float most_stretch = 1; // (omega h)²
-constexpr double most_gap = 0.01; // in arms: wider ones that others have made are closed by moving bodies, without speed
+constexpr float most_stretch = 1;  // (omega h)²
+constexpr double most_gap = 0.01;  // in arms: wider ones that others have made are closed by moving bodies, without speed
+constexpr double most_pull = 0.25; // in arms, or rad: rows that may contradict each other act as if they were off by no more
+constexpr double most_contradiction = 0.5; // likewise: where they are off by more and stay so, they yield
 constexpr int newton_steps = 2;
 constexpr int most_newton_steps = 6;
 constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
@@ -72,7 +78,7 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
         m_matrix.fill(m_jacobians, m_masses);
         m_factored_with = -1;
     }
-    if (m_ready && m_matrix.has_loops())
+    if (m_ready && m_may_contradict)
         m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0, most_softening);
 }
 
@@ -151,6 +157,7 @@ bool DirectSolve::place()
     for (Node& n : m_nodes)
         n.stretch = 0;
     bool changed = std::exchange(m_is_new, false);
+    m_may_contradict = m_matrix.has_loops() || std::ranges::any_of(m_nodes, [&](const Node& n) { return is_locked(n); });
     float longest = 0;
     for (std::size_t i = 0; i < m_items.size(); ++i)
     {
@@ -219,6 +226,9 @@ void DirectSolve::fill_jacobian(const Item& item, JointJacobian& jacobian) const
         jacobian.a[r] = as_triple(-line.d, -line.arm_a);
         jacobian.b[r] = as_triple(line.d, line.arm_b);
     }
+    const JointPose& pose = item.work->pose;
+    jacobian.arm_a = as_double(dot(pose.ra, pose.ra));
+    jacobian.arm_b = as_double(dot(pose.rb, pose.rb));
 }
 
 void DirectSolve::note_stretch(const Item& item)
@@ -233,11 +243,18 @@ void DirectSolve::note_stretch(const Item& item)
     node(item.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
 }
 
+// Along a line: what it cannot follow, others must.
+bool DirectSolve::is_locked(const Node& node) const
+{
+    return node.state != none &&
+           (m_view.constants[node.state].inverse_mass.x == 0 || m_view.constants[node.state].inverse_mass.y == 0);
+}
+
 Triple DirectSolve::inverse_mass(const Node& node) const
 {
     const StateConstants& c = m_view.constants[node.state];
     const bool counts_as_harder =
-        m_mass_kind == Masses::Loaded && !m_matrix.has_loops() && node.stretch > most_stretch; // loops give way instead
+        m_mass_kind == Masses::Loaded && !m_may_contradict && node.stretch > most_stretch; // loops give way instead
     const float share = counts_as_harder ? most_stretch / node.stretch : 1;
     return as_triple(c.inverse_mass, share * c.inverse_inertia);
 }
@@ -285,6 +302,14 @@ void DirectSolve::add_spring(Node& node, float stiffness, Vec2 d, float arm) con
 
 // --- the passes ---------------------------------------------------------------------------------------------------------------------
 
+void DirectSolve::yield()
+{
+    m_yields = true;
+    m_turns_too_far = false;
+    for (JointWork& work : m_joints)
+        work.yields = true;
+}
+
 void DirectSolve::solve(bool use_bias)
 {
     if (use_bias && !m_yields && find_pose_ahead())
@@ -298,6 +323,8 @@ void DirectSolve::solve(bool use_bias)
 
 void DirectSolve::take_step(Stage stage)
 {
+    if (stage == Stage::Ahead && m_may_contradict)
+        limit_speeds();
     find_impulses(stage);
     take_velocities();
     take_impulses();
@@ -313,7 +340,7 @@ bool DirectSolve::find_pose_ahead()
         note_errors_ahead();
     }
     const double before = largest_error();
-    m_turns_too_far = (before > 1 || largest_gap() > most_gap) && !m_matrix.has_loops();
+    m_turns_too_far = (before > 1 && !m_may_contradict) || largest_gap() > most_gap;
     if (m_turns_too_far)
         return false;
     m_spring_softening = 1;
@@ -324,13 +351,16 @@ bool DirectSolve::find_pose_ahead()
         note_errors_ahead();
         const double after = largest_error();
         m_turns_too_far = after > 0.5 * std::max(before, turn) && after > 1e-3;
-        if (!m_turns_too_far || (m_matrix.has_loops() && !may_soften()))
+        const bool contradicts = m_may_contradict && after > most_contradiction;
+        if (!m_turns_too_far || (m_may_contradict && !contradicts && !may_soften()))
             break;
         take_back();
         if (!may_soften())
         {
-            if (m_spring_softening > 1) // nor may what springs gave before go on
+            if (m_spring_softening > 1 || contradicts) // nor may what springs gave before go on
                 start_anew();
+            if (contradicts)
+                yield();
             return false;
         }
         soften();
@@ -356,7 +386,7 @@ bool DirectSolve::find_pose_ahead()
 bool DirectSolve::may_soften() const
 {
     const bool has_springs = std::ranges::any_of(m_axes, [](const Axis& axis) { return axis.law.spring.is_there(); });
-    return (m_matrix.has_loops() && m_softening < most_softening) || (has_springs && m_spring_softening < most_softening);
+    return (m_may_contradict && m_softening < most_softening) || (has_springs && m_spring_softening < most_softening);
 }
 
 void DirectSolve::soften()
@@ -471,6 +501,25 @@ void DirectSolve::note_speeds()
     }
 }
 
+// At which a row that may contradict others closes. Overlap is pushed out at as much.
+float DirectSolve::most_speed(const JointRow& row) const
+{
+    return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.d == Vec2{} ? 1 : m_longest_arm);
+}
+
+void DirectSolve::limit_speeds()
+{
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            const double most = as_double(most_speed(item.row(r)));
+            double& speed = m_speeds[as_index(item.first_row + r)];
+            speed = std::clamp(speed, -most, most);
+        }
+    }
+}
+
 void DirectSolve::close_slowly()
 {
     const double most = as_double(m_view.push_speed);
@@ -481,10 +530,10 @@ void DirectSolve::close_slowly()
     }
 }
 
-// Stops push back no faster than overlap is pushed out.
-AxisActs DirectSolve::slow(AxisActs acts) const
+// Stops push back no faster than that.
+AxisActs DirectSolve::slow(AxisActs acts, float speed) const
 {
-    const float most = m_view.h * m_view.push_speed / way_back;
+    const float most = m_view.h * speed / way_back;
     acts.lower_error = std::max(acts.lower_error, -most);
     acts.upper_error = std::max(acts.upper_error, -most);
     return acts;
@@ -509,7 +558,7 @@ void DirectSolve::find_impulses(Stage stage)
 
 void DirectSolve::begin_axes(Stage stage)
 {
-    m_compliance = !m_matrix.has_loops() ? 0 : stage == Stage::Ahead ? loop_compliance * m_softening : loop_compliance;
+    m_compliance = !m_may_contradict ? 0 : stage == Stage::Ahead ? loop_compliance * m_softening : loop_compliance;
     m_leak = stage == Stage::Ahead ? m_compliance : 0;
     if (m_yields && stage != Stage::Held)
         m_compliance = m_leak = std::max(m_compliance, yielding_compliance);
@@ -526,9 +575,13 @@ void DirectSolve::begin_axes(Stage stage)
         axis.restore = axis_impulses(*item.record);
         if (stage == Stage::Held)
             continue;
-        axis.law = stage == Stage::Ahead  ? rows.acts.law_ahead(item.work->spring, m_view.h)
-                   : stage == Stage::Soft ? slow(rows.acts).law_ahead(item.work->spring, m_view.h)
-                                          : rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
+        AxisActs acts = rows.acts;
+        if (stage == Stage::Soft)
+            acts = slow(acts, m_view.push_speed);
+        else if (m_may_contradict)
+            acts = slow(acts, most_speed(rows.axis));
+        axis.law = stage == Stage::Now ? rows.acts.law_now(axis.restore, item.work->bounce, m_view.h)
+                                       : acts.law_ahead(item.work->spring, m_view.h);
         for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
             spring->compliance *= m_spring_softening;
         axis.before = axis.law.scope.sum(axis.restore);
@@ -759,6 +812,12 @@ void DirectSolve::close_gaps()
     }
 }
 
+void DirectSolve::yield_to_gaps()
+{
+    if (m_ready && m_may_contradict && largest_gap() > most_gap)
+        yield();
+}
+
 void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
     for (int i = 0; i < 4; ++i)
@@ -768,6 +827,8 @@ void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, 
         if (direct.is_ready())
             direct.close_gaps();
     }
+    place_joints(view, state, joints);
+    direct.yield_to_gaps();
 }
 
 } // namespace carom::internal

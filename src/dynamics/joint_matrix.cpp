@@ -21,11 +21,14 @@ namespace {
 
 constexpr double least_rest = 1e-10; // of a diagonal entry, once what comes before is taken out
 
-// Along the line of a row; about the axis, where it is of an angle.
-double weight_of(const Triple& by_a, const Triple& a, const Triple& by_b, const Triple& b)
+// Of one body along the line of a row, in the direction in which it gives way most; about the axis, where the row is of an angle.
+double weight_of(const Triple& j, double arm, const Triple& mass)
 {
-    const double line = by_a.x * a.x + by_a.y * a.y + by_b.x * b.x + by_b.y * b.y;
-    return line > 0 ? line : by_a.turn * a.turn + by_b.turn * b.turn;
+    const double line = j.x * j.x + j.y * j.y;
+    if (line == 0)
+        return j.turn * j.turn * mass.turn;
+    const double along = std::max(mass.x, mass.y);
+    return line * (along > 0 ? along : arm * mass.turn);
 }
 
 void insert(std::vector<int>& sorted, int value)
@@ -213,7 +216,8 @@ void JointMatrix::fill_own(std::size_t edge, const JointJacobian& jacobian, std:
         const Triple by_b = product(jacobian.b[r], masses[as_index(e.b)]);
         const std::size_t row = as_index(first_row(edge) + r);
         m_diagonal[row] = dot(by_a, jacobian.a[r]) + dot(by_b, jacobian.b[r]);
-        m_weights[row] = weight_of(by_a, jacobian.a[r], by_b, jacobian.b[r]);
+        m_weights[row] = weight_of(jacobian.a[r], jacobian.arm_a, masses[as_index(e.a)]) +
+                         weight_of(jacobian.b[r], jacobian.arm_b, masses[as_index(e.b)]);
         for (int q = r + 1; q < e.rows; ++q)
             m_entries[as_index(m_column_starts[row] + q - r - 1)] = dot(by_a, jacobian.a[q]) + dot(by_b, jacobian.b[q]);
     }

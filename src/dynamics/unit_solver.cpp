@@ -877,7 +877,7 @@ private:
     void forget_pull()
     {
         const auto is_pulled = [&](std::int32_t a, std::int32_t b)
-        { return ((m_view.states[a].flags | m_view.states[b].flags) & body_flag::pressed) != 0; };
+        { return ((m_view.states[a].flags | m_view.states[b].flags) & body_flag::jointed) != 0; };
         for (const JointWork& work : m_joints)
         {
             forget_impulses(m_ctx.state.joints[work.joint]);

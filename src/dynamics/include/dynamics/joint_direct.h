@@ -30,12 +30,8 @@ public:
     /// Once a step: springs that share bodies swing faster together than each alone, and damp what a sub-step cannot follow.
     void fit_springs();
     [[nodiscard]] bool is_ready() const { return m_ready; }
-    /// A wall holds what they pull. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap is pushed out.
-    void yield()
-    {
-        m_yields = true;
-        m_turns_too_far = false;
-    }
+    /// A wall or others hold what they pull. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap is pushed out.
+    void yield();
     [[nodiscard]] bool yields() const { return m_yields; }
     void warm_start();
     void solve(bool use_bias);
@@ -47,6 +43,8 @@ public:
     [[nodiscard]] bool turns_too_far() const { return m_turns_too_far; }
     /// Moves the bodies and leaves their velocities: one step of Newton's.
     void close_gaps();
+    /// That no move has closed.
+    void yield_to_gaps();
 
 private:
     enum class Stage
@@ -124,6 +122,7 @@ private:
     [[nodiscard]] bool place();
     void fill_jacobian(const Item& item, JointJacobian& jacobian) const;
     void note_stretch(const Item& item);
+    [[nodiscard]] bool is_locked(const Node& node) const;
     [[nodiscard]] Triple inverse_mass(const Node& node) const;
     void add_spring(Node& node, float stiffness, Vec2 d, float arm) const;
     [[nodiscard]] Node& node(int i) { return m_nodes[static_cast<std::size_t>(i)]; }
@@ -140,9 +139,11 @@ private:
     [[nodiscard]] double largest_gap() const;
     [[nodiscard]] double largest_turn() const;
     void start_anew();
+    [[nodiscard]] float most_speed(const JointRow& row) const;
+    void limit_speeds();
     void close_slowly();
     [[nodiscard]] double axis_leak() const { return m_yields ? m_leak : 0; }
-    [[nodiscard]] AxisActs slow(AxisActs acts) const;
+    [[nodiscard]] AxisActs slow(AxisActs acts, float speed) const;
 
     void take_step(Stage stage);
     void give_blow(Stage stage);
@@ -165,6 +166,7 @@ private:
     bool m_looks_again = true;
     bool m_fits = false; ///< there is something to solve, and not too much
     bool m_ready = false;
+    bool m_may_contradict = false; ///< rows of loops, and of bodies that are locked
     Masses m_mass_kind = Masses::Own;
     bool m_turns_too_far = false;
     bool m_yields = false;

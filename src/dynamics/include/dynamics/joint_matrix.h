@@ -38,6 +38,8 @@ struct JointJacobian
 {
     Triple a[most_joint_rows];
     Triple b[most_joint_rows];
+    double arm_a = 0; ///< squared, of the anchors
+    double arm_b = 0;
 };
 
 class JointMatrix
@@ -61,7 +63,7 @@ public:
     [[nodiscard]] int first_row(std::size_t edge) const { return m_first_row[edge]; }
     [[nodiscard]] bool has_loops() const { return m_has_loops; }
 
-    /// The inverse mass of a row's two bodies along it, or inertia, that compliances are measured by.
+    /// The inverse mass of a row's two bodies along it, or inertia, that compliances are measured by. A body that may only turn has that of the anchor.
     [[nodiscard]] double weight(int row) const { return m_weights[static_cast<std::size_t>(row)]; }
 
     /// J M^-1 J^T. Jacobians by edge; masses are inverse and by node.

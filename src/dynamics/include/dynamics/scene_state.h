@@ -324,7 +324,7 @@ struct JointRecord
     bool collide_connected = true;
     bool enable_limit = false;
     bool enable_motor = false;
-    bool yields = false;        ///< pulls into a wall that holds it open, see DirectSolve::yield
+    bool yields = false;        ///< held open, by a wall or by others, see DirectSolve::yield
     bool knows_errors = true;   ///< left_errors are those of the bodies as they stand
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
