@@ -30,8 +30,8 @@ enum class StepFlag : std::uint32_t
     /// A body's state became non-finite. It was put back and disabled; see StepReport::quarantined. Look for huge forces,
     /// impulses or masses near zero.
     BodyQuarantined = 1u << 0,
-    /// A body hit things more often in one sub-step than is resolved exactly (64 times, 16 in a crowd); it stopped at the last impact.
-    /// Use a smaller step, or check for a ball locked between two moving walls.
+    /// A body hit things more often in one sub-step than is resolved exactly (64 times, 16 in a crowd); it stopped at the last impact,
+    /// or went on as one with what it was jammed with. Use a smaller step, or check for a ball locked between two moving walls.
     ImpactsCapped = 1u << 1,
     /// More colours than the constraint graph has: some contacts are solved serially. Check for one dynamic body
     /// that touches very many others; make it kinematic or static, or split it.

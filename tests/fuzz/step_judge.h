@@ -52,7 +52,8 @@ public:
             m_is_disturbed = m_meddled;
         if (!m_is_calm)
             return;
-        momentum_is_kept(scene, time);
+        if (!scene.report().has(StepFlag::ImpactsCapped)) // what stops in its way misses forces
+            momentum_is_kept(scene, time);
         no_energy_comes(scene);
     }
 

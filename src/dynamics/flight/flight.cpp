@@ -291,7 +291,8 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     if (unit.flier_count == 0)
         return;
     const FlightSpan span(ctx, unit, k, output);
-    output.impact_work.left = (work_of_unit + work_of_flier * unit.flier_count) / ctx.slices;
+    const std::int64_t work = (work_of_unit + work_of_flier * unit.flier_count) / ctx.slices;
+    output.impact_work = {.left = work, .whole = work};
     output.struck_states.clear();
     for (Flier& f : span.fliers())
         start_flight(span, f);

@@ -38,10 +38,13 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
 {
     gather();
     note_before();
-    m_span.output.impact_work.spend(work_of_an_impact);
-    const bool is_jammed = !reflect(
-        m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, m_span.output.impact_work,
-        m_blows);
+    ImpactWork& work = m_span.output.impact_work;
+    const bool has_all_work = work.is_whole();
+    work.spend(work_of_an_impact);
+    bool is_jammed =
+        !reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, work, m_blows);
+    if (is_jammed && (has_all_work || !work.is_spent()))
+        is_jammed = !unite_jammed(); // the next sub-step would not get any further
     note_stopped_joints();
     for (std::size_t i = 0; i < m_members.size(); ++i)
         write_back(i, changed);

@@ -78,6 +78,10 @@ private:
     void deflect(Flier& f, const ImpactBody& now, bool struck) const;
     void defer(int index) const;
 
+    // Where they are jammed: impact_jam.cpp
+    class Jam;
+    [[nodiscard]] bool unite_jammed();
+
     // What the user hears: impact_tell.cpp
     /// A blow of one contact, or of both that two flat faces have.
     struct Strike

@@ -94,8 +94,10 @@ using BounceLaw = std::function<Bounce(int row, double approach)>;
 struct ImpactWork
 {
     std::int64_t left = std::int64_t{1} << 60;
+    std::int64_t whole = left;
 
     void spend(std::size_t rows) { left -= static_cast<std::int64_t>(rows); }
+    [[nodiscard]] bool is_whole() const { return left == whole; }
     [[nodiscard]] bool is_spent() const { return left <= 0; }
 };
 
