@@ -124,7 +124,7 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
 float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives)
 {
     auto depth = static_cast<float>(0.5 * inner_radius(leaf_view(state, a_gives ? contact.shape_a : contact.shape_b)));
-    for (int i = 0; i < manifold.count && (contact.flags & contact_flag::round) == 0; ++i)
+    for (int i = 0; i < manifold.count; ++i)
         depth = std::max(depth, -manifold.points[i].separation);
     return depth;
 }
