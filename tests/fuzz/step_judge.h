@@ -32,7 +32,7 @@ public:
     /// Before a step or an update.
     void begin(const Scene& scene)
     {
-        m_is_calm = m_is_passive && !m_is_disturbed && is_closed(scene);
+        m_is_calm = m_is_passive && !m_is_disturbed && length(scene.gravity()) < most_gravity && is_closed(scene);
         m_energy = energy(scene);
         m_bodies = groups(scene);
     }
@@ -67,6 +67,7 @@ public:
 
 private:
     static constexpr float longest_judged = 0.05f; ///< s; in longer steps joints and orbits are not followed
+    static constexpr float most_gravity = 100;     ///< m/s²; likewise
 
     using Pair = std::pair<ShapeId, ShapeId>;
 
@@ -194,7 +195,8 @@ private:
 
     static void blow_agrees(const ImpactEvent& e)
     {
-        const float rounding = 1e-5f * (length(e.velocity_a) + length(e.velocity_b));
+        const float rounding =
+            1e-5f * (length(e.velocity_a) + length(e.velocity_b) + length(e.velocity_after_a) + length(e.velocity_after_b));
         require(e.impulse >= 0 && e.approach_speed >= -rounding,
                 "an impact of " + std::to_string(e.impulse) + " N s at " + std::to_string(e.approach_speed) + " m/s");
         const Vec2 p = e.impulse * e.normal + e.friction_impulse * perp(e.normal);

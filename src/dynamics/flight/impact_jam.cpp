@@ -14,9 +14,6 @@ namespace {
 
 bool may_move(const ImpactBody& b) { return b.inverse_mass_x > 0 || b.inverse_mass_y > 0 || b.inverse_inertia > 0; }
 
-// Neither hinged nor locked: its motion can be any.
-bool is_free(const ImpactBody& b) { return b.inverse_mass_x > 0 && b.inverse_mass_y > 0 && b.inverse_inertia > 0; }
-
 /// Of a rigid body, at a point of it.
 struct RigidMotion
 {
@@ -53,6 +50,15 @@ public:
     }
 
 private:
+    // Neither locked nor in a joint: its motion can be any.
+    [[nodiscard]] bool is_free(std::size_t i) const
+    {
+        const ImpactBody& b = m_start[i];
+        const auto holds = [i](const ImpactRow& row)
+        { return row.kind != ImpactRow::Kind::Contact && (as_index(row.a) == i || as_index(row.b) == i); };
+        return b.inverse_mass_x > 0 && b.inverse_mass_y > 0 && b.inverse_inertia > 0 && std::ranges::none_of(m_of.m_rows, holds);
+    }
+
     [[nodiscard]] bool approaches(const ImpactRow& row) const
     {
         return row.kind == ImpactRow::Kind::Contact && gap_rate(m_of.m_bodies, row) < -m_of.m_span.least_approach;
@@ -82,7 +88,7 @@ private:
             if (m_groups[i] != group || !may_move(b))
                 continue;
             const CenterPath& at = m_of.m_members[i].path.center;
-            const bool follows = is_free(b);
+            const bool follows = is_free(i);
             b.vx = follows ? motion.vx - motion.w * (at.y - motion.y) : 0;
             b.vy = follows ? motion.vy + motion.w * (at.x - motion.x) : 0;
             b.w = follows ? motion.w : 0;
@@ -96,7 +102,7 @@ private:
         {
             const ImpactBody& b = m_start[i];
             const CenterPath& at = m_of.m_members[i].path.center;
-            if (m_groups[i] == group && !is_free(b))
+            if (m_groups[i] == group && !is_free(i))
                 return may_move(b) ? RigidMotion{} : RigidMotion{at.x, at.y, b.vx, b.vy, b.w};
         }
         return mean_motion(group);

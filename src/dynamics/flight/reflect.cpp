@@ -170,7 +170,9 @@ private:
     const std::vector<ImpactRow>& m_rows;
 };
 
-// False where the work was spent before the rows agreed.
+constexpr double agreed = 1e-6; // of what is demanded: rates that change by less from pass to pass give no energy to speak of
+
+// False where the rows have not come to agree, or the work was spent before.
 bool satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
 {
     double scale = 0;
@@ -188,7 +190,7 @@ bool satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Dem
         if (work.is_spent() && pass + 1 >= least_passes)
             return false;
     }
-    return true;
+    return passes.worst <= agreed * scale;
 }
 
 // v M u
