@@ -76,3 +76,29 @@ TEST(MotionLocks, HoldWhoeverGivesTheSpeed)
         }
     }
 }
+
+// Between a body that is locked on all axes and a plate that moves as told nothing gives way: in a crowd its contacts read NaN after some steps.
+TEST(Locks, WhatALockedBodyBearsIsANumber)
+{
+    Scene scene;
+    for (int i = 0; i < 240; ++i)
+    {
+        const bool is_locked = i < 20;
+        const BodyId body = scene.create_body({.type = BodyType::Dynamic,
+                                               .position = {1.0 * (i % 20), 0.5 + i / 20},
+                                               .locks = {.linear_x = is_locked, .linear_y = is_locked, .angular = is_locked}});
+        scene.create_shape(body, box(0.5f, 0.5f), {});
+    }
+    const BodyId plate = scene.create_body({.type = BodyType::Kinematic, .position = {10, -3}, .velocity = {0, 30}});
+    scene.create_shape(plate, box(12, 1), {});
+    for (int i = 0; i < 30; ++i)
+    {
+        scene.step(1.0f / 60);
+        for (const ContactInfo& c : scene.contacts())
+        {
+            for (int k = 0; k < c.point_count; ++k)
+                ASSERT_TRUE(std::isfinite(c.points[k].normal_impulse) && std::isfinite(c.points[k].friction_impulse))
+                    << "step " << i;
+        }
+    }
+}

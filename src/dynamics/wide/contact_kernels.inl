@@ -98,6 +98,7 @@ CAROM_INLINE void for_each_group(const WideBin& bin, const Pass& pass)
 }
 
 constexpr float least_k = std::numeric_limits<float>::min();
+constexpr float unyielding = 1e15f; // 1/kg; its square is a number, too
 
 // The bodies of a group and their relative velocity in the contact's frame.
 template <class F>
@@ -126,12 +127,13 @@ struct Group
         pn = pt = all<F>(0);
     }
 
-    // J M^-1 J^T of the normal; not 0 in empty lanes either.
+    // J M^-1 J^T of the normal. Where nothing gives way, as in empty lanes, no impulse is to speak of.
     CAROM_INLINE F k(const WidePoint& p) const
     {
         const F across_a = read<F>(p.across_a);
         const F across_b = read<F>(p.across_b);
-        return greatest(mass + across_a * across_a * inertia_a + across_b * across_b * inertia_b, all<F>(least_k));
+        const F sum = mass + across_a * across_a * inertia_a + across_b * across_b * inertia_b;
+        return select(sum > all<F>(least_k), sum, all<F>(unyielding));
     }
 
     CAROM_INLINE F normal_speed(const WidePoint& p) const { return vn + read<F>(p.across_b) * b.w - read<F>(p.across_a) * a.w; }
