@@ -461,7 +461,6 @@ void set_force_law(Session& s, Choices& c)
 
 void take_step(Session& s, float h)
 {
-    s.judge.step_begins();
     s.judge.begin(s.scene);
     s.scene.step(h);
     s.judge.end(s.scene, h);
@@ -469,7 +468,6 @@ void take_step(Session& s, float h)
 
 void take_update(Session& s, Choices& c)
 {
-    s.judge.step_begins();
     s.judge.begin(s.scene);
     const double before = s.scene.time();
     const float frame = c.number() / 16;

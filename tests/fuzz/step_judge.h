@@ -32,9 +32,10 @@ public:
     /// Before a step or an update.
     void begin(const Scene& scene)
     {
+        m_meddled = false;
         m_is_calm = m_is_passive && !m_is_disturbed && length(scene.gravity()) < most_gravity && is_closed(scene);
         m_energy = energy(scene);
-        m_bodies = groups(scene);
+        m_bodies = momenta(scene);
     }
 
     /// After it, where it was not refused.
@@ -63,7 +64,6 @@ public:
     void disturb() { m_is_disturbed = true; }
     /// A callback has changed something in this step.
     void meddle() { m_meddled = m_is_disturbed = true; }
-    void step_begins() { m_meddled = false; }
 
 private:
     static constexpr float longest_judged = 0.05f; ///< s; in longer steps joints and orbits are not followed
@@ -167,24 +167,20 @@ private:
         std::erase_if(open, [](const auto& entry) { return entry.second == 0; });
     }
 
+    static Pair in_order(ShapeId a, ShapeId b) { return BySlot{}({a, b}, {b, a}) ? Pair{a, b} : Pair{b, a}; }
+
     void touches_are_paired(const Scene& scene)
     {
-        const auto shapes = [](const auto& e)
-        {
-            return BySlot::key({e.shape_a, e.shape_b}) < BySlot::key({e.shape_b, e.shape_a}) ? Pair{e.shape_a, e.shape_b}
-                                                                                             : Pair{e.shape_b, e.shape_a};
-        };
-        count(m_touching, scene.contact_begins(), scene.contact_ends(), shapes, "a touch");
+        count(
+            m_touching, scene.contact_begins(), scene.contact_ends(),
+            [](const auto& e) { return in_order(e.shape_a, e.shape_b); }, "a touch");
         count(
             m_inside, scene.trigger_enters(), scene.trigger_exits(),
             [](const TriggerEvent& e) { return Pair{e.trigger, e.visitor}; }, "a visit");
         for (const ContactInfo& c : scene.contacts())
         {
-            const Pair pair = BySlot::key({c.shape_a, c.shape_b}) < BySlot::key({c.shape_b, c.shape_a})
-                                  ? Pair{c.shape_a, c.shape_b}
-                                  : Pair{c.shape_b, c.shape_a};
             if (c.touching && !m_meddled)
-                require(m_touching.contains(pair), "a contact touches whose begin was not told");
+                require(m_touching.contains(in_order(c.shape_a, c.shape_b)), "a contact touches whose begin was not told");
         }
     }
 
@@ -228,7 +224,7 @@ private:
     }
 
     // Free bodies as they are.
-    static std::vector<Momentum> groups(const Scene& scene)
+    static std::vector<Momentum> momenta(const Scene& scene)
     {
         std::vector<Momentum> bodies;
         for (const BodyId id : scene.bodies())
@@ -241,77 +237,97 @@ private:
         return bodies;
     }
 
-    // Groups of bodies that joints and blows and touches connect, and nothing holds from outside.
-    void momentum_is_kept(const Scene& scene, float time)
+    // Bodies that joints and blows and touches connect, by union-find.
+    class Groups
     {
-        const std::vector<Momentum> now = groups(scene);
-        if (now.size() != m_bodies.size())
-            return;
-        std::vector<std::size_t> group(now.size());
-        std::iota(group.begin(), group.end(), std::size_t{0});
-        const auto find = [&](std::size_t i)
+    public:
+        Groups(const Scene& scene, const std::vector<Momentum>& bodies) : m_bodies(bodies), m_parents(bodies.size())
         {
-            while (group[i] != i)
-                i = group[i];
+            std::iota(m_parents.begin(), m_parents.end(), std::size_t{0});
+            m_held.resize(bodies.size());
+            for (const JointId id : scene.joints())
+                connect(scene.joint(id).body_a(), scene.joint(id).body_b());
+            connect_all(scene.impacts());
+            connect_all(scene.contact_begins());
+            connect_all(scene.contact_ends());
+            connect_contacts(scene, scene.contacts());
+            for (const Momentum& body : bodies) // some touch for less than the step
+                connect_contacts(scene, scene.body(body.body).touches_now());
+        }
+
+        [[nodiscard]] std::size_t of(std::size_t i) const
+        {
+            while (m_parents[i] != i)
+                i = m_parents[i];
             return i;
-        };
-        const auto index = [&](BodyId id)
+        }
+        /// By the world, or by what is gone.
+        [[nodiscard]] bool is_held(std::size_t i) const { return m_held[i]; }
+
+    private:
+        [[nodiscard]] std::size_t index(BodyId id) const
         {
-            for (std::size_t i = 0; i < now.size(); ++i)
-            {
-                if (now[i].body == id)
-                    return i;
-            }
-            return now.size();
-        };
-        std::vector<bool> held(now.size(), false);
-        const auto connect = [&](BodyId a, BodyId b)
+            return static_cast<std::size_t>(std::ranges::find(m_bodies, id, &Momentum::body) - m_bodies.begin());
+        }
+
+        void connect(BodyId a, BodyId b)
         {
             const std::size_t i = index(a);
             const std::size_t j = index(b);
-            if (i < now.size() && j < now.size())
-                group[find(i)] = find(j);
-            else if (i < now.size())
-                held[i] = true;
-            else if (j < now.size())
-                held[j] = true;
-        };
-        for (const JointId id : scene.joints())
-            connect(scene.joint(id).body_a(), scene.joint(id).body_b());
-        for (const ContactInfo& c : scene.contacts())
-            connect(scene.shape(c.shape_a).body(), scene.shape(c.shape_b).body());
-        for (const ImpactEvent& e : scene.impacts())
-            connect(e.body_a, e.body_b);
-        for (const ContactBeginEvent& e : scene.contact_begins())
-            connect(e.body_a, e.body_b);
-        for (const ContactEndEvent& e : scene.contact_ends())
-            connect(e.body_a, e.body_b);
-        for (const Momentum& body : now) // some touch for less than the step
+            if (i < m_bodies.size() && j < m_bodies.size())
+                m_parents[of(i)] = of(j);
+            else if (i < m_bodies.size())
+                m_held[i] = true;
+            else if (j < m_bodies.size())
+                m_held[j] = true;
+        }
+
+        template <class Events>
+        void connect_all(const Events& events)
         {
-            for (const ContactInfo& c : scene.body(body.body).touches_now())
+            for (const auto& e : events)
+                connect(e.body_a, e.body_b);
+        }
+
+        template <class Contacts>
+        void connect_contacts(const Scene& scene, const Contacts& contacts)
+        {
+            for (const ContactInfo& c : contacts)
                 connect(scene.shape(c.shape_a).body(), scene.shape(c.shape_b).body());
         }
+
+        const std::vector<Momentum>& m_bodies;
+        std::vector<std::size_t> m_parents;
+        std::vector<bool> m_held;
+    };
+
+    // Of groups that nothing holds from outside.
+    void momentum_is_kept(const Scene& scene, float time)
+    {
+        const std::vector<Momentum> now = momenta(scene);
+        if (now.size() != m_bodies.size())
+            return;
+        const Groups groups(scene, now);
         for (std::size_t g = 0; g < now.size(); ++g)
         {
-            if (find(g) == g)
-                group_keeps_momentum(scene, now, [&](std::size_t i) { return find(i) == g; }, held, time);
+            if (groups.of(g) == g)
+                group_keeps_momentum(scene, now, groups, g, time);
         }
     }
 
-    template <class InGroup>
-    void group_keeps_momentum(const Scene& scene, const std::vector<Momentum>& now, const InGroup& is_in,
-                              const std::vector<bool>& held, float time) const
+    void group_keeps_momentum(const Scene& scene, const std::vector<Momentum>& now, const Groups& groups, std::size_t group,
+                              float time) const
     {
         double x = 0;
         double y = 0;
         double scale = 0;
         for (std::size_t i = 0; i < now.size(); ++i)
         {
-            if (!is_in(i))
+            if (groups.of(i) != group)
                 continue;
             const ConstBody body = scene.body(now[i].body);
             const Momentum& before = m_bodies[i];
-            if (held[i] || !(now[i].mass > 0) || before.mass != now[i].mass || body.linear_damping() > 0)
+            if (groups.is_held(i) || !(now[i].mass > 0) || before.mass != now[i].mass || body.linear_damping() > 0)
                 return;
             const double weight = now[i].mass * static_cast<double>(body.gravity_scale()) * static_cast<double>(time);
             const double gx = body.is_awake() ? weight * static_cast<double>(scene.gravity().x) : 0;
