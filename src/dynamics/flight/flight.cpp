@@ -300,7 +300,7 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     note_all_reaches(span);
     find_first_events(span, crew);
     for (Flier& f : span.fliers())
-        f.looks = 0; // the first cannot be left out
+        f.looks = f.union_looks = 0; // the first cannot be left out
     output.looks_left = (looks_of_unit + looks_of_flier * unit.flier_count) / ctx.slices;
     while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)
         process(span, *next);

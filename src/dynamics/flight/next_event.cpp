@@ -221,7 +221,11 @@ private:
         if (hit)
         {
             if (const FlushPair flush(state, shape, own); !flush.is_empty())
+            {
+                const std::int64_t before = m_flier.looks;
                 hit = find(flush.flush());
+                m_flier.union_looks += m_flier.looks - before;
+            }
         }
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
@@ -354,11 +358,22 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
     return f.passes == none;
 }
 
+namespace {
+
+constexpr std::int64_t dearness_of_unions = 4; // at least so many looks does one take that asks neighbours for their cone
+
+void spend_looks(const FlightSpan& span, Flier& f)
+{
+    span.output.looks_left -= std::exchange(f.looks, 0) + (dearness_of_unions - 1) * std::exchange(f.union_looks, 0);
+}
+
+} // namespace
+
 void find_next_event(const FlightSpan& span, Flier& f)
 {
     while (!try_find_next_event(span, f))
         span.state.contacts[f.passes].flags |= contact_flag::passing;
-    span.output.looks_left -= std::exchange(f.looks, 0);
+    spend_looks(span, f);
 }
 
 void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact)
@@ -370,7 +385,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     if (!was_to_meet_it)
         Search(span, f).consider_contact(contact);
     time_in_list(span, f) = f.event_time;
-    span.output.looks_left -= std::exchange(f.looks, 0);
+    spend_looks(span, f);
     if (was_to_meet_it || f.passes != none)
         find_next_event(span, f);
 }

@@ -145,10 +145,11 @@ struct Flier
 {
     std::int32_t state = none;
     std::int32_t body = none;
-    std::int32_t joint = none; ///< the hinge to the world; none: free
-    std::int32_t impacts = 0;  ///< in this sub-step
-    std::int64_t looks = 0;    ///< at who may be met next, that nobody has counted yet
-    double x = 0;              ///< reference point
+    std::int32_t joint = none;    ///< the hinge to the world; none: free
+    std::int32_t impacts = 0;     ///< in this sub-step
+    std::int64_t looks = 0;       ///< at who may be met next, that nobody has counted yet
+    std::int64_t union_looks = 0; ///< of them, at neighbours that lie flush
+    double x = 0;                 ///< reference point
     double y = 0;
     double vx = 0;
     double vy = 0;
