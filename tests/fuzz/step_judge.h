@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -394,15 +395,18 @@ private:
         const double slop = 0.01 * number(scene.def().length_scale);
         if (!std::ranges::all_of(scene.joints(), [&](JointId id) { return is_followed(scene, scene.joint(id)); }))
             return false;
-        for (const ContactInfo& c : scene.contacts())
+        for (const BodyId id : scene.bodies()) // contacts() are those of the last step
         {
-            for (int i = 0; i < c.point_count; ++i)
-            {
-                if (number(c.points[i].separation) < -slop)
-                    return false;
-            }
+            if (!std::ranges::all_of(scene.body(id).touches_now(), [&](const ContactInfo& c) { return is_shallow(c, slop); }))
+                return false;
         }
         return std::ranges::all_of(scene.joints(), [&](JointId id) { return is_closed(scene.joint(id), slop); });
+    }
+
+    static bool is_shallow(const ContactInfo& c, double slop)
+    {
+        return std::ranges::all_of(std::span(c.points).first(static_cast<std::size_t>(c.point_count)),
+                                   [&](const auto& p) { return number(p.separation) >= -slop; });
     }
 
     // Neither do its bodies turn far in a sub-step, nor would its spring swing by much.
