@@ -243,7 +243,7 @@ void DirectSolve::note_stretch(const Item& item)
     node(item.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
 }
 
-// Along a line: what it cannot follow, others must.
+// True where the body cannot move along x or along y.
 bool DirectSolve::is_locked(const Node& node) const
 {
     return node.state != none &&
@@ -501,7 +501,7 @@ void DirectSolve::note_speeds()
     }
 }
 
-// At which a row that may contradict others closes. Overlap is pushed out at as much.
+// The greatest speed at which a row that may contradict others closes; in no case less than that of pushing out.
 float DirectSolve::most_speed(const JointRow& row) const
 {
     return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.d == Vec2{} ? 1 : m_longest_arm);
@@ -530,9 +530,13 @@ void DirectSolve::close_slowly()
     }
 }
 
-// Stops push back no faster than that.
-AxisActs DirectSolve::slow(AxisActs acts, float speed) const
+// Stops push back no faster than held rows close.
+AxisActs DirectSolve::acts_ahead(const JointRows& rows, Stage stage) const
 {
+    AxisActs acts = rows.acts;
+    if (stage == Stage::Ahead && !m_may_contradict)
+        return acts;
+    const float speed = stage == Stage::Soft ? m_view.push_speed : most_speed(rows.axis);
     const float most = m_view.h * speed / way_back;
     acts.lower_error = std::max(acts.lower_error, -most);
     acts.upper_error = std::max(acts.upper_error, -most);
@@ -575,13 +579,10 @@ void DirectSolve::begin_axes(Stage stage)
         axis.restore = axis_impulses(*item.record);
         if (stage == Stage::Held)
             continue;
-        AxisActs acts = rows.acts;
-        if (stage == Stage::Soft)
-            acts = slow(acts, m_view.push_speed);
-        else if (m_may_contradict)
-            acts = slow(acts, most_speed(rows.axis));
-        axis.law = stage == Stage::Now ? rows.acts.law_now(axis.restore, item.work->bounce, m_view.h)
-                                       : acts.law_ahead(item.work->spring, m_view.h);
+        if (stage == Stage::Now)
+            axis.law = rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
+        else
+            axis.law = acts_ahead(rows, stage).law_ahead(item.work->spring, m_view.h);
         for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
             spring->compliance *= m_spring_softening;
         axis.before = axis.law.scope.sum(axis.restore);

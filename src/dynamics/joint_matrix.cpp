@@ -21,7 +21,7 @@ namespace {
 
 constexpr double least_rest = 1e-10; // of a diagonal entry, once what comes before is taken out
 
-// Of one body along the line of a row, in the direction in which it gives way most; about the axis, where the row is of an angle.
+// The inverse mass of one body along a row's line, in the direction in which it gives way most; for the row of an angle, about the axis.
 double weight_of(const Triple& j, double arm, const Triple& mass)
 {
     const double line = j.x * j.x + j.y * j.y;

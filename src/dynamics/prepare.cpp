@@ -80,7 +80,7 @@ float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, V
     const float k = d.x * d.x * (a.inverse_mass.x + b.inverse_mass.x) + d.y * d.y * (a.inverse_mass.y + b.inverse_mass.y) +
                     ca * ca * a.inverse_inertia + cb * cb * b.inverse_inertia;
     const float at_most = dot(ra, ra) * a.inverse_inertia + dot(rb, rb) * b.inverse_inertia;
-    return k > static_cast<float>(least_turn) * at_most ? 1 / k : 0;
+    return exceeds_rounding(k, at_most) ? 1 / k : 0;
 }
 
 // Of the normal directions of two points. Points nearly in one place share their load anyhow; solving for both would only divide noise.

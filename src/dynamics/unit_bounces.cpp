@@ -359,12 +359,12 @@ private:
         return s.velocity + cross(s.angular_velocity, arm);
     }
 
-    // 0 where it does not give way.
+    // The mass that a body shows at the arm's end along n; 0 where it does not give way.
     static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
     {
         const float turn = cross(arm, n);
         const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
-        return inverse > static_cast<float>(least_turn) * dot(arm, arm) * c.inverse_inertia ? 1 / inverse : 0;
+        return exceeds_rounding(inverse, dot(arm, arm) * c.inverse_inertia) ? 1 / inverse : 0;
     }
 
     [[nodiscard]] Position place_on_a(const ContactRow& row, Vec2 arm) const

@@ -44,7 +44,7 @@ TEST(WedgedImpacts, NeverGiveEnergy)
         for (const double restitution : {0.0, 0.3, 0.615, 1.0})
         {
             SCOPED_TRACE("arm " + std::to_string(arm) + ", e " + std::to_string(restitution));
-            // Of all: the one that falls, the one on the hinge, the world.
+            // The first body falls, the second is on the hinge, the third is the world.
             std::vector<ImpactBody> bodies(3);
             bodies[0] = {
                 .vx = 7.5, .vy = -18.9, .inverse_mass_x = 1 / 3.024, .inverse_mass_y = 1 / 3.024, .inverse_inertia = 1 / 3.452};

@@ -78,7 +78,7 @@ TEST(MotionLocks, HoldWhoeverGivesTheSpeed)
 }
 
 // Between a body that is locked on all axes and a plate that moves as told nothing gives way: in a crowd its contacts read NaN after some steps.
-TEST(Locks, WhatALockedBodyBearsIsANumber)
+TEST(MotionLocks, WhatALockedBodyBearsIsANumber)
 {
     Scene scene;
     for (int i = 0; i < 240; ++i)

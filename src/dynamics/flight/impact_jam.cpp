@@ -1,5 +1,5 @@
-// What is jammed: between bodies that close in on each other no impulses are found that part them all. What approaches then goes on as one body, at the
-// speeds that keep momentum and angular momentum: nothing in it approaches any more, and energy has only been lost.
+// The last resort in a jam. Between bodies that close in on each other no impulses are found that part them all; bodies that approach then go on as one, at
+// the speeds that keep momentum and angular momentum: nothing in it approaches any more, and energy has only been lost.
 
 #include "core/index.h"
 #include "dynamics/flight/impact_set.h"
@@ -14,7 +14,7 @@ namespace {
 
 bool may_move(const ImpactBody& b) { return b.inverse_mass_x > 0 || b.inverse_mass_y > 0 || b.inverse_inertia > 0; }
 
-/// Of a rigid body, at a point of it.
+/// The motion of a rigid body, told at one of its points.
 struct RigidMotion
 {
     double x = 0;
@@ -32,6 +32,7 @@ public:
     explicit Jam(ImpactSet& of) : m_of(of), m_start(of.m_bodies), m_groups(of.m_bodies.size())
     {
         std::iota(m_groups.begin(), m_groups.end(), 0);
+        note_free();
     }
 
     // False where bodies that do not give way close in on one another.
@@ -50,13 +51,15 @@ public:
     }
 
 private:
-    // Neither locked nor in a joint: its motion can be any.
-    [[nodiscard]] bool is_free(std::size_t i) const
+    void note_free()
     {
-        const ImpactBody& b = m_start[i];
-        const auto holds = [i](const ImpactRow& row)
-        { return row.kind != ImpactRow::Kind::Contact && (as_index(row.a) == i || as_index(row.b) == i); };
-        return b.inverse_mass_x > 0 && b.inverse_mass_y > 0 && b.inverse_inertia > 0 && std::ranges::none_of(m_of.m_rows, holds);
+        for (const ImpactBody& b : m_start)
+            m_is_free.push_back(b.inverse_mass_x > 0 && b.inverse_mass_y > 0 && b.inverse_inertia > 0);
+        for (const ImpactRow& row : m_of.m_rows)
+        {
+            if (row.kind != ImpactRow::Kind::Contact)
+                m_is_free[as_index(row.a)] = m_is_free[as_index(row.b)] = false;
+        }
     }
 
     [[nodiscard]] bool approaches(const ImpactRow& row) const
@@ -88,21 +91,21 @@ private:
             if (m_groups[i] != group || !may_move(b))
                 continue;
             const CenterPath& at = m_of.m_members[i].path.center;
-            const bool follows = is_free(i);
+            const bool follows = m_is_free[i];
             b.vx = follows ? motion.vx - motion.w * (at.y - motion.y) : 0;
             b.vy = follows ? motion.vy + motion.w * (at.x - motion.x) : 0;
             b.w = follows ? motion.w : 0;
         }
     }
 
-    // Of what does not give way, if some of it does not; of what can move in part only, none.
+    // A group moves with a body of it that does not give way. It stands still with one that can move in part only.
     [[nodiscard]] RigidMotion motion_of(int group) const
     {
         for (std::size_t i = 0; i < m_groups.size(); ++i)
         {
             const ImpactBody& b = m_start[i];
             const CenterPath& at = m_of.m_members[i].path.center;
-            if (m_groups[i] == group && !is_free(i))
+            if (m_groups[i] == group && !m_is_free[i])
                 return may_move(b) ? RigidMotion{} : RigidMotion{at.x, at.y, b.vx, b.vy, b.w};
         }
         return mean_motion(group);
@@ -146,7 +149,8 @@ private:
 
     ImpactSet& m_of;
     std::vector<ImpactBody> m_start; ///< bodies before they were united
-    std::vector<int> m_groups;       ///< by body: the first body of its group
+    std::vector<int> m_groups;       ///< by body, as the next: the first body of its group
+    std::vector<bool> m_is_free;     ///< neither locked nor in a joint: its motion can be any
 };
 
 bool ImpactSet::unite_jammed() { return Jam(*this).unite(); }

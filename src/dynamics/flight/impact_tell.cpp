@@ -16,11 +16,11 @@ namespace carom::internal {
 
 namespace {
 
-// Of the body at the arm's end, along the row's normal; 0 where it does not give way.
-float point_mass(const ImpactBody& b, const ImpactRow& row, double turn, double arm)
+// The mass that a body shows at the arm's end along the row's normal; 0 where it does not give way.
+float point_mass(const ImpactBody& b, const ImpactRow& row, double turn, double arm_x, double arm_y)
 {
     const double k = row.nx * row.nx * b.inverse_mass_x + row.ny * row.ny * b.inverse_mass_y + turn * turn * b.inverse_inertia;
-    return k > least_turn * arm * arm * b.inverse_inertia ? static_cast<float>(1 / k) : 0;
+    return exceeds_rounding(k, (arm_x * arm_x + arm_y * arm_y) * b.inverse_inertia) ? static_cast<float>(1 / k) : 0;
 }
 
 // Impulses along one line add up to one between their points.
@@ -162,8 +162,8 @@ ImpactEvent ImpactSet::event_of(const Strike& strike) const
     e.restitution = static_cast<float>(blow.restitution);
     e.friction = static_cast<float>(row.friction);
     e.kick_speed = static_cast<float>(blow.kick);
-    e.effective_mass_a = point_mass(m_bodies[as_index(row.a)], row, row.turn_a, std::hypot(row.arm_a_x, row.arm_a_y));
-    e.effective_mass_b = point_mass(m_bodies[as_index(row.b)], row, row.turn_b, std::hypot(row.arm_b_x, row.arm_b_y));
+    e.effective_mass_a = point_mass(m_bodies[as_index(row.a)], row, row.turn_a, row.arm_a_x, row.arm_a_y);
+    e.effective_mass_b = point_mass(m_bodies[as_index(row.b)], row, row.turn_b, row.arm_b_x, row.arm_b_y);
     const ContactVelocities& v = blow.before;
     const ContactVelocities& u = blow.after;
     e.velocity_a = {static_cast<float>(v.ax), static_cast<float>(v.ay)};

@@ -59,7 +59,7 @@ double compliance(const Bodies& bodies, const ImpactRow& r, const Direction& d)
     const double k = of(a, d.turn_a) + of(b, d.turn_b);
     const double at_most = (r.arm_a_x * r.arm_a_x + r.arm_a_y * r.arm_a_y) * a.inverse_inertia +
                            (r.arm_b_x * r.arm_b_x + r.arm_b_y * r.arm_b_y) * b.inverse_inertia;
-    return k > least_turn * at_most ? k : 0;
+    return exceeds_rounding(k, at_most) ? k : 0;
 }
 
 /// A row in a round: its rate is to grow by at least `wanted`; joints' rows by exactly that.

@@ -43,7 +43,7 @@ public:
     [[nodiscard]] bool turns_too_far() const { return m_turns_too_far; }
     /// Moves the bodies and leaves their velocities: one step of Newton's.
     void close_gaps();
-    /// That no move has closed.
+    /// Lets joints yield where a gap is left that no move closes.
     void yield_to_gaps();
 
 private:
@@ -143,7 +143,7 @@ private:
     void limit_speeds();
     void close_slowly();
     [[nodiscard]] double axis_leak() const { return m_yields ? m_leak : 0; }
-    [[nodiscard]] AxisActs slow(AxisActs acts, float speed) const;
+    [[nodiscard]] AxisActs acts_ahead(const JointRows& rows, Stage stage) const;
 
     void take_step(Stage stage);
     void give_blow(Stage stage);

@@ -31,8 +31,12 @@ struct Softness
     return {omega / a1, a2 * a3, a3};
 }
 
-/// An inverse mass below this share of what its arms could give at most is rounding: nothing gives way.
-inline constexpr double least_turn = 1e-10;
+/// False where an inverse mass is the rounding of what its arms could give at most, squared arms times inverse inertia: nothing gives way.
+template <class Number>
+[[nodiscard]] bool exceeds_rounding(Number inverse_mass, Number by_arms)
+{
+    return inverse_mass > static_cast<Number>(1e-10) * by_arms;
+}
 
 /// Of a body, at another time than now; or how much they have changed.
 struct BodySpeeds

@@ -78,7 +78,7 @@ private:
     void deflect(Flier& f, const ImpactBody& now, bool struck) const;
     void defer(int index) const;
 
-    // Where they are jammed: impact_jam.cpp
+    // The last resort in a jam: impact_jam.cpp
     class Jam;
     [[nodiscard]] bool unite_jammed();
 
