@@ -5,6 +5,7 @@
 //   carom-test-property --survey [arrangement]
 //                                   runs everything and prints how many fail; of one arrangement, all that fail
 //
+// CAROM_SHOT_SEED=n in the environment takes another 100,000 shots; what it finds is replayed with the same n.
 // CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 5th.
 
 #include "property/arrangements.h"
@@ -27,6 +28,13 @@ int divisor()
 {
     const char* text = std::getenv("CAROM_SHOT_DIVISOR");
     return text ? std::max(1, std::atoi(text)) : usual_divisor;
+}
+
+std::uint64_t seed_of(int number)
+{
+    constexpr std::uint64_t apart = 100'000;
+    const char* text = std::getenv("CAROM_SHOT_SEED");
+    return static_cast<std::uint64_t>(number) + apart * (text ? std::strtoull(text, nullptr, 10) : 0);
 }
 
 struct Tally
@@ -83,7 +91,7 @@ Tally run_all(const Arrangement& arrangement, int first, int most_told)
     {
         if (i % divisor() != 0)
             continue;
-        Trial trial(static_cast<std::uint64_t>(i));
+        Trial trial(seed_of(i));
         const auto begin = std::chrono::steady_clock::now();
         const auto failure = run_shot(trial, arrangement, false);
         const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
@@ -151,7 +159,7 @@ int replay(int number)
     const auto [arrangement, first] = arrangement_of(number);
     if (!arrangement)
         return refuse_number(first);
-    Trial trial(static_cast<std::uint64_t>(number));
+    Trial trial(seed_of(number));
     const auto failure = run_shot(trial, *arrangement, true);
     std::cout << (failure ? describe(*arrangement, number, *failure, "") : std::string("nothing fails\n"));
     return failure ? 1 : 0;
@@ -162,7 +170,7 @@ int print_program(int number)
     const auto [arrangement, first] = arrangement_of(number);
     if (!arrangement)
         return refuse_number(first);
-    Trial trial(static_cast<std::uint64_t>(number));
+    Trial trial(seed_of(number));
     arrangement->build(trial);
     std::cout << "// carom-test-property --shot " << number << ", " << arrangement->name << "\n";
     trial.print_program(std::cout);

@@ -83,7 +83,7 @@ void reconsider_those_near(const FlightSpan& span, const Flier& capped)
     const Reach place = reach_of(span, capped.body);
     for (Flier& f : span.fliers())
     {
-        if (!f.landed && !are_apart(reach_of(span, f.body), place))
+        if (!f.landed && first_meeting(reach_of(span, f.body), place) <= span.h)
             find_next_event(span, f);
     }
 }
@@ -122,22 +122,40 @@ void note_all_reaches(const FlightSpan& span)
 constexpr std::int64_t work_of_unit = 20'000;
 constexpr std::int64_t work_of_flier = 500;
 
-constexpr std::int64_t looks_of_unit = 200'000; // four times what wild scenes take
+constexpr std::int64_t looks_of_unit = 200'000; // sixteen times what scenes and experiments take
 constexpr std::int64_t looks_of_flier = 100;
 
 constexpr int fliers_per_share = 16;
 constexpr int enough_fliers = 32; // to share
 
-// The work is spent: who has an event left stays where it is until the next sub-step.
+// The looks are spent: who has an event left stays where it is until the next sub-step, and so does who would come there. All stop at the moment up to
+// which every event is known: none has met another by then.
 void stop_who_would_meet(const FlightSpan& span)
 {
+    const Flier* next = earliest(span);
+    if (next == nullptr)
+        return;
+    const double now = next->event_time;
+    std::vector<Flier*> moving;
+    std::vector<Flier*> stopped;
     for (Flier& f : span.fliers())
     {
-        if (f.landed || f.event_time > span.h || is_capped(span, f))
-            continue;
-        f.impacts = span.most_impacts;
-        span.output.capped = true;
+        if (!f.landed && !is_capped(span, f))
+            (f.event_time <= span.h ? stopped : moving).push_back(&f);
     }
+    for (std::size_t i = 0; i < stopped.size(); ++i)
+    {
+        Flier& f = *stopped[i];
+        advance(span, f, now);
+        f.impacts = span.most_impacts;
+        trace(span, f.state, now);
+        const Reach place = reach_of(span, f.body);
+        const auto passes = [&](const Flier* other) { return first_meeting(reach_of(span, other->body), place) > span.h; };
+        const auto meets = std::stable_partition(moving.begin(), moving.end(), passes);
+        stopped.insert(stopped.end(), meets, moving.end());
+        moving.erase(meets, moving.end());
+    }
+    span.output.capped = true;
 }
 
 // Where nothing has happened yet each looks for itself.
@@ -286,13 +304,27 @@ void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
         trace_all(FlightSpan(ctx, unit, k, output));
 }
 
+namespace {
+
+// Slices of a sub-step share what is given to it; where the first have spent all, each still has its part of as much again.
+void share_budget(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    const bool starts = k % ctx.slices == 0;
+    const std::int64_t work = work_of_unit + work_of_flier * unit.flier_count;
+    const std::int64_t looks = looks_of_unit + looks_of_flier * unit.flier_count;
+    const std::int64_t work_left = starts ? work : std::max(output.impact_work.left, work / ctx.slices);
+    output.impact_work = {.left = work_left, .whole = work_left};
+    output.looks_left = starts ? looks : std::max(output.looks_left, looks / ctx.slices);
+}
+
+} // namespace
+
 void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output, Crew& crew)
 {
     if (unit.flier_count == 0)
         return;
     const FlightSpan span(ctx, unit, k, output);
-    const std::int64_t work = (work_of_unit + work_of_flier * unit.flier_count) / ctx.slices;
-    output.impact_work = {.left = work, .whole = work};
+    share_budget(ctx, unit, k, output);
     output.struck_states.clear();
     for (Flier& f : span.fliers())
         start_flight(span, f);
@@ -301,7 +333,6 @@ void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& outpu
     find_first_events(span, crew);
     for (Flier& f : span.fliers())
         f.looks = f.union_looks = 0; // the first cannot be left out
-    output.looks_left = (looks_of_unit + looks_of_flier * unit.flier_count) / ctx.slices;
     while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)
         process(span, *next);
     stop_who_would_meet(span);

@@ -9,6 +9,7 @@
 #include "geometry/surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -35,6 +36,7 @@ ProbeSet held_corners(std::span<const Hold> holds, std::int32_t own, std::int32_
     return held;
 }
 
+// Bodies come nearer in the order in which they could be met: after the first hit most of a crowd is too late.
 class Search
 {
 public:
@@ -47,20 +49,18 @@ public:
         {
             const int index = edge >> 1;
             edge = m_span.state.contacts[index].next[edge & 1];
-            consider_contact(index);
+            offer_contact(index);
         }
         if (m_flier.deflected)
             look_beyond_boxes();
         look_at_deflected();
+        consider_offers();
     }
 
-    void consider_contact(int index)
+    void run_for_contact(int index)
     {
-        const Contact& contact = m_span.state.contacts[index];
-        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0)
-            return;
-        const bool is_a = contact.body_a == m_flier.body;
-        consider(is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, index);
+        offer_contact(index);
+        consider_offers();
     }
 
 private:
@@ -70,12 +70,66 @@ private:
         Reach reach;
     };
 
+    struct Offer
+    {
+        double time; ///< before which the two cannot meet
+        int order;
+        int own;
+        int shape;
+        int contact;
+    };
+
+    static constexpr int most_offers = 64;     // what is more is considered in lots
+    static constexpr int offers_of_a_look = 8; // so much cheaper are they
+
     // Most of a crowd never ask.
     [[nodiscard]] const Way& own_way()
     {
         if (!m_own)
             m_own = Way{path_from(m_span, m_flier.body, m_flier.time, m_origin), reach_of(m_span, m_flier.body)};
         return *m_own;
+    }
+
+    void offer_contact(int index)
+    {
+        const Contact& contact = m_span.state.contacts[index];
+        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0)
+            return;
+        const bool is_a = contact.body_a == m_flier.body;
+        const int body = is_a ? contact.body_b : contact.body_a;
+        if (!was_found_apart(index, body))
+            offer(is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, index, meeting_with(body));
+    }
+
+    void offer(int own, int shape, int contact, double time)
+    {
+        ++m_made;
+        if (time > m_span.h || time >= m_flier.event_time || is_wall_out_of_reach(shape))
+            return;
+        if (m_count == most_offers)
+            consider_offers();
+        m_offers[m_count++] = {time, m_made, own, shape, contact};
+    }
+
+    void consider_offers()
+    {
+        const auto is_later = [](const Offer& a, const Offer& b)
+        { return a.time != b.time ? a.time > b.time : a.order > b.order; };
+        const auto end = [&] { return m_offers.begin() + m_count; };
+        std::make_heap(m_offers.begin(), end(), is_later);
+        for (; m_count > 0 && m_offers.front().time < m_flier.event_time; --m_count)
+        {
+            std::pop_heap(m_offers.begin(), end(), is_later);
+            consider(m_offers[m_count - 1]);
+        }
+        m_count = 0;
+        m_flier.looks += std::exchange(m_made, 0) / offers_of_a_look;
+    }
+
+    // Before that time the bodies cannot meet. Only what is awake in this unit has a known way.
+    [[nodiscard]] double meeting_with(int body)
+    {
+        return m_span.state_in_unit(body) == none ? 0 : first_meeting(own_way().reach, reach_of(m_span, body));
     }
 
     // The angle reaches a limit of the hinge: the first root of angle + w t + alpha t²/2.
@@ -136,32 +190,21 @@ private:
         const std::vector<Reach>& reaches = m_span.output.reaches;
         for (std::size_t i = 0; i < reaches.size(); ++i)
         {
-            if (are_apart(own_way().reach, reaches[i]))
+            const double time = first_meeting(own_way().reach, reaches[i]);
+            if (time > m_span.h || time >= m_flier.event_time)
                 continue;
-            const Flier& other = m_span.scratch.fliers[static_cast<std::size_t>(m_span.output.deflected[i])];
-            if (other.body != m_flier.body)
-                for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_at(own, other); });
+            const int body = m_span.scratch.fliers[static_cast<std::size_t>(m_span.output.deflected[i])].body;
+            if (body != m_flier.body)
+                offer_all(body, time);
         }
+        m_made += static_cast<int>(reaches.size());
     }
 
-    void look_at(int own, const Flier& other)
+    void offer_all(int body, double time)
     {
         const SceneState& state = m_span.state;
-        if (state.shapes[own].trigger)
-            return;
-        for_each_leaf(state, other.body,
-                      [&](int shape)
-                      {
-                          if (is_new(own, shape))
-                              consider(own, shape, none);
-                      });
-    }
-
-    [[nodiscard]] bool is_new(int own, int shape)
-    {
-        const SceneState& state = m_span.state;
-        ++m_flier.looks;
-        return !state.shapes[shape].trigger && !has_contact(state, own, shape) && may_collide(state, own, shape);
+        for_each_leaf(state, m_flier.body,
+                      [&](int own) { for_each_leaf(state, body, [&](int shape) { offer(own, shape, none, time); }); });
     }
 
     void look_beyond_box(int own, const FloatBox& path)
@@ -171,8 +214,8 @@ private:
             return;
         const auto visit = [&](int shape)
         {
-            if (state.shapes[shape].body != m_flier.body && is_new(own, shape))
-                consider(own, shape, none);
+            if (state.shapes[shape].body != m_flier.body)
+                offer(own, shape, none, meeting_with(state.shapes[shape].body));
             return true;
         };
         state.broad_phase.query(Layer::Moving, path, visit);
@@ -184,13 +227,20 @@ private:
         }
     }
 
-    void consider(int own, int shape, int contact)
+    // Without a contact: of shapes that may touch, and have none.
+    [[nodiscard]] bool is_new(int own, int shape) const
     {
+        const SceneState& state = m_span.state;
+        return !state.shapes[own].trigger && !state.shapes[shape].trigger && !has_contact(state, own, shape) &&
+               may_collide(state, own, shape);
+    }
+
+    void consider(const Offer& offer)
+    {
+        const auto [time, order, own, shape, contact] = offer;
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
         const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
-        if (was_found_apart(contact, body, other) || is_out_of_reach(body) || is_wall_out_of_reach(shape, body))
-            return;
         if (m_flier.looks > most_looks)
         {
             m_flier.crowded = true; // its way is checked against walls
@@ -209,6 +259,8 @@ private:
         const Axis line = line_of_centers(target, own_path);
         const Axis normal = normal_at_start(shape, contact);
         if (stays_apart_along(line, a, target, b, own_path, left) || stays_apart_along(normal, a, target, b, own_path, left))
+            return;
+        if (contact == none && !is_new(own, shape))
             return;
         const auto find = [&](const Flush& flush)
         {
@@ -243,11 +295,12 @@ private:
     }
 
     // On the ways that both set out on they do not meet within the step.
-    [[nodiscard]] bool was_found_apart(int contact, int body, const Flier* other) const
+    [[nodiscard]] bool was_found_apart(int contact, int body) const
     {
-        if (contact == none || m_flier.deflected)
+        if (m_flier.deflected)
             return false;
-        if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->landed || other->deflected))
+        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
+        if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->deflected))
             return false;
         return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
     }
@@ -269,20 +322,14 @@ private:
         return {sign * static_cast<double>(c.manifold.normal.x), sign * static_cast<double>(c.manifold.normal.y)};
     }
 
-    // Two moving bodies that stay apart whatever they turn: most of a crowd.
-    [[nodiscard]] bool is_out_of_reach(int body)
-    {
-        return m_span.state_in_unit(body) != none && are_apart(own_way().reach, reach_of(m_span, body));
-    }
-
     // Most pieces of a wall that lie in the box of a path.
-    [[nodiscard]] bool is_wall_out_of_reach(int shape, int body)
+    [[nodiscard]] bool is_wall_out_of_reach(int shape)
     {
         const SceneState& state = m_span.state;
+        const int body = state.shapes[shape].body;
         const LeafType type = state.shapes[shape].leaf.type;
         if (state.bodies[body].type != BodyType::Static || (type != LeafType::Segment && type != LeafType::Arc))
             return false;
-        constexpr double margin = 1.001; // what touches next to nothing is looked at
         const Reach& own = own_way().reach;
         const BodySim& sim = m_span.sim_of(body);
         const double x = own.x - sim.center.x;
@@ -290,44 +337,77 @@ private:
         const auto c = static_cast<double>(sim.rotation.c);
         const auto s = static_cast<double>(sim.rotation.s);
         return distance_to_line(leaf_view(state, shape), c * x + s * y + static_cast<double>(sim.local_center.x),
-                                c * y - s * x + static_cast<double>(sim.local_center.y)) > margin * own.radius;
+                                c * y - s * x + static_cast<double>(sim.local_center.y)) >
+               own.radius + (m_span.h - own.time) * length_of(own.vx, own.vy);
     }
 
     const FlightSpan& m_span;
     Flier& m_flier;
     Position m_origin;
     std::optional<Way> m_own;
+    std::array<Offer, most_offers> m_offers;
+    int m_count = 0;
+    int m_made = 0;
 };
 
 } // namespace
 
-bool are_apart(const Reach& a, const Reach& b)
+// Two circles that move evenly: the first root of |d + v t| = r.
+double first_meeting(const Reach& a, const Reach& b)
 {
-    const double x = b.x - a.x;
-    const double y = b.y - a.y;
+    const double start = std::max(a.time, b.time);
+    const double to_a = start - a.time;
+    const double to_b = start - b.time;
+    const double x = b.x + to_b * b.vx - a.x - to_a * a.vx;
+    const double y = b.y + to_b * b.vy - a.y - to_a * a.vy;
     const double r = a.radius + b.radius;
-    return x * x + y * y > r * r;
+    const double apart = x * x + y * y - r * r;
+    if (apart <= 0)
+        return start;
+    const double vx = b.vx - a.vx;
+    const double vy = b.vy - a.vy;
+    const double closing = -(x * vx + y * vy);
+    const double discriminant = closing * closing - (vx * vx + vy * vy) * apart;
+    return closing > 0 && discriminant >= 0 ? start + apart / (closing + std::sqrt(discriminant)) : 1e300;
 }
+
+namespace {
+
+constexpr double margin = 1.001; // what touches next to nothing is looked at
+
+Reach reach_of_flier(const FlightSpan& span, const Flier& f, const BodySim& sim)
+{
+    const CenterMotion c = center_of(f);
+    const double left = span.h - f.time;
+    const double extent = margin * static_cast<double>(sim.extent);
+    const Reach reach{sim.center.x + c.x, sim.center.y + c.y, 0, 0, f.time, extent};
+    const double bend = left * left * (length_of(f.ax, f.ay) + std::fabs(f.alpha) * length_of(f.arm_x, f.arm_y));
+    if (is_capped(span, f))
+        return reach;
+    if (f.arm_x != 0 || f.arm_y != 0) // about a pivot it goes round
+        return {reach.x, reach.y, 0, 0, f.time, extent + left * length_of(c.vx, c.vy) + bend};
+    return {reach.x, reach.y, c.vx, c.vy, f.time, extent + bend};
+}
+
+} // namespace
 
 Reach reach_of(const FlightSpan& span, int body)
 {
     const BodySim& sim = span.sim_of(body);
     const std::int32_t s = span.state_in_unit(body);
     if (const Flier* f = span.flier_at(s))
-    {
-        const CenterMotion c = center_of(*f);
-        const double left = span.h - f->time;
-        const double gain = f->ax != 0 || f->ay != 0 || f->alpha != 0
-                                ? length_of(f->ax, f->ay) + std::fabs(f->alpha) * length_of(f->arm_x, f->arm_y)
-                                : 0;
-        return {sim.center.x + c.x, sim.center.y + c.y,
-                static_cast<double>(sim.extent) + left * (length_of(c.vx, c.vy) + left * gain)};
-    }
+        return reach_of_flier(span, *f, sim);
     // The solver has put it where it is at the end of the sub-step.
     const BodyState& there = span.state_of(s);
-    return {sim.center.x + static_cast<double>(there.delta_position.x),
-            sim.center.y + static_cast<double>(there.delta_position.y),
-            static_cast<double>(sim.extent) + 2 * span.h * static_cast<double>(length(there.velocity))};
+    const auto vx = static_cast<double>(there.velocity.x);
+    const auto vy = static_cast<double>(there.velocity.y);
+    const double bend = span.h * span.h * length_of(span.constants_of(s).acceleration.x, span.constants_of(s).acceleration.y);
+    return {sim.center.x + static_cast<double>(there.delta_position.x) - span.h * vx,
+            sim.center.y + static_cast<double>(there.delta_position.y) - span.h * vy,
+            vx,
+            vy,
+            0,
+            margin * static_cast<double>(sim.extent) + bend};
 }
 
 namespace {
@@ -383,7 +463,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     f.passes = none;
     const bool was_to_meet_it = f.event_state == struck;
     if (!was_to_meet_it)
-        Search(span, f).consider_contact(contact);
+        Search(span, f).run_for_contact(contact);
     time_in_list(span, f) = f.event_time;
     spend_looks(span, f);
     if (was_to_meet_it || f.passes != none)

@@ -207,6 +207,7 @@ struct UnitTally
     std::int32_t damped = 0;  ///< of the joints, those that brake or damp what they hold
     bool hangs = false;       ///< a joint holds to what does not move
     std::int32_t slices = 1;  ///< of each sub-step
+    float longest_way = 0;    ///< m in this step, of its fliers that may meet something
 };
 
 /// What a unit has in a cell of the plane.
@@ -345,11 +346,14 @@ struct RecordedPose
     Pose pose;
 };
 
-/// Where a body may come in the rest of a sub-step: a circle, in the world.
+/// A circle that moves evenly, in the world: from `time` to the end of the sub-step the body stays inside.
 struct Reach
 {
-    double x = 0;
+    double x = 0; ///< at `time`
     double y = 0;
+    double vx = 0;
+    double vy = 0;
+    double time = 0;
     double radius = 1e300;
 };
 

@@ -22,6 +22,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
 
 /// Of a dynamic body of the unit, whether it flies or not, for the rest of the sub-step.
 [[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
-[[nodiscard]] bool are_apart(const Reach& a, const Reach& b);
+/// Before that time the two cannot meet; 1e300: they do not.
+[[nodiscard]] double first_meeting(const Reach& a, const Reach& b);
 
 } // namespace carom::internal
