@@ -370,6 +370,7 @@ public:
     void find_deflected()
     {
         scratch.is_deflected.assign(state.awake_bodies.size(), 0);
+        find_fastest();
         const std::span<SomeReaches> parts =
             find_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
                           [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
@@ -385,6 +386,26 @@ public:
             state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
     }
 
+    // What is struck may leave as fast as what strikes it comes: of each unit, the longest way of what is not through with its contacts.
+    void find_fastest()
+    {
+        for (UnitTally& t : scratch.tallies)
+            t.longest_way = 0;
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              const float way = scratch.motion[static_cast<std::size_t>(place)];
+                              if (way <= ctx.scene.tolerances.speculation || !may_meet(place))
+                                  return;
+                              const std::atomic_ref longest(tally_of(place).longest_way);
+                              float before = longest.load(std::memory_order_relaxed);
+                              while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
+                              {
+                              }
+                          });
+    }
+
     void find_reaches(std::size_t first, std::size_t last, SomeReaches& some) const
     {
         some.reaches.clear();
@@ -393,25 +414,24 @@ public:
         {
             const std::int32_t item = scratch.flying[i];
             const auto place = static_cast<std::size_t>(item);
-            if (!may_be_deflected(place))
+            const float way = scratch.tallies[static_cast<std::size_t>(scratch.unit_of[place])].longest_way;
+            if (way == 0 || !may_meet(item))
                 continue;
             scratch.is_deflected[place] = 1;
             const int body = body_at(item);
             const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-            const double r = static_cast<double>(scratch.motion[place]) + static_cast<double>(sim.extent);
+            const double r = static_cast<double>(way) + static_cast<double>(sim.extent);
             const Position c = sim.center;
             some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
             for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });
         }
     }
 
-    [[nodiscard]] bool may_be_deflected(std::size_t place) const
+    [[nodiscard]] bool may_meet(std::int32_t place) const
     {
-        if (scratch.motion[place] <= ctx.scene.tolerances.speculation)
-            return false;
         const auto deflects = [&](int edge)
         { return is_solved(state.contacts[edge >> 1]) && !stays_apart(ctx, state.contacts[edge >> 1]); };
-        int edge = state.bodies[state.awake_bodies[place]].first_contact;
+        int edge = state.bodies[body_at(place)].first_contact;
         while (edge != none && !deflects(edge))
             edge = state.contacts[edge >> 1].next[edge & 1];
         return edge != none;
@@ -609,7 +629,7 @@ void build_unit_graph(StepContext& ctx)
     graph.link_units();
     run_both(ctx.scene.def.tasks, [&] { graph.number_units(); }, [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
-    if (graph.link_deflected())
+    while (graph.link_deflected())
     {
         graph.renumber_units();
         graph.ground_crowds();
