@@ -225,7 +225,7 @@ void ImpactSet::set_hold_time(std::size_t i)
         Flier* f = m_members[static_cast<std::size_t>(member)].flier;
         if (f == nullptr || turn == 0)
             continue;
-        f->bend_rate = std::max(f->bend_rate, bend);
+        f->bend_rate = std::max(f->bend_rate, bend + std::fabs(a.w));
         f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
     }
 }

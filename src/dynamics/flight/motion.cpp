@@ -245,6 +245,16 @@ void take_gain(const FlightSpan& span, Flier& f, const Flier& before)
     f.w += less * is.w;
 }
 
+} // namespace
+
+double speed_over_carrier(const FlightSpan& span, const Flier& f)
+{
+    const Seen seen = as_seen_from_carrier(span, f);
+    return length_of(seen.vx, seen.vy);
+}
+
+namespace {
+
 // A body that may not move along every axis has no potential on what turns.
 bool may_gain(const FlightSpan& span, const Flier& f)
 {

@@ -59,6 +59,9 @@ void advance(const FlightSpan& span, Flier& f, double time);
 /// Goes half its size or more in a sub-step (in a crowd: because of what struck it in this step): such a body is not left to contacts found beforehand.
 [[nodiscard]] bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w);
 
+/// m/s, as what holds it sees it.
+[[nodiscard]] double speed_over_carrier(const FlightSpan& span, const Flier& f);
+
 /// Struck in this step, and on its way out of where pairs were looked for: the solver would not see what is there.
 [[nodiscard]] bool leaves_its_boxes(const FlightSpan& span, const Flier& f);
 
