@@ -161,3 +161,81 @@ TEST(BlowsInAStep, OfABodyThatFliesToAndFroKeepItsEnergy)
         }
     }
 }
+
+namespace {
+
+struct Row
+{
+    double energy = 0;   ///< the most after a step, over the first
+    double momentum = 0; ///< the most that is missing, over that of one who strikes
+    bool passed = false; ///< one is on the other side of its neighbour
+};
+
+// Bodies at rest in a row with gaps, struck from both ends in one step: who is struck strikes the next.
+Row pass_on(const Geometry& shape, int count, double gap, float from_left, float from_right, const ShapeDef& def)
+{
+    Scene scene(weightless());
+    std::vector<BodyId> row;
+    for (int i = 0; i < count; ++i)
+    {
+        const Vec2 v{i == 0 ? from_left : i == count - 1 ? -from_right : 0.0f, 0};
+        row.push_back(add_dynamic(scene, {gap * i, 0}, shape, def, v).body);
+    }
+    const auto energy = [&]
+    {
+        double sum = 0;
+        for (const BodyId b : row)
+            sum += kinetic(scene, b);
+        return sum;
+    };
+    const auto momentum = [&]
+    {
+        double sum = 0;
+        for (const BodyId b : row)
+            sum += d(scene.body(b).mass()) * d(scene.body(b).velocity().x);
+        return sum;
+    };
+    const double energy_before = energy();
+    const double momentum_before = momentum();
+    Row result;
+    for (int step = 0; step < 3; ++step)
+    {
+        scene.step(dt);
+        result.energy = std::max(result.energy, energy() / energy_before);
+        const double missing = std::fabs(momentum() - momentum_before) / (d(scene.body(row[0]).mass()) * d(from_left));
+        result.momentum = std::max(result.momentum, missing);
+        for (std::size_t i = 1; i < row.size(); ++i)
+            result.passed |= scene.body(row[i]).position().x < scene.body(row[i - 1]).position().x && shape.index() == 0;
+    }
+    return result;
+}
+
+} // namespace
+
+// Whoever strikes within the step sees the others where they are, not where the step began.
+TEST(BlowsInAStep, WhatIsStruckStrikesTheNextWhereItIs)
+{
+    for (const auto& [name, shape] : long_shapes())
+    {
+        for (const int count : {3, 4, 5, 8})
+        {
+            for (const double gap : {0.7, 1.5, 4.0})
+            {
+                for (const auto& [left, right] : {std::pair(100.0f, 0.0f), {400.0f, 50.0f}, {500.0f, 400.0f}, {1000.0f, 900.0f}})
+                {
+                    for (const ShapeDef& def :
+                         {ShapeDef{.friction = 0, .restitution = 1}, ShapeDef{.friction = 0.3f, .restitution = 0.6f}})
+                    {
+                        SCOPED_TRACE(std::to_string(count) + " of " + name + ", " + std::to_string(gap) + " m apart, at " +
+                                     std::to_string(left) + " and " + std::to_string(right) + " m/s, e " +
+                                     std::to_string(def.restitution));
+                        const Row r = pass_on(shape, count, gap, left, right, def);
+                        EXPECT_LT(r.energy, 1 + 1e-4);
+                        EXPECT_LT(r.momentum, 1e-4);
+                        EXPECT_FALSE(r.passed);
+                    }
+                }
+            }
+        }
+    }
+}
