@@ -79,8 +79,8 @@ private:
         int contact;
     };
 
-    static constexpr int most_offers = 64;     // what is more is considered in lots
-    static constexpr int offers_of_a_look = 8; // so much cheaper are they
+    static constexpr std::size_t most_offers = 64; // what is more is considered in lots
+    static constexpr int offers_of_a_look = 8;     // so much cheaper are they
 
     // Most of a crowd never ask.
     [[nodiscard]] const Way& own_way()
@@ -115,7 +115,7 @@ private:
     {
         const auto is_later = [](const Offer& a, const Offer& b)
         { return a.time != b.time ? a.time > b.time : a.order > b.order; };
-        const auto end = [&] { return m_offers.begin() + m_count; };
+        const auto end = [&] { return m_offers.begin() + static_cast<std::ptrdiff_t>(m_count); };
         std::make_heap(m_offers.begin(), end(), is_later);
         for (; m_count > 0 && m_offers.front().time < m_flier.event_time; --m_count)
         {
@@ -346,7 +346,7 @@ private:
     Position m_origin;
     std::optional<Way> m_own;
     std::array<Offer, most_offers> m_offers;
-    int m_count = 0;
+    std::size_t m_count = 0;
     int m_made = 0;
 };
 
