@@ -5,11 +5,15 @@
 #include "pinball/player/sounds.h"
 #include "pinball/player/stage.h"
 #include "pinball/player/step_clock.h"
+#include "tour/tour.h"
 
 #include <SDL_timer.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <utility>
 
 namespace carom::pinball {
 
@@ -33,6 +37,8 @@ public:
         m_sounds.sink().set_muted(options.mute);
         set_xray(options.xray);
         m_clock.skip_to(now_ms());
+        if (options.tour)
+            begin_tour();
     }
 
     int run()
@@ -42,11 +48,7 @@ public:
         const auto ends = [&] { return m_options.seconds > 0 && now_ms() - start >= m_options.seconds * 1000; };
         while (!ends() && m_window.begin_frame())
         {
-            for (const SDL_Event& event : m_window.events())
-                handle(event);
-            poll_table();
-            advance();
-            draw();
+            m_tour&& m_touring ? tour_frame() : machine_frame();
             m_window.end_frame(pictured ? &m_image : nullptr);
         }
         return pictured ? save_picture() : 0;
@@ -55,6 +57,57 @@ public:
 private:
     // SDL stamps events with the same clock, in whole milliseconds.
     static double now_ms() { return static_cast<double>(SDL_GetTicks64()); }
+
+    void machine_frame()
+    {
+        for (const SDL_Event& event : m_window.events())
+            handle(event);
+        poll_table();
+        advance();
+        draw();
+    }
+
+    void tour_frame()
+    {
+        for (const SDL_Event& event : m_window.events())
+            m_tour->handle(event);
+        const double now = now_ms();
+        const tour::Tour::Wish wish = m_tour->frame((now - std::exchange(m_tour_ms, now)) / 1000);
+        if (wish == tour::Tour::Wish::None)
+            return;
+        m_touring = false;
+        m_clock.skip_to(now);
+        m_window.set_background(palette::room);
+        if (wish == tour::Tour::Wish::SeeOnTable)
+            show(m_tour->lesson().chapter().table_view());
+    }
+
+    void begin_tour()
+    {
+        if (!m_tour)
+            m_tour.emplace(m_window);
+        m_touring = true;
+        m_tour_ms = now_ms();
+        m_buttons.release_all();
+        m_window.set_background(view::WindowDef{}.background);
+    }
+
+    // A game that plays by itself, slowed down, with what the chapter was about.
+    void show(const tour::TableView& what)
+    {
+        set_xray(true);
+        m_paused = false;
+        m_speed = 0.25;
+        view::XrayToggles& toggles = m_stage.xray.toggles();
+        toggles.contacts = toggles.normals = toggles.impulses = what.contacts;
+        toggles.triggers = what.triggers;
+        toggles.joints = what.joints;
+        toggles.boxes = what.boxes;
+        toggles.islands = what.islands;
+        toggles.velocities = what.velocities;
+        if (m_machine.game().phase() == Phase::Attract || m_machine.game().phase() == Phase::GameOver)
+            m_machine.play_by_itself(true);
+    }
 
     void handle(const SDL_Event& event)
     {
@@ -79,6 +132,7 @@ private:
         case Wish::Quieter: sink.set_volume(std::max(0.0f, sink.volume() - 0.1f)); break;
         case Wish::Louder: sink.set_volume(std::min(1.0f, sink.volume() + 0.1f)); break;
         case Wish::Xray: set_xray(!m_xray); break;
+        case Wish::Tour: begin_tour(); break;
         case Wish::Fullscreen: m_window.toggle_fullscreen(); break;
         case Wish::Quit: m_window.request_quit(); break;
         default:
@@ -189,10 +243,20 @@ private:
     bool m_paused = false;
     double m_speed = 1;
     double m_next_poll = 0;
+    std::optional<tour::Tour> m_tour{};
+    bool m_touring = false;
+    double m_tour_ms = 0;
 };
+
+int write_tour_pictures(const PlayerOptions& options)
+{
+    setenv("SDL_VIDEODRIVER", "offscreen", 0); // a picture needs no display
+    view::Window window({.title = "Carom: tour", .width = options.width, .height = options.height});
+    return tour::write_pictures(window, options.pictures) ? 0 : 1;
+}
 
 } // namespace
 
-int run_app(const PlayerOptions& options) { return App(options).run(); }
+int run_app(const PlayerOptions& options) { return options.pictures.empty() ? App(options).run() : write_tour_pictures(options); }
 
 } // namespace carom::pinball

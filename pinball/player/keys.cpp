@@ -45,6 +45,7 @@ constexpr WishKey wish_keys[] = {
     {SDL_SCANCODE_EQUALS, Wish::Louder},
     {SDL_SCANCODE_KP_PLUS, Wish::Louder},
     {SDL_SCANCODE_X, Wish::Xray},
+    {SDL_SCANCODE_T, Wish::Tour},
     {SDL_SCANCODE_F11, Wish::Fullscreen},
     {SDL_SCANCODE_ESCAPE, Wish::Quit},
     {SDL_SCANCODE_S, Wish::SlowMotion},
@@ -114,6 +115,7 @@ std::span<const KeyLine> key_lines()
         {"R", "restart"},
         {"M   -   =", "mute, volume"},
         {"X", "x-ray"},
+        {"T", "tour: how it works"},
         {"F11", "full screen"},
         {"Esc", "quit"},
     };

@@ -21,6 +21,7 @@ enum class Wish : std::uint8_t
     Quieter,
     Louder,
     Xray,
+    Tour,
     Fullscreen,
     Quit,
     SlowMotion,

@@ -110,6 +110,14 @@ void Machine::restart()
     m_game.record_substeps(m_record);
 }
 
+void Machine::play_by_itself(bool on)
+{
+    m_autoplay = on;
+    m_player.reset();
+    if (on)
+        m_player.emplace(m_game.table(), m_seed);
+}
+
 void Machine::poll_table()
 {
     if (!m_watch.poll())

@@ -28,6 +28,8 @@ public:
 
     void step(Input input);
     void restart();
+    /// From now on, or no longer, a program plays.
+    void play_by_itself(bool on);
     /// Looks whether the table file has changed. A good one is played at once; a bad one leaves the old table.
     void poll_table();
 

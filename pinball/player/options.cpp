@@ -45,6 +45,9 @@ ParsedOptions parse_options(int argc, const char* const* argv)
     app.add_option("--screenshot", options.screenshot, "write this PNG file at the end");
     app.add_flag("--xray", options.xray, "start under the x-ray");
     app.add_flag("--mute", options.mute, "start without sound");
+    auto* tour = app.add_flag("--tour", options.tour, "start with the tour: how a 2D engine works, in eleven chapters");
+    app.add_option("--screenshots", options.pictures, "with --tour: write a picture of each page into this folder, and end")
+        ->needs(tour);
     app.add_flag("--fullscreen", options.fullscreen, "start in full screen");
     try
     {

@@ -21,6 +21,8 @@ struct PlayerOptions
     bool xray = false;
     bool mute = false;
     bool fullscreen = false;
+    bool tour = false;      ///< starts with the tour
+    std::string pictures{}; ///< folder: writes a picture of each page of the tour, and ends
 
     [[nodiscard]] std::string table_file() const;
 };

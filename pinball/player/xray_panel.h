@@ -17,6 +17,8 @@ public:
     void draw(view::Canvas& table, const Machine& machine, bool paused);
     void widgets(view::Window& window, const Layout& layout, Machine& machine, const Status& status);
 
+    [[nodiscard]] view::XrayToggles& toggles() { return m_overlay.toggles; }
+
 private:
     void wide(view::Window& window, Machine& machine, const Status& status);
     void narrow(view::Window& window, Machine& machine, const Status& status);

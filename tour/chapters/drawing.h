@@ -1,0 +1,52 @@
+#pragma once
+
+/// @file
+/// What several chapters draw: labels, arrows with a name, curves.
+
+#include "tour/chapter.h"
+#include "view/canvas.h"
+#include "view/shape_art.h"
+
+#include <deque>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace carom::tour {
+
+inline constexpr view::Color ink = view::rgb(0xe8eef8);
+inline constexpr view::Color faint = view::rgb(0x8fa1bd);
+inline constexpr view::Color first_color = view::rgb(0xffa94d);
+inline constexpr view::Color second_color = view::rgb(0x74c0fc);
+inline constexpr view::Color good_color = view::rgb(0x8ce99a);
+inline constexpr view::Color bad_color = view::rgb(0xff8787);
+inline constexpr view::Color yellow = view::rgb(0xffe066);
+
+/// Text with its middle at a point, kept inside the picture.
+void label(view::Canvas& canvas, Position at, std::string_view text, view::Color color = ink, float size = 13);
+
+/// An arrow with its name beside its head; nothing where it is too short to see.
+void named_arrow(view::Canvas& canvas, Position from, Vec2 way, std::string_view name, view::Color color);
+
+/// Where much is drawn over a scene it steps back.
+[[nodiscard]] view::ScenePalette quiet_palette();
+
+/// A whole number, as a slider of whole numbers gives it.
+[[nodiscard]] std::string whole(float value);
+
+/// Values over time, the newest last.
+struct Curve
+{
+    explicit Curve(view::Color c, std::string_view n = {}) : color(c), name(n) {}
+    view::Color color;
+    std::string name;
+    std::deque<float> values{};
+
+    void add(float value, std::size_t most = 240);
+};
+
+/// Curves with one scale, zero in sight. All of `most` values fit into the width.
+void draw_curves(view::Canvas& canvas, const Box& area, std::string_view title, std::span<const Curve* const> curves,
+                 std::size_t most = 240);
+
+} // namespace carom::tour

@@ -1,0 +1,243 @@
+// Plane and circle, plane and box, two circles, circle and box, two boxes: how each is found, drawn as it is computed.
+
+#include "tour/chapters/chapters.h"
+#include "tour/chapters/drawing.h"
+#include "tour/chapters/school_geometry.h"
+#include "view/shape_art.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace carom::tour {
+namespace {
+
+
+class FivePairs : public Chapter
+{
+    static constexpr int pairs = 5;
+    static constexpr std::array<const char*, pairs> pair_words{"plane and circle", "plane and box", "two circles", "circle and box", "two boxes"};
+    static constexpr std::array<const char*, pairs> pair_tells{"tell 1", "tell 2", "tell 3", "tell 4", "tell 5"};
+    static constexpr float radius = 0.7f;
+    static constexpr Vec2 half{0.9f, 0.6f};
+
+public:
+    FivePairs()
+        : Chapter("03-five-pairs",
+                  {{.name = "pair", .value = 1, .low = 1, .high = pairs, .format = "%.0f", .is_whole = true, .restarts = true},
+                   {.name = "turn", .value = 0.5f, .low = -1.6f, .high = 1.6f, .format = "%.2f rad"}})
+    {}
+
+    void build() override
+    {
+        begin({.gravity = {0, 0}, .sleeping = false});
+        switch (pair())
+        {
+        case 0: add(HalfSpace{.normal = slope}, {0, -1}, 0), add(Circle{.radius = radius}, {0.4, 0.2}, 0); break;
+        case 1: add(HalfSpace{.normal = slope}, {0, -1}, 0), add(box(half.x, half.y), {0.3, 0.4}, control("turn")); break;
+        case 2: add(Circle{.radius = 0.9f}, {-0.6, 0}, 0), add(Circle{.radius = radius}, {1.0, 0.7}, 0); break;
+        case 3: add(box(half.x, half.y), {-0.6, 0}, control("turn")), add(Circle{.radius = radius}, {1.0, 0.6}, 0); break;
+        default: add(box(half.x, half.y), {-0.8, -0.1}, 0), add(box(0.8f, 0.8f), {1.0, 0.5}, control("turn")); break;
+        }
+    }
+
+    void step() override {}
+    [[nodiscard]] bool is_still() const override { return true; }
+    [[nodiscard]] bool is_moved_by_hand() const override { return true; }
+    [[nodiscard]] int picture_steps() const override { return 0; }
+    [[nodiscard]] Box view() const override { return {{-4.2, -3.4}, {4.2, 3.2}}; }
+
+    void moved() override
+    {
+        const std::size_t turned = pair() == 3 ? 0 : 1;
+        if (pair() != 0 && pair() != 2)
+            scene().body(m_bodies[turned]).teleport(scene().body(m_bodies[turned]).position(), control("turn"));
+    }
+
+    [[nodiscard]] Values values() const override
+    {
+        Values values{{"pair", std::to_string(pair() + 1)},
+                      {"name", word(pair_words[static_cast<std::size_t>(pair())])},
+                      {"tells", ""},
+                      {"result", ""}};
+        const Found found = find();
+        for (const auto& [name, value] : found.numbers)
+            values[name] = view::number(value);
+        values["tells"] = filled(word(pair_tells[static_cast<std::size_t>(pair())]), values);
+        values["result"] = filled(word(found.gap > 0 ? "apart" : "overlap"), {{"gap", view::number(std::abs(found.gap))}});
+        return values;
+    }
+
+    void draw(view::Canvas& canvas, float alpha) const override
+    {
+        view::draw_scene(canvas, scene(), alpha, quiet_palette());
+        const Found found = find();
+        for (const auto& [from, to, color] : found.lines)
+            canvas.line(from, to, {color, 2});
+        for (const auto& [at, name, color] : found.marks)
+        {
+            canvas.fill_circle(at, canvas.camera().meters(3.5f), color);
+            label(canvas, at + Vec2{0, canvas.camera().meters(14)}, name, color, 12);
+        }
+        for (const ContactInfo& contact : scene().body(m_bodies[1]).touches_now())
+        {
+            for (int i = 0; i < contact.point_count; ++i)
+            {
+                canvas.stroke_circle(contact.points[i].position, canvas.camera().meters(6), {bad_color, 2});
+                const bool turned = scene().shape(contact.shape_a).body() == m_bodies[1];
+                named_arrow(canvas, contact.points[i].position, contact.normal * (turned ? -0.7f : 0.7f), i == 0 ? word("normal") : "",
+                            yellow);
+            }
+        }
+    }
+
+    [[nodiscard]] TableView table_view() const override { return {.contacts = true}; }
+
+private:
+    struct Line
+    {
+        Position from;
+        Position to;
+        view::Color color;
+    };
+    struct Mark
+    {
+        Position at;
+        std::string name;
+        view::Color color;
+    };
+    struct Found
+    {
+        float gap = 0; ///< m; negative: they overlap
+        std::vector<std::pair<std::string, float>> numbers{};
+        std::vector<Line> lines{};
+        std::vector<Mark> marks{};
+    };
+    static constexpr Vec2 slope{-0.196116f, 0.980581f};
+
+    [[nodiscard]] int pair() const { return static_cast<int>(control("pair")) - 1; }
+
+    void add(const Geometry& geometry, Position at, float angle)
+    {
+        const bool is_plane = std::holds_alternative<HalfSpace>(geometry);
+        const BodyId body =
+            scene().create_body({.type = is_plane ? BodyType::Static : BodyType::Dynamic, .position = at, .angle = angle});
+        scene().create_shape(body, geometry);
+        m_bodies[m_next++ % 2] = body;
+    }
+
+    [[nodiscard]] Pose pose(std::size_t i) const { return scene().body(m_bodies[i]).pose(); }
+
+    [[nodiscard]] Found find() const
+    {
+        switch (pair())
+        {
+        case 0: return plane_circle();
+        case 1: return plane_box();
+        case 2: return two_circles();
+        case 3: return circle_box();
+        default: return two_boxes();
+        }
+    }
+
+    [[nodiscard]] Found plane_circle() const
+    {
+        const Position center = pose(1).position;
+        const float distance = school::above_plane(center, pose(0).position, slope);
+        Found found{.gap = distance - radius, .numbers = {{"d", distance}, {"r", radius}, {"gap", distance - radius}}};
+        const Position foot = center - slope * distance;
+        found.lines = {{foot, center, first_color}};
+        found.marks = {{center, "c", first_color}, {foot, word("foot"), second_color}};
+        return found;
+    }
+
+    [[nodiscard]] Found plane_box() const
+    {
+        Found found{.gap = 1e9f};
+        const auto corners = school::corners(pose(1), half);
+        for (std::size_t i = 0; i < corners.size(); ++i)
+        {
+            const float d = school::above_plane(corners[i], pose(0).position, slope);
+            found.gap = std::min(found.gap, d);
+            found.lines.push_back({corners[i] - slope * d, corners[i], d < 0 ? bad_color : faint});
+            found.marks.push_back({corners[i], view::number(d), d < 0 ? bad_color : first_color});
+        }
+        found.numbers = {{"gap", found.gap}};
+        return found;
+    }
+
+    [[nodiscard]] Found two_circles() const
+    {
+        const Position a = pose(0).position;
+        const Position b = pose(1).position;
+        const float distance = length(b - a);
+        Found found{.gap = distance - 0.9f - radius, .numbers = {{"d", distance}, {"r1", 0.9f}, {"r2", radius}, {"gap", distance - 0.9f - radius}}};
+        found.lines = {{a, b, first_color}};
+        found.marks = {{a, "c₁", first_color}, {b, "c₂", second_color}};
+        return found;
+    }
+
+    [[nodiscard]] Found circle_box() const
+    {
+        const school::Nearest nearest = school::nearest_in_box(pose(1).position, pose(0), half);
+        Found found{.gap = nearest.distance - radius,
+                    .numbers = {{"x", nearest.local.x}, {"y", nearest.local.y}, {"cx", nearest.clamped.x}, {"cy", nearest.clamped.y},
+                                {"d", nearest.distance}, {"r", radius}, {"gap", nearest.distance - radius}}};
+        const Position closest = transform(pose(0), nearest.clamped);
+        found.lines = {{closest, pose(1).position, first_color}};
+        found.lines.push_back({pose(0).position, transform(pose(0), {half.x, 0}), second_color});
+        found.lines.push_back({pose(0).position, transform(pose(0), {0, half.y}), second_color});
+        found.marks = {{pose(1).position, "c", first_color}, {closest, word("nearest"), second_color}};
+        return found;
+    }
+
+    // The shadows of both boxes on the four directions of their sides; the one with the least overlap decides.
+    [[nodiscard]] Found two_boxes() const
+    {
+        const Vec2 other{0.8f, 0.8f};
+        const std::array<Vec2, 4> axes{school::axis(pose(0), 0), school::axis(pose(0), 1), school::axis(pose(1), 0), school::axis(pose(1), 1)};
+        Found found{.gap = -1e9f};
+        std::size_t best = 0;
+        for (std::size_t i = 0; i < axes.size(); ++i)
+        {
+            const float gap = school::gap_along(axes[i], pose(0), half, pose(1), other);
+            found.numbers.emplace_back("gap" + std::to_string(i + 1), gap);
+            if (gap > found.gap)
+            {
+                found.gap = gap;
+                best = i;
+            }
+        }
+        found.numbers.emplace_back("axis", static_cast<float>(best + 1));
+        found.numbers.emplace_back("gap", found.gap);
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            add_shadows(found, axes[i], i, other, i == best);
+        return found;
+    }
+
+    // Each on a line of its own, beside the boxes.
+    void add_shadows(Found& found, Vec2 axis, std::size_t number, Vec2 other, bool is_best) const
+    {
+        const Vec2 side = perp(axis);
+        const float off = number % 2 == 0 ? -2.3f - 0.35f * static_cast<float>(number / 2) : 2.9f + 0.35f * static_cast<float>(number / 2);
+        const Position origin = Position{0, 0} + side * off;
+        const auto shade = [&](std::size_t which, Vec2 half_size, view::Color color)
+        {
+            const auto [low, high] = school::shadow(axis, pose(which), half_size);
+            found.lines.push_back({origin + axis * low, origin + axis * high, is_best ? color : fade(color, 0.45f)});
+        };
+        shade(0, half, first_color);
+        shade(1, other, second_color);
+        const auto [low, high] = school::shadow(axis, pose(1), other);
+        found.marks.push_back({origin + axis * (high + 0.25f), std::to_string(number + 1), is_best ? yellow : faint});
+    }
+
+    std::array<BodyId, 2> m_bodies{};
+    std::size_t m_next = 0;
+};
+
+} // namespace
+
+std::unique_ptr<Chapter> five_pairs() { return std::make_unique<FivePairs>(); }
+
+} // namespace carom::tour
