@@ -9,8 +9,32 @@ namespace {
 
 using Kind = StoryLine::Kind;
 
-ImpactParty party(const Scene& scene, BodyId id, ShapeId shape, const char* fallback, const ShapeNamer& namer)
+constexpr float shown = 5e-4f; // of a number: what its three digits can tell
+
+// Where all that holds it is a hinge to something that stands still.
+void find_pivot(const Scene& scene, const ConstBody& body, const ImpactEvent& event, ImpactParty& p)
 {
+    const std::vector<JointId> joints = body.joints();
+    p.jointed = !joints.empty();
+    if (joints.size() != 1)
+        return;
+    const ConstJoint joint = scene.joint(joints.front());
+    const JointDef def = joint.def();
+    const BodyId other = joint.body_a() == body.id() ? joint.body_b() : joint.body_a();
+    const bool stands = !scene.is_valid(other) || scene.body(other).type() == BodyType::Static;
+    if (!std::holds_alternative<RevoluteDef>(def) || !stands)
+        return;
+    const Position pivot = joint.body_a() == body.id() ? joint.anchor_b() : joint.anchor_a();
+    const float off = length(body.center_of_mass() - pivot);
+    p.pivot_inertia = p.inertia + p.mass * off * off;
+    p.pivot_arm = std::abs(cross(event.point - pivot, event.normal));
+}
+
+ImpactParty party(const Scene& scene, const ImpactEvent& event, bool first, const ShapeNamer& namer)
+{
+    const BodyId id = first ? event.body_a : event.body_b;
+    const ShapeId shape = first ? event.shape_a : event.shape_b;
+    const char* fallback = first ? "A" : "B";
     ImpactParty p;
     p.name = namer && scene.is_valid(shape) ? namer(scene, shape) : fallback;
     if (!scene.is_valid(id))
@@ -21,6 +45,7 @@ ImpactParty party(const Scene& scene, BodyId id, ShapeId shape, const char* fall
     p.inertia = body.inertia();
     const MotionLocks locks = body.locks();
     p.held = locks.linear_x && locks.linear_y;
+    find_pivot(scene, body, event, p);
     return p;
 }
 
@@ -31,6 +56,13 @@ float reduced_mass(float a, float b)
     if (b <= 0)
         return a;
     return a * b / (a + b);
+}
+
+// 3.2·10⁻⁶ is more than one sign.
+std::string squared(float value)
+{
+    const std::string text = number(value);
+    return text.find("·") == std::string::npos ? text + "²" : "(" + text + ")²";
 }
 
 std::string with_index(const char* symbol, bool first) { return std::string(symbol) + (first ? "₁" : "₂"); }
@@ -46,8 +78,8 @@ void tell_held(std::vector<StoryLine>& story, const ImpactParty& p, float effect
 {
     const std::string r = number(lever_arm(p, effective));
     story.push_back({Kind::Text, p.name + " turns about a fixed pivot, hit " + r + " m from it: only I/r² counts"});
-    story.push_back(
-        {Kind::Formula, with_index("m", first) + " = " + number(p.inertia) + " / " + r + "² = " + number(effective) + " kg"});
+    story.push_back({Kind::Formula, with_index("m", first) + " = " + number(p.inertia) + " / " +
+                                        squared(lever_arm(p, effective)) + " = " + number(effective) + " kg"});
 }
 
 void tell_free(std::vector<StoryLine>& story, const ImpactParty& p, float effective, bool first)
@@ -61,8 +93,26 @@ void tell_free(std::vector<StoryLine>& story, const ImpactParty& p, float effect
         return;
     }
     story.push_back({Kind::Text, p.name + " is hit " + number(r) + " m beside its centre and can turn away: it feels lighter"});
-    story.push_back({Kind::Formula, m + " = 1 / (1/" + number(p.mass) + " + " + number(r) + "²/" + number(p.inertia) +
+    story.push_back({Kind::Formula, m + " = 1 / (1/" + number(p.mass) + " + " + squared(r) + "/" + number(p.inertia) +
                                         ") = " + number(effective) + " kg"});
+}
+
+// The event's mass is that of the whole mechanism; only a plain pivot can be checked by hand.
+void tell_jointed(std::vector<StoryLine>& story, const ImpactParty& p, float effective, bool first)
+{
+    const float of_pivot = p.pivot_arm > 0 ? p.pivot_inertia / (p.pivot_arm * p.pivot_arm) : 0;
+    const std::string m = with_index("m", first);
+    if (std::abs(of_pivot - effective) > 0.01f * effective)
+    {
+        story.push_back({Kind::Text, p.name + " is held by joints: what hangs on them is pushed along. Here it feels like"});
+        story.push_back({Kind::Formula, m + " = " + number(effective) + " kg"});
+        return;
+    }
+    const std::string r = number(p.pivot_arm);
+    story.push_back({Kind::Text, p.name + " hangs on a pivot and is hit " + r +
+                                     " m beside it: it can only turn, and I/r² counts, I about the pivot"});
+    story.push_back(
+        {Kind::Formula, m + " = " + number(p.pivot_inertia) + " / " + squared(p.pivot_arm) + " = " + number(effective) + " kg"});
 }
 
 void tell_mass(std::vector<StoryLine>& story, const ImpactParty& p, float effective, bool first)
@@ -71,6 +121,8 @@ void tell_mass(std::vector<StoryLine>& story, const ImpactParty& p, float effect
         tell_fixed(story, p, first);
     else if (p.held)
         tell_held(story, p, effective, first);
+    else if (p.jointed)
+        tell_jointed(story, p, effective, first);
     else
         tell_free(story, p, effective, first);
 }
@@ -98,8 +150,8 @@ void tell_bounce(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     const int percent = static_cast<int>(std::lround(100 * e.restitution));
     story.push_back({Kind::Step, "How bouncy is it?"});
-    story.push_back(
-        {Kind::Text, "e = " + number(e.restitution) + ": " + std::to_string(percent) + " % of the approach speed comes back"});
+    story.push_back({Kind::Text, "e = " + number(e.restitution) + ": between the two alone, " + std::to_string(percent) +
+                                     " % of the approach speed comes back"});
 }
 
 void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -127,7 +179,7 @@ void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
     const float formula = impulse_by_formula(record);
     const float engine = record.event.impulse;
-    const bool same = std::abs(formula - engine) <= 0.005f * std::max(formula, engine);
+    const bool same = std::abs(formula - engine) <= shown * std::max(formula, engine) || number(formula) == number(engine);
     story.push_back({Kind::Result, "The engine gave " + number(engine) + " N·s" + (same ? ": the same" : "")});
     if (!same)
         story.push_back({Kind::Text, "They differ: friction or another contact took part in the same blow."});
@@ -144,17 +196,39 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const float change = impulse / effective;
     const float by_formula = first ? before - change : before + change;
     const float scale = std::max({std::abs(before), std::abs(after), change});
-    const bool is_alone = std::abs(by_formula - after) <= 0.005f * scale;
+    const bool is_alone = std::abs(by_formula - after) <= 0.2f * shown * scale;
     const std::string way = is_alone ? v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
                                            number(impulse) + "/" + number(effective) + " = "
                                      : v + " from " + number(before) + " to ";
     story.push_back({Kind::Formula, p.name + ": " + way + number(after) + " m/s"});
 }
 
+// From the speeds that they had, not from what should have been.
+void tell_parting(std::vector<StoryLine>& story, const ImpactEvent& e)
+{
+    const float parting = dot(e.velocity_after_b - e.velocity_after_a, e.normal);
+    const float by_formula = e.restitution * e.approach_speed + e.kick_speed;
+    const std::string formula = "e·(v₁−v₂)" + std::string(e.kick_speed > 0 ? " + kick" : "") + " = " + number(e.restitution) +
+                                "·" + number(e.approach_speed) + (e.kick_speed > 0 ? " + " + number(e.kick_speed) : "") + " = " +
+                                number(by_formula) + " m/s";
+    if (std::abs(parting - by_formula) <= 2 * shown * std::max(e.approach_speed, std::abs(by_formula)))
+    {
+        story.push_back({Kind::Formula, "they part at " + formula});
+        return;
+    }
+    const std::string how = std::abs(parting) <= 1e-4f * e.approach_speed
+                                ? "stay together"
+                                : (parting > 0 ? "part at " : "still approach at ") + number(std::abs(parting)) + " m/s";
+    story.push_back({Kind::Text, "They " + how + ". Between the two alone they would part at"});
+    story.push_back({Kind::Formula, formula});
+    story.push_back({Kind::Text, "Others struck or held them at the same moment, or friction turned them."});
+}
+
 void tell_after(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
     const ImpactEvent& e = record.event;
     story.push_back({Kind::Step, "And afterwards, along the same line"});
+    tell_parting(story, e);
     tell_change(story, record.a, e.effective_mass_a, e.speed_a, dot(e.velocity_after_a, e.normal), e.impulse, true);
     tell_change(story, record.b, e.effective_mass_b, e.speed_b, dot(e.velocity_after_b, e.normal), e.impulse, false);
     story.push_back({Kind::Text, e.energy_lost >= 0 ? "Energy turned into heat and sound: " + number(e.energy_lost) + " J"
@@ -203,8 +277,7 @@ std::string kind_name(const Scene& scene, ShapeId shape)
 
 ImpactRecord record_impact(const Scene& scene, const ImpactEvent& event, const ShapeNamer& namer)
 {
-    return {event, party(scene, event.body_a, event.shape_a, "A", namer), party(scene, event.body_b, event.shape_b, "B", namer),
-            scene.time()};
+    return {event, party(scene, event, true, namer), party(scene, event, false, namer), scene.time()};
 }
 
 float impulse_by_formula(const ImpactRecord& record)

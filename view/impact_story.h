@@ -23,6 +23,9 @@ struct ImpactParty
     float mass = 0;    ///< kg
     float inertia = 0; ///< kg m²
     bool held = false; ///< cannot shift, only turn (a flipper on its pivot)
+    bool jointed = false;
+    float pivot_inertia = 0; ///< about the one hinge that it hangs on, kg m²; 0: it hangs on none, or on more than that
+    float pivot_arm = 0;     ///< how far beside that hinge the line of the blow passes, m
 };
 
 struct ImpactRecord
