@@ -20,6 +20,9 @@ struct Window::Native
     bool video = false;
     bool offscreen = false;
     bool paced = true; ///< by the display, or on purpose by nothing
+    double shown = 0;  ///< ms: when the last frame was handed over
+    double work = 0;   ///< ms that a frame takes, the longest of late
+    double begun = 0;
 
     ~Native()
     {
@@ -77,6 +80,20 @@ void quiet_look()
     style.Colors[ImGuiCol_PlotLines] = {0.45f, 0.80f, 1, 1};
 }
 
+double now_ms()
+{
+    return 1000 * static_cast<double>(SDL_GetPerformanceCounter()) / static_cast<double>(SDL_GetPerformanceFrequency());
+}
+
+// Of the display that the window is on.
+double frame_ms(SDL_Window* window)
+{
+    SDL_DisplayMode mode{};
+    const int display = SDL_GetWindowDisplayIndex(window);
+    const bool known = display >= 0 && SDL_GetCurrentDisplayMode(display, &mode) == 0 && mode.refresh_rate > 0;
+    return 1000.0 / (known ? mode.refresh_rate : 60);
+}
+
 void start_imgui(SDL_Window* window, SDL_GLContext gl)
 {
     ImGui::GetIO().IniFilename = nullptr; // leaves no file behind
@@ -119,9 +136,25 @@ Window::Window(const WindowDef& def) : m_native(std::make_unique<Native>()), m_b
 
 Window::~Window() = default;
 
+// SDL stamps an event when it is fetched, so events are fetched all the time until it is time to begin the frame, not at once after the
+// display was waited for.
 void Window::poll()
 {
     m_events.clear();
+    fetch_events();
+    if (m_native->offscreen)
+        return;
+    constexpr double in_hand = 3; // ms
+    const double due = m_native->shown + frame_ms(m_native->window) - m_native->work - in_hand;
+    while (!m_quit && now_ms() < due)
+    {
+        SDL_Delay(1);
+        fetch_events();
+    }
+}
+
+void Window::fetch_events()
+{
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0)
     {
@@ -138,6 +171,7 @@ bool Window::begin_frame()
     poll();
     if (m_quit)
         return false;
+    m_native->begun = now_ms();
     if (m_fonts.prepare(pixel_scale()))
     {
         ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -161,7 +195,9 @@ void Window::end_frame(Image* capture)
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     if (capture != nullptr)
         read_pixels(*capture);
+    m_native->work = std::max(now_ms() - m_native->begun, 0.95 * m_native->work);
     SDL_GL_SwapWindow(m_native->window);
+    m_native->shown = now_ms();
     // A display that cannot pace frames would let the loop eat a whole core.
     if (!m_native->paced)
         SDL_Delay(4);

@@ -78,6 +78,7 @@ public:
 private:
     struct Native;
     void poll();
+    void fetch_events();
     void read_pixels(Image& image) const;
 
     std::unique_ptr<Native> m_native;

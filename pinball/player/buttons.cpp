@@ -1,10 +1,29 @@
 #include "pinball/player/buttons.h"
 
+#include <algorithm>
+
 namespace carom::pinball {
 
 void ButtonTimeline::push(double time_ms, Button button, bool down, int source)
 {
-    m_waiting.push_back({time_ms, button, down, source});
+    double& pressed_at = m_pressed_at[static_cast<std::size_t>(button)][static_cast<std::size_t>(source)];
+    if (down)
+    { // a release that still waits comes before the key is down again
+        for (Change& waiting : m_waiting)
+        {
+            if (waiting.button == button && waiting.source == source && !waiting.down)
+                waiting.time_ms = std::min(waiting.time_ms, time_ms);
+        }
+        std::ranges::stable_sort(m_waiting, {}, &Change::time_ms);
+        pressed_at = time_ms;
+    }
+    insert({down ? time_ms : std::max(time_ms, pressed_at + shortest_press_ms), button, down, source});
+}
+
+// After all that come no later.
+void ButtonTimeline::insert(const Change& change)
+{
+    m_waiting.insert(std::ranges::upper_bound(m_waiting, change.time_ms, {}, &Change::time_ms), change);
 }
 
 void ButtonTimeline::release_all()

@@ -21,11 +21,14 @@ enum class Button : std::uint8_t
 inline constexpr std::size_t button_count = 4;
 
 /// Presses and releases wait here until the step in which they fall. Two keys may share a button: it is down while
-/// either is. A tap shorter than a step is still down for one step.
+/// either is.
 class ButtonTimeline
 {
 public:
-    /// `source` tells keys apart that share a button, 0 to 31. Time in ms, never earlier than the one before.
+    /// No finger is faster: a release that comes sooner was seen together with its press, and its true time is not known.
+    static constexpr double shortest_press_ms = 20;
+
+    /// `source` tells keys apart that share a button, 0 to 31. Time in ms.
     void push(double time_ms, Button button, bool down, int source = 0);
     /// Everything up, at once, and nothing left waiting: the window lost its focus.
     void release_all();
@@ -33,6 +36,7 @@ public:
     [[nodiscard]] Input advance_to(double time_ms);
 
 private:
+    static constexpr std::size_t sources = 32;
     struct Change
     {
         double time_ms = 0;
@@ -40,10 +44,12 @@ private:
         bool down = false;
         int source = 0;
     };
+    void insert(const Change& change);
     void apply(const Change& change);
 
     std::deque<Change> m_waiting{};
     std::array<std::uint32_t, button_count> m_sources{}; ///< a bit for each key that is down
+    std::array<std::array<double, sources>, button_count> m_pressed_at{};
     std::array<bool, button_count> m_pressed_now{};      ///< in the step that is being gathered
 };
 

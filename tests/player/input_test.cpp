@@ -2,8 +2,13 @@
 #include "pinball/player/keys.h"
 #include "pinball/player/name_entry.h"
 #include "pinball/player/step_clock.h"
+#include "pinball/table/loader.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace carom::pinball {
 namespace {
@@ -12,21 +17,72 @@ TEST(PlayerInput, APressFallsIntoTheStepOfItsTime)
 {
     ButtonTimeline buttons;
     buttons.push(10.4, Button::Left, true);
-    buttons.push(13.2, Button::Left, false);
+    buttons.push(43.2, Button::Left, false);
     EXPECT_FALSE(buttons.advance_to(10).left);
-    EXPECT_TRUE(buttons.advance_to(11).left);
-    EXPECT_TRUE(buttons.advance_to(12).left);
-    EXPECT_TRUE(buttons.advance_to(13).left);
-    EXPECT_FALSE(buttons.advance_to(14).left);
+    for (int t = 11; t <= 43; ++t)
+        EXPECT_TRUE(buttons.advance_to(t).left) << t;
+    EXPECT_FALSE(buttons.advance_to(44).left);
 }
 
-TEST(PlayerInput, ATapShorterThanAStepIsSeenForOneStep)
+// Press and release that come with one frame have one time.
+TEST(PlayerInput, ATapShorterThanAFrameLastsAsLongAsAFingerDoes)
 {
     ButtonTimeline buttons;
-    buttons.push(10.2, Button::Right, true);
-    buttons.push(10.7, Button::Right, false);
-    EXPECT_TRUE(buttons.advance_to(11).right);
-    EXPECT_FALSE(buttons.advance_to(12).right);
+    buttons.push(10, Button::Right, true);
+    buttons.push(10, Button::Right, false);
+    for (int t = 10; t < 30; ++t)
+        EXPECT_TRUE(buttons.advance_to(t).right) << t;
+    EXPECT_FALSE(buttons.advance_to(30).right);
+}
+
+TEST(PlayerInput, AKeyThatIsHitTwiceIsUpInBetween)
+{
+    ButtonTimeline buttons;
+    buttons.push(10, Button::Left, true);
+    buttons.push(11, Button::Left, false);
+    buttons.push(18, Button::Left, true);
+    EXPECT_TRUE(buttons.advance_to(17).left);
+    EXPECT_TRUE(buttons.advance_to(35).left);
+    buttons.push(60, Button::Left, false);
+    EXPECT_TRUE(buttons.advance_to(59).left);
+    EXPECT_FALSE(buttons.advance_to(60).left);
+}
+
+// The bat of the table, from a tap within one frame.
+TEST(PlayerInput, ATapShorterThanAFrameLiftsTheBat)
+{
+    LoadResult loaded = load_table_file(CAROM_TABLES_DIR "/momentum.table.json");
+    ASSERT_TRUE(loaded.table);
+    Game game(std::move(*loaded.table), {.seed = 1});
+    ButtonTimeline buttons;
+    buttons.push(1, Button::Start, true);
+    buttons.push(30, Button::Start, false);
+    const double tap = 100;
+    buttons.push(tap, Button::Left, true);
+    buttons.push(tap, Button::Left, false);
+    const auto angles = [&]
+    {
+        std::vector<float> all;
+        for (const BodyId body : game.scene().bodies())
+        {
+            const MotionLocks locks = game.scene().body(body).locks();
+            if (locks.linear_x && locks.linear_y && game.scene().body(body).type() == BodyType::Dynamic)
+                all.push_back(game.scene().body(body).angle());
+        }
+        return all;
+    };
+    std::vector<float> before;
+    float most = 0;
+    for (int t = 1; t < 200; ++t)
+    {
+        game.step(buttons.advance_to(t));
+        if (t < tap)
+            before = angles();
+        const std::vector<float> now = angles();
+        for (std::size_t i = 0; i < now.size(); ++i)
+            most = std::max(most, std::abs(now[i] - before[i]));
+    }
+    EXPECT_GT(most, 0.3f);
 }
 
 TEST(PlayerInput, TwoKeysShareAButton)
@@ -34,11 +90,11 @@ TEST(PlayerInput, TwoKeysShareAButton)
     ButtonTimeline buttons;
     buttons.push(1, Button::Left, true, 0);
     buttons.push(2, Button::Left, true, 1);
-    buttons.push(3, Button::Left, false, 0);
-    EXPECT_TRUE(buttons.advance_to(3).left);
-    EXPECT_TRUE(buttons.advance_to(4).left);
-    buttons.push(5, Button::Left, false, 1);
-    EXPECT_FALSE(buttons.advance_to(6).left);
+    buttons.push(33, Button::Left, false, 0);
+    EXPECT_TRUE(buttons.advance_to(33).left);
+    EXPECT_TRUE(buttons.advance_to(34).left);
+    buttons.push(35, Button::Left, false, 1);
+    EXPECT_FALSE(buttons.advance_to(36).left);
 }
 
 TEST(PlayerInput, LosingTheFocusDropsFlippersAndPlunger)
