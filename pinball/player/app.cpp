@@ -115,10 +115,30 @@ private:
             m_buttons.release_all();
         if (event.type == SDL_CONTROLLERDEVICEADDED)
             SDL_GameControllerOpen(event.cdevice.which);
+        if (m_machine.name_entry().active() && write_name(event))
+            return;
         if (const auto press = button_of(event))
             m_buttons.push(static_cast<double>(event.common.timestamp), press->button, press->down, press->source);
         if (const auto wish = wish_of(event); wish && !m_window.wants_keyboard())
             obey(*wish);
+    }
+
+    // Letters are letters while a name is written.
+    bool write_name(const SDL_Event& event)
+    {
+        if (event.type != SDL_KEYDOWN && event.type != SDL_KEYUP)
+            return false;
+        const SDL_Keycode key = event.key.keysym.sym; // as printed on the key
+        const bool is_letter = (key >= SDLK_a && key <= SDLK_z) || (key >= SDLK_0 && key <= SDLK_9);
+        if (!is_letter && key != SDLK_BACKSPACE)
+            return false;
+        if (event.type == SDL_KEYUP)
+            return true;
+        if (is_letter)
+            m_machine.name_entry().type(static_cast<char>(key));
+        else
+            m_machine.name_entry().erase();
+        return true;
     }
 
     void obey(Wish wish)

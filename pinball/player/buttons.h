@@ -50,7 +50,7 @@ private:
     std::deque<Change> m_waiting{};
     std::array<std::uint32_t, button_count> m_sources{}; ///< a bit for each key that is down
     std::array<std::array<double, sources>, button_count> m_pressed_at{};
-    std::array<bool, button_count> m_pressed_now{};      ///< in the step that is being gathered
+    std::array<bool, button_count> m_pressed_now{}; ///< in the step that is being gathered
 };
 
 } // namespace carom::pinball

@@ -4,7 +4,12 @@
 #include <SDL_stdinc.h>
 #include <nlohmann/json.hpp>
 
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <fstream>
+#include <system_error>
+#include <thread>
 
 namespace carom::pinball {
 
@@ -61,11 +66,65 @@ HighScores HighScoreFile::load(const std::string& table) const
     return scores;
 }
 
+namespace {
+
+// A file that only one can make. One that is older than any write takes was left by a crash.
+class Lock
+{
+public:
+    explicit Lock(const std::filesystem::path& file) : m_file(file.string() + ".lock")
+    {
+        for (int tries = 0; tries < 200 && !m_held; ++tries)
+        {
+            if (std::FILE* made = std::fopen(m_file.c_str(), "wx"))
+            {
+                std::fclose(made);
+                m_held = true;
+                return;
+            }
+            if (errno != EEXIST)
+                return; // nothing can be written there, as whoever writes will find
+            break_if_old();
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    ~Lock()
+    {
+        std::error_code ignored;
+        if (m_held)
+            std::filesystem::remove(m_file, ignored);
+    }
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+private:
+    void break_if_old() const
+    {
+        std::error_code error;
+        const auto made = std::filesystem::last_write_time(m_file, error);
+        if (!error && std::filesystem::file_time_type::clock::now() - made > std::chrono::seconds(5))
+            std::filesystem::remove(m_file, error);
+    }
+
+    std::filesystem::path m_file;
+    bool m_held = false;
+};
+
+std::string why_not(const std::filesystem::path& file)
+{
+    return "high scores cannot be kept: " + file.string() + ": " + std::generic_category().message(errno != 0 ? errno : EIO);
+}
+
+} // namespace
+
 // Through a file beside it, so that a crash in the middle leaves the old scores.
-bool HighScoreFile::save(const std::string& table, const HighScores& scores) const
+std::string HighScoreFile::add(const std::string& table, const HighScore& score) const
 {
     if (m_file.empty())
-        return false;
+        return "high scores cannot be kept: there is no folder for them (is HOME set?)";
+    const Lock lock(m_file);
+    HighScores scores = load(table);
+    scores.insert(score);
     Json json = read(m_file);
     if (json.is_discarded())
     {
@@ -74,14 +133,15 @@ bool HighScoreFile::save(const std::string& table, const HighScores& scores) con
     }
     json["tables"][table] = to_json(scores);
     const std::filesystem::path fresh = m_file.string() + ".new";
+    errno = 0;
     std::ofstream out(fresh);
     out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
     out.close();
     if (!out)
-        return false;
+        return why_not(fresh);
     std::error_code error;
     std::filesystem::rename(fresh, m_file, error);
-    return !error;
+    return error ? "high scores cannot be kept: " + m_file.string() + ": " + error.message() : "";
 }
 
 } // namespace carom::pinball

@@ -19,8 +19,9 @@ public:
 
     /// No file, or one that cannot be read: no scores.
     [[nodiscard]] HighScores load(const std::string& table) const;
-    /// Keeps the scores of other tables. A broken file is put aside as *.broken. False where nothing could be written.
-    bool save(const std::string& table, const HighScores& scores) const;
+    /// Adds one to those that the file has by now, under a lock: several machines may run. Scores of other tables are kept; a broken file is put
+    /// aside as *.broken. Empty, or a sentence that says why the score cannot be kept.
+    [[nodiscard]] std::string add(const std::string& table, const HighScore& score) const;
 
 private:
     std::filesystem::path m_file;

@@ -52,10 +52,20 @@ void Machine::load_scores()
         m_game.set_high_scores(m_score_file->load(m_game.table().name));
 }
 
-void Machine::save_scores()
+Machine::~Machine()
 {
-    if (m_score_file)
-        (void)m_score_file->save(m_game.table().name, m_game.high_scores());
+    if (m_name_entry.active())
+        keep_score();
+}
+
+// The last one, with its name.
+void Machine::keep_score()
+{
+    if (m_name_entry.active())
+        m_game.name_last(m_name_entry.name());
+    const int rank = m_game.last_rank();
+    if (m_score_file && rank >= 0)
+        m_score_trouble = m_score_file->add(m_game.table().name, m_game.high_scores().entries()[static_cast<std::size_t>(rank)]);
 }
 
 void Machine::step(Input input)
@@ -65,14 +75,15 @@ void Machine::step(Input input)
     if (m_name_entry.step(input))
     {
         m_game.name_last(m_name_entry.name());
-        save_scores();
+        keep_score();
     }
     m_times.measure([&] { m_game.step(m_name_entry.leaves_over(input)); });
     for (const GameEvent& event : m_game.events())
         if (event.kind == EventKind::HighScore)
         {
-            save_scores();
-            if (!m_player)
+            if (m_player)
+                keep_score();
+            else
                 m_name_entry.begin(event.value);
         }
     m_effects.observe(m_game);
@@ -81,6 +92,8 @@ void Machine::step(Input input)
 
 void Machine::begin(Table table)
 {
+    if (m_name_entry.active())
+        keep_score();
     const HighScores scores = m_game.high_scores();
     const bool same = table.name == m_game.table().name;
     m_game = Game(std::move(table), {.seed = m_seed});
@@ -100,6 +113,8 @@ void Machine::begin(Table table)
 
 void Machine::restart()
 {
+    if (m_name_entry.active())
+        keep_score();
     m_game.restart();
     m_effects = Effects(m_game.table());
     if (m_autoplay)

@@ -25,6 +25,10 @@ class Machine
 public:
     /// Throws std::runtime_error with the loader's sentences where the file is no table. keep_scores: on the disk.
     Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores);
+    /// A name that is being written goes to the file as far as it has come.
+    ~Machine();
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
 
     void step(Input input);
     void restart();
@@ -37,6 +41,11 @@ public:
     [[nodiscard]] const Effects& effects() const { return m_effects; }
     [[nodiscard]] const TableArt& art() const { return m_art; }
     [[nodiscard]] const NameEntry& name_entry() const { return m_name_entry; }
+    [[nodiscard]] NameEntry& name_entry() { return m_name_entry; }
+    [[nodiscard]] const std::string& score_trouble() const
+    {
+        return m_score_trouble;
+    } ///< a sentence, where scores cannot be kept
     [[nodiscard]] const std::vector<std::string>& table_errors() const { return m_table_errors; }
     [[nodiscard]] const StepTimes& times() const { return m_times; }
 
@@ -50,7 +59,7 @@ public:
 private:
     void begin(Table table);
     void load_scores();
-    void save_scores();
+    void keep_score();
 
     TableWatch m_watch;
     std::uint64_t m_seed;
@@ -62,6 +71,7 @@ private:
     TableArt m_art;
     std::optional<ReflexPlayer> m_player{};
     NameEntry m_name_entry{};
+    std::string m_score_trouble{};
     std::vector<std::string> m_table_errors{};
     StepTimes m_times{};
 };

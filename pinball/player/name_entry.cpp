@@ -1,5 +1,7 @@
 #include "pinball/player/name_entry.h"
 
+#include <algorithm>
+
 namespace carom::pinball {
 
 void NameEntry::begin(int rank)
@@ -11,10 +13,31 @@ void NameEntry::begin(int rank)
     m_held = {.left = true, .right = true, .plunger = true, .start = true};
 }
 
+void NameEntry::type(char letter)
+{
+    const bool small = letter >= 'a' && letter <= 'z';
+    const bool fits = small || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9');
+    if (!m_active || !fits || m_cursor == letters)
+        return;
+    m_name[static_cast<std::size_t>(m_cursor)] = small ? static_cast<char>(letter - 'a' + 'A') : letter;
+    ++m_cursor;
+    m_typed = true;
+}
+
+void NameEntry::erase()
+{
+    if (m_cursor == 0)
+        return;
+    m_name[static_cast<std::size_t>(--m_cursor)] = 'A';
+}
+
 void NameEntry::turn(int by)
 {
+    m_typed = false;
+    m_cursor = std::min(m_cursor, letters - 1);
     char& letter = m_name[static_cast<std::size_t>(m_cursor)];
-    letter = static_cast<char>('A' + (letter - 'A' + 26 + by) % 26);
+    const int place = letter >= 'A' ? letter - 'A' : 0;
+    letter = static_cast<char>('A' + (place + 26 + by) % 26);
 }
 
 bool NameEntry::step(const Input& input)
@@ -31,7 +54,7 @@ bool NameEntry::step(const Input& input)
     if (input.right && !before.right)
         turn(1);
     const bool taken = (input.start && !before.start) || (input.plunger && !before.plunger);
-    if (taken && ++m_cursor == 3)
+    if (taken && (m_typed || ++m_cursor == letters))
     {
         m_active = false;
         m_swallow = true;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Three letters for the high scores: the flippers turn the letter, start or plunger takes it.
+/// Three letters for the high scores: typed, or the flippers turn the letter and start or plunger takes it. A name that was typed is taken
+/// whole.
 
 #include "pinball/game/game.h"
 
@@ -12,12 +13,17 @@ namespace carom::pinball {
 class NameEntry
 {
 public:
+    static constexpr int letters = 3;
+
     void begin(int rank);
     [[nodiscard]] bool active() const { return m_active; }
     [[nodiscard]] int rank() const { return m_rank; }
-    [[nodiscard]] int cursor() const { return m_cursor; }
+    [[nodiscard]] int cursor() const { return m_cursor; } ///< letters: all are typed
     [[nodiscard]] const std::string& name() const { return m_name; }
 
+    /// A letter or digit of the keyboard; anything else is none.
+    void type(char letter);
+    void erase();
     /// True in the step in which the last letter was taken.
     [[nodiscard]] bool step(const Input& input);
     /// What the game may have of the buttons.
@@ -27,6 +33,7 @@ private:
     void turn(int by);
 
     bool m_active = false;
+    bool m_typed = false;
     bool m_swallow = false; ///< the button that ended the entry is still down
     int m_rank = -1;
     int m_cursor = 0;

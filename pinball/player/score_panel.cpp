@@ -24,7 +24,8 @@ std::string resting_line(const Game& game, double time)
     switch (game.phase())
     {
     case Phase::Attract:
-    case Phase::GameOver: return second ? "PRESS ENTER" : "BEST " + with_commas(game.high_scores().best());
+    case Phase::GameOver:
+        return second || game.high_scores().entries().empty() ? "PRESS ENTER" : "BEST " + with_commas(game.high_scores().best());
     case Phase::Ready: return second ? "HOLD SPACE" : "BALL " + std::to_string(game.ball_number());
     default: break;
     }
@@ -38,7 +39,7 @@ void write_name(DotMatrix& dots, const NameEntry& entry, double time)
 {
     dots.centered(1, "RANK " + std::to_string(entry.rank() + 1));
     std::string name = entry.name();
-    if (std::fmod(time, 0.5) > 0.3)
+    if (std::fmod(time, 0.5) > 0.3 && entry.cursor() < NameEntry::letters)
         name[static_cast<std::size_t>(entry.cursor())] = '_';
     dots.centered(11, name, 2);
 }
@@ -86,6 +87,8 @@ std::string ball_text(const Game& game)
 {
     if (game.ball_number() == 0)
         return "no game yet";
+    if (game.phase() == Phase::GameOver)
+        return "game over";
     return "ball " + std::to_string(game.ball_number()) + " of " + std::to_string(game.balls_per_game());
 }
 
@@ -143,9 +146,10 @@ float draw_row(Canvas& screen, const Layout& layout, float y, const std::string&
 float draw_rows(Canvas& screen, const Layout& layout, const Machine& machine, const Status& status, float y)
 {
     const Game& game = machine.game();
-    const std::string number = std::to_string(game.ball_number());
+    const bool plays = game.ball_number() != 0 && game.phase() != Phase::GameOver;
     y = draw_row(screen, layout, y, "ball",
-                 game.ball_number() == 0 ? "-" : number + " of " + std::to_string(game.balls_per_game()), palette::text);
+                 plays ? std::to_string(game.ball_number()) + " of " + std::to_string(game.balls_per_game()) : "-",
+                 palette::text);
     y = draw_row(screen, layout, y, "bonus", with_commas(game.bonus()) + " x" + std::to_string(game.bonus_multiplier()),
                  palette::text);
     const bool saving = game.ball_save_steps() > 0;

@@ -57,6 +57,13 @@ float draw_high_scores(Canvas& screen, const Area& area, const Machine& machine,
     const auto& entries = machine.game().high_scores().entries();
     const float left = area.min.x + 34 * unit;
     const float right = area.max.x - 34 * unit;
+    for (const std::string& line : wrap(screen, machine.score_trouble(), {.size = 12 * unit}, right - left))
+    {
+        if (line.empty())
+            break;
+        screen.text({left, y}, line, {.size = 12 * unit, .color = palette::coral});
+        y += 16 * unit;
+    }
     if (entries.empty())
         screen.text({left, y}, "none yet: the first one is yours", {.size = 14 * unit, .color = palette::text_faint});
     for (std::size_t i = 0; i < entries.size() && y + 20 * unit < area.max.y; ++i, y += 21 * unit)

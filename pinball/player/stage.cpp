@@ -54,7 +54,7 @@ void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Fram
     if (frame.status.paused && !frame.xray)
         draw_banner(screen, layout, "PAUSED", "P goes on");
     else if (machine.name_entry().active())
-        draw_banner(screen, layout, "YOUR NAME", "flippers turn the letter, Enter takes it");
+        draw_banner(screen, layout, "YOUR NAME", "type it, or turn letters with the flippers; Enter");
     draw_table_errors(screen, layout, machine);
 }
 

@@ -10,6 +10,8 @@
 #include <chrono>
 #include <fstream>
 #include <sstream>
+#include <thread>
+#include <vector>
 
 namespace carom::pinball {
 namespace {
@@ -48,6 +50,13 @@ std::string read(const fs::path& file)
     return text.str();
 }
 
+// As a machine keeps them, one after the other.
+std::string add_some(const HighScoreFile& file, const std::string& table)
+{
+    const std::string first = file.add(table, {"ADA", 5000});
+    return first.empty() ? file.add(table, {"BOB", 7000}) : first;
+}
+
 HighScores some_scores()
 {
     HighScores scores;
@@ -61,10 +70,40 @@ TEST(PlayerHighScores, AreKeptForEachTable)
     const Folder folder;
     const HighScoreFile file(folder / "scores.json");
     EXPECT_TRUE(file.load("Momentum").entries().empty());
-    EXPECT_TRUE(file.save("Momentum", some_scores()));
-    EXPECT_TRUE(file.save("Lab", {}));
+    EXPECT_EQ(add_some(file, "Momentum"), "");
+    EXPECT_EQ(file.add("Lab", {"EVE", 10}), "");
     EXPECT_EQ(file.load("Momentum").entries(), some_scores().entries());
-    EXPECT_TRUE(file.load("Lab").entries().empty());
+    EXPECT_EQ(file.load("Lab").entries().size(), 1u);
+}
+
+// Each adds what it has to what the other has written by then.
+TEST(PlayerHighScores, TwoMachinesLoseNothing)
+{
+    const Folder folder;
+    const HighScoreFile file(folder / "scores.json");
+    std::vector<std::thread> machines;
+    for (int m = 0; m < 2; ++m)
+        machines.emplace_back(
+            [&, m]
+            {
+                for (int i = 0; i < 5; ++i)
+                    EXPECT_EQ(file.add("Momentum", {m == 0 ? "ADA" : "BOB", 100 + 10 * i + m}), "");
+            });
+    for (std::thread& machine : machines)
+        machine.join();
+    EXPECT_EQ(file.load("Momentum").entries().size(), static_cast<std::size_t>(HighScores::places));
+    EXPECT_EQ(file.load("Momentum").best(), 141);
+    EXPECT_FALSE(fs::exists(folder / "scores.json.lock"));
+}
+
+TEST(PlayerHighScores, ALockThatACrashHasLeftIsBroken)
+{
+    const Folder folder;
+    const HighScoreFile file(folder / "scores.json");
+    std::ofstream(folder / "scores.json.lock") << "";
+    fs::last_write_time(folder / "scores.json.lock", fs::file_time_type::clock::now() - std::chrono::minutes(1));
+    EXPECT_EQ(file.add("Momentum", {"ADA", 1}), "");
+    EXPECT_FALSE(fs::exists(folder / "scores.json.lock"));
 }
 
 TEST(PlayerHighScores, ABrokenFileIsPutAsideAndNothingIsLost)
@@ -75,7 +114,7 @@ TEST(PlayerHighScores, ABrokenFileIsPutAsideAndNothingIsLost)
     {
         write(folder / "scores.json", broken);
         EXPECT_TRUE(file.load("Momentum").entries().empty());
-        EXPECT_TRUE(file.save("Momentum", some_scores()));
+        EXPECT_EQ(add_some(file, "Momentum"), "");
         EXPECT_EQ(file.load("Momentum").entries(), some_scores().entries());
         EXPECT_EQ(read(folder / "scores.json.broken"), broken);
     }
@@ -94,7 +133,7 @@ TEST(PlayerHighScores, EntriesThatAreNoneArePassedOver)
 TEST(PlayerHighScores, WithoutAFolderNothingIsKept)
 {
     const HighScoreFile file{fs::path{}};
-    EXPECT_FALSE(file.save("T", some_scores()));
+    EXPECT_NE(file.add("T", {"ADA", 1}).find("high scores cannot be kept: "), std::string::npos);
     EXPECT_TRUE(file.load("T").entries().empty());
 }
 

@@ -195,6 +195,22 @@ TEST(PlayerNames, FlippersTurnTheLetterAndStartTakesIt)
     EXPECT_FALSE(entry.active());
 }
 
+TEST(PlayerNames, AreTyped)
+{
+    NameEntry entry;
+    entry.begin(0);
+    (void)entry.step({});
+    for (const char c : std::string("z!x"))
+        entry.type(c);
+    entry.erase();
+    for (const char c : std::string("o7q"))
+        entry.type(c);
+    EXPECT_EQ(entry.name(), "ZO7");
+    EXPECT_TRUE(entry.active());
+    EXPECT_TRUE(entry.step({.start = true}));
+    EXPECT_FALSE(entry.active());
+}
+
 TEST(PlayerNames, WhatWritesTheNameDoesNotPlay)
 {
     NameEntry entry;

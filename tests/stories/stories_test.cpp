@@ -4,8 +4,8 @@
 #include "pinball/game/game.h"
 #include "pinball/table/loader.h"
 #include "scenes/scenes.h"
-#include "support/slow_build.h"
 #include "stories/story_reader.h"
+#include "support/slow_build.h"
 
 #include <gtest/gtest.h>
 
