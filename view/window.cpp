@@ -237,6 +237,8 @@ float Window::pixel_scale() const
     return size().x > 0 ? static_cast<float>(pixels) / size().x : 1;
 }
 
+void Window::set_title(const std::string& title) { SDL_SetWindowTitle(m_native->window, title.c_str()); }
+
 void Window::set_fullscreen(bool fullscreen)
 {
     SDL_SetWindowFullscreen(m_native->window, fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);

@@ -65,6 +65,7 @@ public:
     void set_fullscreen(bool fullscreen);
     [[nodiscard]] bool is_fullscreen() const;
     void toggle_fullscreen() { set_fullscreen(!is_fullscreen()); }
+    void set_title(const std::string& title);
     void set_background(Color color) { m_background = color; }
 
     [[nodiscard]] Fonts& fonts() { return m_fonts; }

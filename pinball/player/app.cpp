@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace carom::pinball {
@@ -27,7 +28,7 @@ class App
 public:
     explicit App(const PlayerOptions& options)
         : m_options(options), m_machine(options.table_file(), options.seed, options.autoplay, true),
-          m_window({.title = "Carom: " + m_machine.game().table().name,
+          m_window({.title = title(),
                     .width = options.width,
                     .height = options.height,
                     .fullscreen = options.fullscreen,
@@ -112,15 +113,45 @@ private:
     void handle(const SDL_Event& event)
     {
         if (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_FOCUS_LOST)
-            m_buttons.release_all();
+            lose_focus();
         if (event.type == SDL_CONTROLLERDEVICEADDED)
             SDL_GameControllerOpen(event.cdevice.which);
         if (m_machine.name_entry().active() && write_name(event))
             return;
         if (const auto press = button_of(event))
             m_buttons.push(static_cast<double>(event.common.timestamp), press->button, press->down, press->source);
+        if (m_asking && event.type == SDL_KEYDOWN && event.key.repeat == 0)
+            return answer(wish_of(event));
         if (const auto wish = wish_of(event); wish && !m_window.wants_keyboard())
             obey(*wish);
+    }
+
+    [[nodiscard]] bool is_in_game() const
+    {
+        const Phase phase = m_machine.game().phase();
+        return phase != Phase::Attract && phase != Phase::GameOver && !m_options.autoplay;
+    }
+
+    void lose_focus()
+    {
+        m_buttons.release_all();
+        m_paused = m_paused || is_in_game();
+    }
+
+    // What would end a game is asked for; it waits meanwhile.
+    void ask(Wish wish)
+    {
+        m_asking = wish;
+        m_was_paused = std::exchange(m_paused, true);
+    }
+
+    void answer(std::optional<Wish> wish)
+    {
+        const Wish asked = *std::exchange(m_asking, std::nullopt);
+        m_paused = m_was_paused;
+        if (wish != asked)
+            return;
+        asked == Wish::Quit ? m_window.request_quit() : restart();
     }
 
     // Letters are letters while a name is written.
@@ -147,14 +178,14 @@ private:
         switch (wish)
         {
         case Wish::Pause: m_paused = !m_paused; break;
-        case Wish::Restart: restart(); break;
+        case Wish::Restart: is_in_game() ? ask(wish) : restart(); break;
         case Wish::Mute: sink.set_muted(!sink.is_muted()); break;
         case Wish::Quieter: sink.set_volume(std::max(0.0f, sink.volume() - 0.1f)); break;
         case Wish::Louder: sink.set_volume(std::min(1.0f, sink.volume() + 0.1f)); break;
         case Wish::Xray: set_xray(!m_xray); break;
         case Wish::Tour: begin_tour(); break;
         case Wish::Fullscreen: m_window.toggle_fullscreen(); break;
-        case Wish::Quit: m_window.request_quit(); break;
+        case Wish::Quit: is_in_game() ? ask(wish) : m_window.request_quit(); break;
         default:
             if (m_xray)
                 obey_xray(wish);
@@ -202,8 +233,11 @@ private:
         if (now_ms() < m_next_poll)
             return;
         m_next_poll = now_ms() + table_poll_ms;
-        m_machine.poll_table();
+        if (m_machine.poll_table())
+            m_window.set_title(title());
     }
+
+    [[nodiscard]] std::string title() const { return "Carom: " + m_machine.game().table().name; }
 
     void step(const Input& input)
     {
@@ -233,6 +267,9 @@ private:
         draw_frame(m_window, m_machine, m_stage,
                    {.alpha = m_paused ? 1 : m_clock.alpha(),
                     .xray = m_xray,
+                    .question = !m_asking                 ? nullptr
+                                : *m_asking == Wish::Quit ? "LEAVE THE GAME?"
+                                                          : "START ANEW?",
                     .status = {.time = now_ms() / 1000,
                                .paused = m_paused,
                                .speed = m_speed,
@@ -261,6 +298,8 @@ private:
     view::Image m_image{}; ///< the last frame, where a picture is wanted
     bool m_xray = false;
     bool m_paused = false;
+    bool m_was_paused = false;
+    std::optional<Wish> m_asking{};
     double m_speed = 1;
     double m_next_poll = 0;
     std::optional<tour::Tour> m_tour{};

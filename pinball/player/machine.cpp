@@ -133,16 +133,18 @@ void Machine::play_by_itself(bool on)
         m_player.emplace(m_game.table(), m_seed);
 }
 
-void Machine::poll_table()
+bool Machine::poll_table()
 {
     if (!m_watch.poll())
-        return;
+        return false;
     LoadResult result = load_table_file(m_watch.file());
     m_table_errors.clear();
     for (const LoadError& error : result.errors)
         m_table_errors.push_back(to_string(error));
-    if (result.table)
-        begin(std::move(*result.table));
+    if (!result.table)
+        return false;
+    begin(std::move(*result.table));
+    return true;
 }
 
 void Machine::look_into_step()

@@ -34,8 +34,8 @@ public:
     void restart();
     /// From now on, or no longer, a program plays.
     void play_by_itself(bool on);
-    /// Looks whether the table file has changed. A good one is played at once; a bad one leaves the old table.
-    void poll_table();
+    /// Looks whether the table file has changed. A good one is played at once: true; a bad one leaves the old table.
+    bool poll_table();
 
     [[nodiscard]] const Game& game() const { return m_game; }
     [[nodiscard]] const Effects& effects() const { return m_effects; }

@@ -51,7 +51,9 @@ void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Fram
         (void)draw_keys(screen, {layout.side.min + Vec2{0, 78 * layout.unit}, layout.side.max}, layout.unit);
     else if (waits_for_a_player(machine))
         draw_card(screen, layout, machine);
-    if (frame.status.paused && !frame.xray)
+    if (frame.question != nullptr)
+        draw_banner(screen, layout, frame.question, "the same key again: yes; any other: no");
+    else if (frame.status.paused && !frame.xray)
         draw_banner(screen, layout, "PAUSED", "P goes on");
     else if (machine.name_entry().active())
         draw_banner(screen, layout, "YOUR NAME", "type it, or turn letters with the flippers; Enter");

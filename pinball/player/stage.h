@@ -15,6 +15,7 @@ struct Frame
 {
     float alpha = 1;
     bool xray = false;
+    const char* question = nullptr; ///< that waits for an answer
     Status status{};
 };
 
