@@ -108,6 +108,15 @@ void Lesson::set_control(std::size_t index, float value)
         m_chapter->moved();
 }
 
+void Lesson::set_control(std::string_view name, float value)
+{
+    for (std::size_t i = 0; i < m_chapter->controls().size(); ++i)
+    {
+        if (m_chapter->controls()[i].name == name)
+            set_control(i, value);
+    }
+}
+
 void Lesson::grab(Position at, float reach)
 {
     if (m_chapter->press(at))

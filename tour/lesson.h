@@ -33,6 +33,7 @@ public:
     [[nodiscard]] float alpha() const; ///< for drawing between steps
 
     void set_control(std::size_t index, float value);
+    void set_control(std::string_view name, float value);
 
     /// Takes what is there, or nothing; reach in metres.
     void grab(Position at, float reach);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
 namespace carom::tour {
 namespace {
@@ -55,11 +57,33 @@ std::vector<Block> blocks_of(const Lesson& lesson, const Panel& panel)
             for (const view::StoryLine& line : lesson.chapter().story())
                 blocks.push_back(as_block(line));
         else if (block.kind == Block::Kind::Heading)
-            blocks.push_back({block.kind, panel.word(block.text)});
+            blocks.push_back({block.kind, panel.word(block.text), block.sets});
         else
-            blocks.push_back({block.kind, filled(block.text, values)});
+            blocks.push_back({block.kind, filled(block.text, values), block.sets});
     }
     return blocks;
+}
+
+// At blanks alone: Dear ImGui would part 0.250 at its point.
+std::string wrapped(const std::string& text, float width)
+{
+    std::string lines;
+    std::string line;
+    for (std::size_t at = 0; at < text.size();)
+    {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        const std::string word = text.substr(at, end - at);
+        const std::string longer = line.empty() ? word : line + ' ' + word;
+        if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width)
+        {
+            lines += line + '\n';
+            line = word;
+        }
+        else
+            line = longer;
+        at = end + 1;
+    }
+    return lines + line;
 }
 
 float height_of(view::Fonts& fonts, const Block& block, float width, float unit)
@@ -67,7 +91,7 @@ float height_of(view::Fonts& fonts, const Block& block, float width, float unit)
     const Look look = look_of(block.kind);
     const view::SizedFont sized = fonts.get(look.face, look.size * unit);
     ImGui::PushFont(sized.font);
-    const float height = ImGui::CalcTextSize(block.text.c_str(), nullptr, false, width - look.indent * unit).y;
+    const float height = ImGui::CalcTextSize(wrapped(block.text, width - look.indent * unit).c_str()).y;
     ImGui::PopFont();
     return height + look.above * unit;
 }
@@ -83,7 +107,7 @@ std::vector<std::size_t> page_starts(view::Fonts& fonts, const std::vector<Block
         const float own = needed;
         if (blocks[i].kind == Block::Kind::Heading && i + 1 < blocks.size())
             needed += height_of(fonts, blocks[i + 1], width, unit);
-        if (used > 0 && used + needed > room)
+        if (used > 0 && (used + needed > room || !blocks[i].sets.empty()))
         {
             starts.push_back(i);
             used = 0;
@@ -108,6 +132,13 @@ bool flowing_button(const std::string& label, bool active = false)
     if (active)
         ImGui::PopStyleColor();
     return pressed;
+}
+
+std::string shown(const Control& control, float value)
+{
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), control.format, static_cast<double>(value));
+    return text.data();
 }
 
 } // namespace
@@ -159,7 +190,7 @@ PanelWish Panel::draw(view::Window& window, const TourLayout& layout, Lesson& le
     title(chapter, lesson.text().title, unit);
     const float top = ImGui::GetCursorPosY();
     const float bottom = ImGui::GetWindowContentRegionMax().y;
-    read(blocks_of(lesson, *this), bottom - m_foot - top, unit);
+    read(lesson, blocks_of(lesson, *this), bottom - m_foot - top, unit);
 
     ImGui::SetCursorPosY(bottom - m_foot);
     ImGui::PushFont(m_fonts->get(view::Face::Sans, 13 * unit).font);
@@ -184,7 +215,7 @@ void Panel::title(int chapter, const std::string& text, float unit)
     ImGui::PopFont();
 }
 
-void Panel::read(const std::vector<Block>& blocks, float room, float unit)
+void Panel::read(Lesson& lesson, const std::vector<Block>& blocks, float room, float unit)
 {
     const float width = ImGui::GetContentRegionAvail().x;
     const std::vector<std::size_t> starts = page_starts(*m_fonts, blocks, width, room, unit);
@@ -192,6 +223,11 @@ void Panel::read(const std::vector<Block>& blocks, float room, float unit)
     m_page = std::clamp(m_page, 0, m_pages - 1);
     const auto page = static_cast<std::size_t>(m_page);
     const std::size_t end = page + 1 < starts.size() ? starts[page + 1] : blocks.size();
+    if (std::exchange(m_set_for, m_page) != m_page)
+    {
+        for (const auto& [name, value] : blocks[starts[page]].sets)
+            lesson.set_control(name, value);
+    }
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     for (std::size_t i = starts[page]; i < end; ++i)
         block(blocks[i], unit);
@@ -213,9 +249,7 @@ void Panel::block(const Block& block, float unit)
     }
     else
         ImGui::Indent(indent);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(block.text.c_str());
-    ImGui::PopTextWrapPos();
+    ImGui::TextUnformatted(wrapped(block.text, ImGui::GetContentRegionAvail().x).c_str());
     if (block.kind != Block::Kind::Task)
         ImGui::Unindent(indent);
     ImGui::PopStyleColor();
@@ -241,10 +275,14 @@ void Panel::controls(Lesson& lesson, float unit)
             continue;
         }
         float value = control.value;
-        ImGui::SetNextItemWidth(std::max(width - ImGui::CalcTextSize(text.c_str()).x - 8 * unit, 90 * unit));
+        const std::string named = text + ": " + shown(control, control.value) + "###slider";
+        // Room for the longest value, so that the slider does not shrink while it is dragged.
+        const auto width_at = [&](float v) { return ImGui::CalcTextSize((text + ": " + shown(control, v)).c_str()).x; };
+        const float label_width = std::max({width_at(control.low), width_at(control.high), width_at(control.value)});
+        ImGui::SetNextItemWidth(std::max(width - label_width - 8 * unit, 50 * unit));
         const ImGuiSliderFlags flags =
             ImGuiSliderFlags_AlwaysClamp | (control.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-        if (ImGui::SliderFloat(text.c_str(), &value, control.low, control.high, control.format, flags))
+        if (ImGui::SliderFloat(named.c_str(), &value, control.low, control.high, "", flags))
             lesson.set_control(i, control.is_whole ? std::round(value) : value);
         ImGui::PopID();
     }

@@ -43,12 +43,16 @@ public:
 
     [[nodiscard]] int page() const { return m_page; }
     [[nodiscard]] int pages() const { return m_pages; } ///< as of the last frame
-    void set_page(int page) { m_page = page; }
+    void set_page(int page)
+    {
+        m_page = page;
+        m_set_for = -1;
+    }
     [[nodiscard]] const std::string& word(std::string_view name) const;
 
 private:
     void title(int chapter, const std::string& text, float unit);
-    void read(const std::vector<Block>& blocks, float room, float unit);
+    void read(Lesson& lesson, const std::vector<Block>& blocks, float room, float unit);
     void block(const Block& block, float unit);
     void controls(Lesson& lesson, float unit);
     void time(Lesson& lesson);
@@ -58,6 +62,7 @@ private:
     Values m_words;
     int m_page = 0;
     int m_pages = 1;
+    int m_set_for = -1; ///< the page whose settings hold
     float m_foot = 200; ///< height of what stands below the text, as it was in the last frame
 };
 

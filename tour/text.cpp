@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace carom::tour {
 namespace {
@@ -43,6 +44,8 @@ private:
         const std::string_view words_of_line = without_blanks(line);
         if (words_of_line.empty())
             m_goes_on = false;
+        else if (words_of_line.starts_with("<!--"))
+            read_setting(words_of_line);
         else if (line.starts_with("# "))
             m_text.title = without_blanks(line.substr(2));
         else if (line.starts_with("## "))
@@ -53,6 +56,17 @@ private:
             append(Block::Kind::Formula, words_of_line);
         else
             read_prose(words_of_line);
+    }
+
+    // <!-- name: 3 -->
+    void read_setting(std::string_view line)
+    {
+        const std::size_t colon = line.find(": ");
+        const std::size_t end = line.find("-->");
+        if (colon == std::string_view::npos || end == std::string_view::npos || colon > end)
+            fail("a setting is no \"<!-- name: number -->\"");
+        m_sets[std::string(without_blanks(line.substr(4, colon - 4)))] = std::stof(std::string(line.substr(colon + 2, end - colon - 2)));
+        m_goes_on = false;
     }
 
     void begin_part(std::string_view name)
@@ -97,7 +111,7 @@ private:
 
     void append(Block::Kind kind, std::string_view text)
     {
-        m_text.blocks.push_back({kind, std::string(text)});
+        m_text.blocks.push_back({kind, std::string(text), std::exchange(m_sets, {})});
         m_goes_on = false;
     }
 
@@ -111,6 +125,7 @@ private:
     const std::string& m_file;
     ChapterText m_text{};
     std::string m_part{};
+    std::map<std::string, float> m_sets{}; ///< for the next block
     int m_line = 0;
     bool m_goes_on = false; ///< the next line belongs to the last block
 };

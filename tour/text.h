@@ -9,6 +9,8 @@
 ///
 ///         formulas are indented by four spaces
 ///
+///     <!-- stage: 2 -->     the next block begins a page; while that is turned to, the slider is set so
+///
 ///     ## Try
 ///     - one thing to do
 ///
@@ -43,6 +45,7 @@ struct Block
     };
     Kind kind = Kind::Paragraph;
     std::string text{};
+    std::map<std::string, float> sets{}; ///< controls, when its page is opened; it begins one
 };
 
 struct ChapterText

@@ -110,6 +110,19 @@ Tour::Wish Tour::frame(double seconds)
 namespace {
 
 // Sizes of text asked for in one frame are baked before the next; pages settle in the third.
+void turn_to(view::Window& window, Tour& tour, int page)
+{
+    tour.panel().set_page(page);
+    if (window.begin_frame())
+    {
+        (void)tour.frame(0);
+        window.end_frame();
+    }
+    tour.lesson().restart();
+    for (int i = 0; i < tour.lesson().chapter().picture_steps(); ++i)
+        tour.lesson().step();
+}
+
 bool photograph(view::Window& window, Tour& tour, const std::filesystem::path& file)
 {
     view::Image image;
@@ -138,12 +151,10 @@ bool write_pictures(view::Window& window, const std::string& folder)
         tour.open(chapter);
         Lesson& lesson = tour.lesson();
         lesson.paused = true;
-        for (int i = 0; i < lesson.chapter().picture_steps(); ++i)
-            lesson.step();
         int page = 0;
         do
         {
-            tour.panel().set_page(page);
+            turn_to(window, tour, page);
             const std::string name = lesson.chapter().name() + '-' + std::to_string(page + 1) + ".png";
             if (!photograph(window, tour, std::filesystem::path(folder) / name))
                 return false;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace carom::view {
 namespace {
@@ -74,14 +75,20 @@ void draw_impact(Canvas& canvas, const ImpactRecord& record)
     canvas.stroke_circle(e.point, 7 * pixel, {rgb(0xffffff), 1.5f});
     // The faster one gets 55 points.
     const float scale = 55 * pixel / std::max({std::abs(e.speed_a), std::abs(e.speed_b), 1e-9f});
-    const Vec2 side = perp(e.normal) * (5 * pixel);
-    const auto speed = [&](float v, Vec2 shift, Color color)
+    // Before on one side of the line, after on the other.
+    const Vec2 side = perp(e.normal) * pixel;
+    const auto speed = [&](float v, float shift, Color color)
     {
         if (std::abs(v) * scale > 3 * pixel)
-            canvas.arrow(e.point + shift, e.point + shift + e.normal * (v * scale), {color, 2.5f}, 10);
+            canvas.arrow(e.point + side * shift, e.point + side * shift + e.normal * (v * scale), {color, 2.5f}, 10);
     };
-    speed(e.speed_a, side, party_a_color);
-    speed(e.speed_b, -side, party_b_color);
+    speed(e.speed_a, 12, party_a_color);
+    speed(e.speed_b, 18, party_b_color);
+    speed(dot(e.velocity_after_a, e.normal), -12, party_a_color);
+    speed(dot(e.velocity_after_b, e.normal), -18, party_b_color);
+    const TextStyle small{.size = 11, .color = rgb(0xc6d0e0), .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};
+    for (const auto& [text, shift] : {std::pair("before", 32.0f), std::pair("after", -32.0f)})
+        canvas.text(kept_in_view(canvas, e.point + side * shift, canvas.text_size(text, small)), text, small);
     const TextStyle style{.size = 13, .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};
     const auto label = [&](const ImpactParty& p, const char* index, float direction, Color color)
     {

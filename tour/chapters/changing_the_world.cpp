@@ -32,7 +32,7 @@ public:
         begin({.sleeping = false});
         m_spikes.clear();
         const BodyId ground = scene().create_body({});
-        scene().create_shape(ground, Chain{.start = {-4.4f, 3}, .pieces = {{{-4.4f, -3.6f}}, {{4.4f, -3.6f}}, {{4.4f, 3}}}}, {.restitution = 0.3f});
+        scene().create_shape(ground, Chain{.start = {-4.4f, 1.4f}, .pieces = {{{-4.4f, -3.6f}}, {{4.4f, -3.6f}}, {{4.4f, 1.4f}}}}, {.restitution = 0.3f});
         for (int i = 0; i < 3; ++i)
         {
             const BodyId spike = scene().create_body({.position = {-2.6 + 2.6 * i, -3.3}});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace carom::tour {
@@ -38,6 +39,14 @@ view::ScenePalette quiet_palette()
 }
 
 std::string whole(float value) { return std::to_string(std::lround(value)); }
+
+std::string fixed(float value, int digits)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", digits, static_cast<double>(std::abs(value)));
+    const bool is_zero = std::string_view(text).find_first_not_of("0.") == std::string_view::npos;
+    return (value < 0 && !is_zero ? "−" : "") + std::string(text);
+}
 
 void Curve::add(float value, std::size_t most)
 {

@@ -34,6 +34,9 @@ void named_arrow(view::Canvas& canvas, Position from, Vec2 way, std::string_view
 /// A whole number, as a slider of whole numbers gives it.
 [[nodiscard]] std::string whole(float value);
 
+/// With so many digits after the point and a real minus sign: numbers of one sum have as many.
+[[nodiscard]] std::string fixed(float value, int digits = 3);
+
 /// Values over time, the newest last.
 struct Curve
 {

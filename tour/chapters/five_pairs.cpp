@@ -17,7 +17,7 @@ class FivePairs : public Chapter
 {
     static constexpr int pairs = 5;
     static constexpr std::array<const char*, pairs> pair_words{"plane and circle", "plane and box", "two circles", "circle and box", "two boxes"};
-    static constexpr std::array<const char*, pairs> pair_tells{"tell 1", "tell 2", "tell 3", "tell 4", "tell 5"};
+    static constexpr std::array<const char*, pairs> pair_sums{"sum 1", "sum 2", "sum 3", "sum 4", "sum 5"};
     static constexpr float radius = 0.7f;
     static constexpr Vec2 half{0.9f, 0.6f};
 
@@ -58,13 +58,13 @@ public:
     {
         Values values{{"pair", std::to_string(pair() + 1)},
                       {"name", word(pair_words[static_cast<std::size_t>(pair())])},
-                      {"tells", ""},
+                      {"sum", ""},
                       {"result", ""}};
         const Found found = find();
         for (const auto& [name, value] : found.numbers)
-            values[name] = view::number(value);
-        values["tells"] = filled(word(pair_tells[static_cast<std::size_t>(pair())]), values);
-        values["result"] = filled(word(found.gap > 0 ? "apart" : "overlap"), {{"gap", view::number(std::abs(found.gap))}});
+            values[name] = name == "axis" ? whole(value) : fixed(value);
+        values["sum"] = filled(word(pair_sums[static_cast<std::size_t>(pair())]), values);
+        values["result"] = filled(word(found.gap > 0 ? "apart" : "overlap"), {{"gap", fixed(std::abs(found.gap))}});
         return values;
     }
 
@@ -72,11 +72,12 @@ public:
     {
         view::draw_scene(canvas, scene(), alpha, quiet_palette());
         const Found found = find();
-        for (const auto& [from, to, color] : found.lines)
-            canvas.line(from, to, {color, 2});
+        for (const auto& [from, to, color, width] : found.lines)
+            canvas.line(from, to, {color, width});
         for (const auto& [at, name, color] : found.marks)
         {
-            canvas.fill_circle(at, canvas.camera().meters(3.5f), color);
+            if (pair() != pairs - 1)
+                canvas.fill_circle(at, canvas.camera().meters(3.5f), color);
             label(canvas, at + Vec2{0, canvas.camera().meters(14)}, name, color, 12);
         }
         for (const ContactInfo& contact : scene().body(m_bodies[1]).touches_now())
@@ -99,6 +100,7 @@ private:
         Position from;
         Position to;
         view::Color color;
+        float width = 2;
     };
     struct Mark
     {
@@ -146,8 +148,8 @@ private:
         const float distance = school::above_plane(center, pose(0).position, slope);
         Found found{.gap = distance - radius, .numbers = {{"d", distance}, {"r", radius}, {"gap", distance - radius}}};
         const Position foot = center - slope * distance;
-        found.lines = {{foot, center, first_color}};
-        found.marks = {{center, "c", first_color}, {foot, word("foot"), second_color}};
+        found.lines = {{foot, center, first_color}, {center, center + slope * radius, second_color}};
+        found.marks = {{center, "c", first_color}, {foot, word("foot"), second_color}, {center + slope * radius, "r", second_color}};
         return found;
     }
 
@@ -224,7 +226,8 @@ private:
         const auto shade = [&](std::size_t which, Vec2 half_size, view::Color color)
         {
             const auto [low, high] = school::shadow(axis, pose(which), half_size);
-            found.lines.push_back({origin + axis * low, origin + axis * high, is_best ? color : fade(color, 0.45f)});
+            const Position beside = origin + side * (which == 0 ? 0.05f : -0.05f); // where they overlap both are seen
+            found.lines.push_back({beside + axis * low, beside + axis * high, is_best ? color : fade(color, 0.45f), 5});
         };
         shade(0, half, first_color);
         shade(1, other, second_color);

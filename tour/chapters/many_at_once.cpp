@@ -65,6 +65,9 @@ public:
             m_xray.toggles = {.outlines = false, .contacts = false, .normals = false, .impulses = false, .velocities = false, .islands = true};
             m_xray.draw(canvas, scene());
         }
+        for (int tower = 0; tower < towers; ++tower)
+            label(canvas, scene().body(m_blocks[static_cast<std::size_t>((tower + 1) * heights - 1)]).interpolated_pose(alpha).position,
+                  word("heavy"), view::rgb(0x10141c), 11);
         const std::array<const Curve*, 1> curves{&m_sink};
         draw_curves(canvas, {{-4.5, -1.8}, {4.5, -0.25}}, word("sink"), curves);
     }

@@ -19,8 +19,6 @@ class OneStep : public Chapter
 {
     static constexpr int stages = 7;
     static constexpr std::array<const char*, stages> stage_words{"sweep", "pairs", "contacts", "units", "solve", "commit", "events"};
-    static constexpr std::array<const char*, stages> stage_tells{"tell sweep", "tell pairs",  "tell contacts", "tell units",
-                                                          "tell solve", "tell commit", "tell events"};
     static constexpr float seconds = 3.2f;
 
 public:
@@ -44,6 +42,7 @@ public:
         m_trail.assign(1, scene().body(m_ball).position());
         m_free = {.y = 1.6, .v = 4.2f, .y_after = 1.6, .v_after = 4.2f};
         m_before.clear();
+        m_flies = true;
     }
 
     [[nodiscard]] float h() const override { return 1 / control("steps"); }
@@ -60,27 +59,28 @@ public:
         free.v_after = ball.velocity().y;
         m_trail.push_back(ball.position());
         const float g = scene().gravity().y;
-        if (std::abs(free.v_after - (free.v + g * h())) < 1e-3f)
+        const bool is_free = std::abs(free.v_after - (free.v + g * h())) < 1e-3f;
+        m_flies = m_flies && is_free;
+        if (m_flies)
             m_free = free; // nothing but gravity acted on it
     }
 
     [[nodiscard]] bool is_over() const override { return scene().time() > static_cast<double>(seconds); }
-    [[nodiscard]] int picture_steps() const override { return 78; }
+    [[nodiscard]] int picture_steps() const override { return static_cast<int>(1.3f / h()); }
     [[nodiscard]] Box view() const override { return {{-4.4, -0.6}, {4.4, 4.6}}; }
 
     [[nodiscard]] Values values() const override
     {
         const float g = -scene().gravity().y;
         return {{"steps", whole(control("steps"))},
-                {"h", view::number(h())},
+                {"h", fixed(h(), 4)},
                 {"g", view::number(g)},
-                {"v", view::number(m_free.v)},
-                {"v after", view::number(m_free.v_after)},
-                {"y", view::number(static_cast<float>(m_free.y))},
-                {"y after", view::number(static_cast<float>(m_free.y_after))},
+                {"v", fixed(m_free.v)},
+                {"v after", fixed(m_free.v_after)},
+                {"y", fixed(static_cast<float>(m_free.y))},
+                {"y after", fixed(static_cast<float>(m_free.y_after))},
                 {"stage", std::to_string(stage() + 1)},
-                {"name", word(stage_words[static_cast<std::size_t>(stage())])},
-                {"tells", word(stage_tells[static_cast<std::size_t>(stage())])}};
+                {"name", word(stage_words[static_cast<std::size_t>(stage())])}};
     }
 
     void draw(view::Canvas& canvas, float alpha) const override
@@ -190,6 +190,9 @@ private:
             const std::string text = roomy ? std::to_string(i + 1) + " " + word(stage_words[static_cast<std::size_t>(i)]) : std::to_string(i + 1);
             label(canvas, {(box.lower.x + box.upper.x) / 2, (box.lower.y + box.upper.y) / 2}, text,
                   chosen ? view::rgb(0x10141c) : ink, 12);
+            if (chosen && !roomy)
+                label(canvas, {(box.lower.x + box.upper.x) / 2, box.lower.y - static_cast<double>(10 * pixel)},
+                      word(stage_words[static_cast<std::size_t>(i)]), yellow, 12);
         }
     }
 
@@ -197,6 +200,7 @@ private:
     std::deque<Position> m_trail;
     std::map<BodyId, Pose> m_before;
     Free m_free{};
+    bool m_flies = true;
     mutable view::XrayOverlay m_xray;
 };
 

@@ -46,6 +46,7 @@ public:
             m_pile[static_cast<std::size_t>(i)] = block({2.3, 0.05 + static_cast<double>(half) * (2 * i + 1)}, 4 * half * half);
         m_overlap.values.clear();
         m_sag.values.clear();
+        m_overlap.add(control("overlap"), window_steps);
     }
 
     void step() override
@@ -54,7 +55,7 @@ public:
             scene().body(body).apply_force({0, -9.81f * scene().body(body).mass()}, scene().body(body).center_of_mass());
         Chapter::step();
         m_overlap.add(overlap(), window_steps);
-        m_sag.add(sag(), window_steps);
+        m_sag.add(1000 * sag(), window_steps);
     }
 
     [[nodiscard]] bool has_struck() const override { return !scene().contact_ends().empty(); }

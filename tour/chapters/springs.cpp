@@ -76,11 +76,11 @@ public:
         const float critical = 2 * std::sqrt(k * m);
         const float s = control("pull");
         return {{"k", view::number(k)},
-                {"c", view::number(control("c"))},
-                {"rest", view::number(rest_length)},
-                {"length", view::number(rest_length + stretch())},
-                {"v", view::number(velocity())},
-                {"force", view::number(-k * stretch() - control("c") * velocity())},
+                {"c", fixed(control("c"))},
+                {"rest", fixed(rest_length)},
+                {"length", fixed(rest_length + stretch())},
+                {"v", fixed(velocity())},
+                {"force", fixed(-k * stretch() - control("c") * velocity(), 2)},
                 {"period", view::number(2 * pi * std::sqrt(m / k))},
                 {"critical", view::number(critical)},
                 {"damped", word(control("c") < 0.98f * critical ? "under" : control("c") > 1.02f * critical ? "over" : "just")},

@@ -60,7 +60,7 @@ public:
     }
 
     [[nodiscard]] bool is_over() const override { return m_steps >= most_steps; }
-    [[nodiscard]] int picture_steps() const override { return 46; }
+    [[nodiscard]] int picture_steps() const override { return 37; }
     [[nodiscard]] Box view() const override { return {{-3.4, -2.3}, {3.4, 2.3}}; }
 
     void draw(view::Canvas& canvas, float alpha) const override
@@ -71,14 +71,12 @@ public:
             canvas.fill_circle(pivot, 0.07f, ink);
             label(canvas, Position(pivot) + Vec2{0, -0.25f}, word("pivot"), faint);
         }
-        for (const auto& [body, name, color] : {Party{m_ball, "v1", first_color}, Party{m_box, "v2", second_color}})
-        {
-            const Pose pose = scene().body(body).interpolated_pose(alpha);
-            named_arrow(canvas, transform(pose, scene().body(body).local_center_of_mass()), scene().body(body).velocity() * 0.2f,
-                        word(name), color);
-        }
-        if (m_watch.last())
-            view::draw_impact(canvas, *m_watch.last());
+        if (!m_watch.last())
+            return;
+        view::draw_impact(canvas, *m_watch.last());
+        const float arm = view::lever_arm(m_watch.last()->b, m_watch.last()->event.effective_mass_b);
+        if (arm > 0 && !is_on("pivot") && scene().time() - m_watch.last()->time < 0.2)
+            draw_arm(canvas, m_watch.last()->event);
     }
 
     [[nodiscard]] std::vector<view::StoryLine> story() const override
@@ -91,12 +89,16 @@ public:
     [[nodiscard]] TableView table_view() const override { return {.contacts = true}; }
 
 private:
-    struct Party
+    // From the centre of the box, at a right angle to the line of the blow.
+    void draw_arm(view::Canvas& canvas, const ImpactEvent& event) const
     {
-        BodyId body;
-        const char* name;
-        view::Color color;
-    };
+        const Position center = scene().body(m_box).center_of_mass();
+        const Position foot = event.point + event.normal * dot(center - event.point, event.normal);
+        canvas.line(center, foot, {yellow, 2});
+        canvas.fill_circle(center, canvas.camera().meters(3.5f), yellow);
+        label(canvas, center + (foot - center) * 0.5f + Vec2{0.15f, 0}, "r", yellow);
+    }
+
     static constexpr Vec2 pivot{0, -0.7f};
 
     BodyId m_ball{};

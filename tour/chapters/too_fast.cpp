@@ -85,6 +85,7 @@ public:
                 {"quarter", view::number(way / 4)},
                 {"width", view::number(2 * radius + thickness)},
                 {"looks", std::to_string(static_cast<int>(std::ceil(way / (2 * radius + thickness))))},
+                {"distance", view::number(static_cast<float>(wall_x - start_x - static_cast<double>(radius + thickness / 2)))},
                 {"time", view::number(static_cast<float>(wall_x - start_x - static_cast<double>(radius + thickness / 2)) / control("speed"))}};
     }
 
@@ -98,8 +99,12 @@ public:
             canvas.fill_box({{wall_x - static_cast<double>(thickness / 2), y - 0.5}, {wall_x + static_cast<double>(thickness / 2), y + 0.5}}, view::rgb(0x7f90ad));
             for (std::size_t k = 0; k + 1 < lane.seen.size(); ++k)
                 canvas.line(lane.seen[k], lane.seen[k + 1], {fade(first_color, 0.35f), 1});
-            for (const Position seen : lane.seen)
-                canvas.stroke_circle(seen, radius, {fade(first_color, 0.6f), 1.5f});
+            bool returns = false;
+            for (std::size_t k = 0; k < lane.seen.size(); ++k)
+            {
+                returns = returns || (k > 0 && lane.seen[k].x < lane.seen[k - 1].x);
+                canvas.stroke_circle(lane.seen[k], radius, {fade(returns ? good_color : first_color, 0.6f), 1.5f});
+            }
             canvas.fill_circle(lane.at, radius, lane.bounced ? good_color : first_color);
             const bool through = !lane.bounced && lane.at.x > wall_x;
             label(canvas, {-2.2, y + 0.48}, word(names[i]) + (lane.bounced ? ": " + word("bounced") : through ? ": " + word("through") : ""),

@@ -5,8 +5,11 @@
 #include "view/shape_art.h"
 #include "view/xray.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace carom::tour {
 namespace {
@@ -21,7 +24,8 @@ public:
         : Chapter("08-too-many-pairs",
                   {{.name = "balls", .value = 40, .low = 2, .high = 400, .format = "%.0f", .is_whole = true, .restarts = true, .logarithmic = true},
                    {.name = "all pairs", .is_switch = true},
-                   {.name = "boxes", .value = 1, .is_switch = true}})
+                   {.name = "boxes", .value = 1, .is_switch = true},
+                   {.name = "tree", .value = 1, .is_switch = true}})
     {}
 
     void build() override
@@ -71,6 +75,8 @@ public:
             m_xray.toggles = {.outlines = false, .contacts = false, .normals = false, .impulses = false, .velocities = false, .boxes = true};
             m_xray.draw(canvas, scene());
         }
+        if (is_on("tree"))
+            draw_tree(canvas);
         for (const ContactInfo& contact : scene().contacts())
         {
             const ConstBody a = scene().body(scene().shape(contact.shape_a).body());
@@ -97,6 +103,43 @@ private:
                     canvas.line(scene().body(all[i]).position(), scene().body(all[j]).position(), {fade(bad_color, strength), 1});
             }
         }
+    }
+
+    // As a tree of this kind may look: halves of halves, along the longer side, down to groups of three. The engine's own puts eight boxes into one.
+    void draw_tree(view::Canvas& canvas) const
+    {
+        std::vector<Box> boxes;
+        for (const BodyId body : scene().bodies())
+        {
+            if (scene().body(body).type() != BodyType::Dynamic)
+                continue;
+            const Position at = scene().body(body).position();
+            const double r = static_cast<double>(std::get<Circle>(scene().shape(scene().body(body).shapes().front()).geometry()).radius);
+            boxes.push_back({{at.x - r, at.y - r}, {at.x + r, at.y + r}});
+        }
+        draw_branch(canvas, boxes, 0);
+    }
+
+    static void draw_branch(view::Canvas& canvas, std::span<Box> boxes, int depth)
+    {
+        Box all = boxes.front();
+        for (const Box& box : boxes)
+        {
+            all.lower = {std::min(all.lower.x, box.lower.x), std::min(all.lower.y, box.lower.y)};
+            all.upper = {std::max(all.upper.x, box.upper.x), std::max(all.upper.y, box.upper.y)};
+        }
+        const double more = static_cast<double>(canvas.camera().meters(5));
+        const float light = std::max(0.25f, 0.9f - 0.15f * static_cast<float>(depth));
+        canvas.stroke_box({{all.lower.x - more, all.lower.y - more}, {all.upper.x + more, all.upper.y + more}},
+                          {fade(second_color, light), depth < 2 ? 2.0f : 1.2f}, canvas.camera().meters(4));
+        if (boxes.size() <= 3)
+            return;
+        const bool wide = all.upper.x - all.lower.x > all.upper.y - all.lower.y;
+        const auto middle = boxes.begin() + static_cast<std::ptrdiff_t>(boxes.size() / 2);
+        std::nth_element(boxes.begin(), middle, boxes.end(),
+                         [wide](const Box& a, const Box& b) { return wide ? a.lower.x < b.lower.x : a.lower.y < b.lower.y; });
+        draw_branch(canvas, boxes.first(boxes.size() / 2), depth + 1);
+        draw_branch(canvas, boxes.subspan(boxes.size() / 2), depth + 1);
     }
 
     mutable view::XrayOverlay m_xray;

@@ -78,6 +78,9 @@ public:
         label(canvas, {-1.2, 2.05}, word("gate"), view::rgb(0xf783ac), 12);
         label(canvas, {-1.2, lanes[2] - 0.75}, word("booster"), view::rgb(0xf783ac), 12);
         label(canvas, {2.2, lanes[2] - 0.75}, word("bouncer"), yellow, 12);
+        const Position bullet = scene().body(m_balls[1]).interpolated_pose(alpha).position;
+        canvas.line({-4.2, lanes[1]}, {std::min(bullet.x, view().upper.x), lanes[1]}, {fade(yellow, 0.5f), 2});
+        label(canvas, {-3.9, lanes[1] - 0.3}, word("way of ball 2"), fade(yellow, 0.8f), 12);
         named_arrow(canvas, {-1.7, lanes[2]}, {0.03f * control("boost"), 0}, "", good_color);
         for (std::size_t i = 0; i < 3; ++i)
         {

@@ -120,9 +120,9 @@ public:
         {
             const BodyId body = m_bodies[static_cast<std::size_t>(i)];
             view::draw_ghost(canvas, scene(), body, scene().body(body).pose(), {i == 0 ? first_color : second_color, 2.5f});
-            label(canvas, scene().body(body).position() + Vec2{0, 0.05f},
-                  std::to_string(i + 1) + ": " + word(kind_names[static_cast<std::size_t>(kind(i))]),
-                  i == 0 ? first_color : second_color, 14);
+            label(canvas, scene().body(body).position() + Vec2{0, i == 0 ? -0.95f : 1.0f},
+                  word(i == 0 ? "first" : "second") + ": " + word(kind_names[static_cast<std::size_t>(kind(i))]),
+                  i == 0 ? first_color : second_color, 13);
         }
         draw_touch(canvas);
         canvas.pop_clip();
