@@ -36,8 +36,10 @@ void check_reachable(CheckContext& context);
 [[nodiscard]] bool check_start(CheckContext& context); // check_overlaps.cpp
 void check_device_overlaps(CheckContext& context);
 void check_flipper_strokes(CheckContext& context); // check_strokes.cpp
+void check_flippers(CheckContext& context);
 void check_travel(CheckContext& context);
 void check_narrow_gaps(CheckContext& context);    // check_gaps.cpp
 void check_resting_places(CheckContext& context); // check_rests.cpp
+void check_steps(CheckContext& context);          // check_steps.cpp
 
 } // namespace carom::pinball

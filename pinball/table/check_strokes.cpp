@@ -34,13 +34,25 @@ std::vector<std::vector<Curve>> stroke(const Flipper& flipper)
 
 double reach_of(const Flipper& flipper) { return double{flipper.length} + std::max(flipper.base_radius, flipper.tip_radius); }
 
+// A guide may run out over the base of the bat, level with it: no deeper in the bat than in the base, which only turns about itself.
+bool lies_on_base(const CheckContext& context, Index flipper, const Obstacle& obstacle, double deepest)
+{
+    constexpr double as_deep = 0.0005;  // m
+    constexpr double from_middle = 0.6; // of the base's radius
+    const Flipper& f = *part_of<Flipper>(context.table, flipper);
+    const double base = clearance({make_circle(f.pivot, f.base_radius)}, obstacle.curves);
+    const auto stays_outside = [&](const Curve& c)
+    { return length(closest_point(c, f.pivot) - Point(f.pivot)) > from_middle * double{f.base_radius}; };
+    return deepest > base - as_deep && std::ranges::all_of(obstacle.curves, stays_outside);
+}
+
 void check_stroke_against(CheckContext& context, Index flipper, const std::vector<std::vector<Curve>>& bats,
                           const Obstacle& obstacle)
 {
     double least = 1;
     for (const std::vector<Curve>& bat : bats)
         least = std::min(least, clearance(bat, obstacle.curves));
-    if (least < -touch_tolerance)
+    if (least < -touch_tolerance && !lies_on_base(context, flipper, obstacle, least))
         context.report(FindingKind::FlipperStroke, {flipper, obstacle.element}, bats.front().front().a,
                        "the flipper sweeps through it, up to " + millimetres(-least) + " deep");
 }
@@ -101,6 +113,13 @@ void check_way(CheckContext& context, Index element, double travel, const Curves
 }
 
 } // namespace
+
+void check_flippers(CheckContext& context)
+{
+    const auto is_flipper = [](const Element& element) { return std::holds_alternative<Flipper>(element.part); };
+    if (std::ranges::none_of(context.table.elements, is_flipper))
+        context.report(FindingKind::NoFlipper, {}, {}, "there is no flipper: nobody can play");
+}
 
 void check_flipper_strokes(CheckContext& context)
 {

@@ -23,9 +23,9 @@ void CheckContext::report(FindingKind kind, std::vector<Index> elements, Point w
 
 std::string_view name(FindingKind kind)
 {
-    constexpr std::array<std::string_view, 11> names = {"overlap",       "outside the table", "bad outline", "leak",
-                                                        "no drain",      "flipper stroke",    "no room",     "narrow gap",
-                                                        "resting place", "unreachable",       "plunger"};
+    constexpr std::array<std::string_view, 13> names = {
+        "overlap",    "outside the table", "bad outline", "leak",    "no drain", "flipper stroke", "no room",
+        "narrow gap", "resting place",     "unreachable", "plunger", "step",     "no flipper"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -47,12 +47,14 @@ std::vector<Finding> check(const Table& table)
     check_flipper_strokes(context);
     check_travel(context);
     check_drains(context);
+    check_flippers(context);
     if (ball_is_free)
     {
         check_leaks(context);
         check_reachable(context);
         check_narrow_gaps(context);
         check_resting_places(context);
+        check_steps(context);
     }
     return std::move(context.findings);
 }

@@ -24,6 +24,8 @@ enum class FindingKind : std::uint8_t
     RestingPlace,  ///< a ball can come to rest where nothing moves it on
     Unreachable,   ///< no ball ever touches it
     Plunger,       ///< the ball does not start in front of its plunger
+    Step,          ///< a ball that rolls from a guide onto a flipper is thrown up
+    NoFlipper,     ///< nothing to play with
 };
 
 [[nodiscard]] std::string_view name(FindingKind kind);

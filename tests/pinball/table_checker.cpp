@@ -71,6 +71,7 @@ const std::vector<BrokenTable> all_broken_tables = {
     {"level_ledge", {{FindingKind::RestingPlace, {"ledge"}}}},
     {"narrow_lane", {{FindingKind::NarrowGap, {"guide1", "guide2"}}, {FindingKind::RestingPlace, {"guide1", "guide2"}}}},
     {"narrow_posts", {{FindingKind::NarrowGap, {"post1", "post2"}}, {FindingKind::RestingPlace, {"post1", "post2"}}}},
+    {"no_flippers", {{FindingKind::NoFlipper, {}}}},
     {"no_drain", {{FindingKind::NoDrain, {}}, {FindingKind::RestingPlace, {"floor"}}}},
     {"plunger_has_no_room", {{FindingKind::NoRoom, {"plunger", "post"}}}},
     {"plunger_lane_misses_ball", {{FindingKind::Plunger, {"plunger", "lane"}}}},
@@ -81,6 +82,7 @@ const std::vector<BrokenTable> all_broken_tables = {
     {"saucer_in_post", {{FindingKind::Overlap, {"saucer", "post"}}}},
     {"sound", {}},
     {"start_outside", {{FindingKind::OutsideTable, {}}}},
+    {"step_at_flipper", {{FindingKind::Step, {"guide_left", "flipper_left"}}}},
     {"target_has_no_room", {{FindingKind::NoRoom, {"bash", "roof"}}}},
     {"wall_outside", {{FindingKind::OutsideTable, {"wall"}}}},
     {"walled_in", {{FindingKind::Unreachable, {"standup"}}, {FindingKind::Unreachable, {"rollover"}}}},
@@ -93,7 +95,15 @@ TEST_P(TableChecker, FindsExactlyWhatIsBroken)
 {
     const Table table = load_file(broken_tables / (GetParam().name + ".table.json"));
     ASSERT_FALSE(table.elements.empty());
-    EXPECT_EQ(findings_of(table), GetParam().expected);
+    std::vector<Expected> found = findings_of(table);
+    // Most of these tables are too small to have a flipper; one is about that.
+    const Expected no_flipper{FindingKind::NoFlipper, {}};
+    const bool plays =
+        std::ranges::any_of(table.elements, [](const Element& e) { return std::holds_alternative<Flipper>(e.part); });
+    EXPECT_EQ(std::ranges::count(found, no_flipper), plays ? 0 : 1);
+    if (GetParam().name != "no_flippers")
+        std::erase(found, no_flipper);
+    EXPECT_EQ(found, GetParam().expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tables, TableChecker, testing::ValuesIn(all_broken_tables),
@@ -114,7 +124,7 @@ TEST(TableChecker, EveryKindOfFindingHasABrokenTable)
     for (const BrokenTable& table : all_broken_tables)
         for (const Expected& expected : table.expected)
             kinds.insert(expected.kind);
-    EXPECT_EQ(kinds.size(), static_cast<std::size_t>(FindingKind::Plunger) + 1);
+    EXPECT_EQ(kinds.size(), static_cast<std::size_t>(FindingKind::NoFlipper) + 1);
 }
 
 TEST(TableChecker, ShippedTablesPass)
@@ -167,7 +177,7 @@ TEST(TableChecker, CommandNamesFileLineAndElement)
     EXPECT_EQ(check_command(file, out), 1);
     EXPECT_NE(out.str().find(file.string() + ":9: narrow gap \"post1\", \"post2\": the gap is 20.4 mm"), std::string::npos)
         << out.str();
-    EXPECT_NE(out.str().find("2 findings"), std::string::npos) << out.str();
+    EXPECT_NE(out.str().find("3 findings"), std::string::npos) << out.str();
 }
 
 TEST(TableChecker, CommandRefusesAFileThatIsNotThere)
