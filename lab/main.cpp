@@ -23,6 +23,7 @@ struct Arguments
     int steps = -1;
     int substeps = SceneDef{}.substeps;
     int look_at_substep = -1;
+    int select = -1;
     float h = 0;
     bool list = false;
     bool headless = false;
@@ -43,6 +44,8 @@ void add_options(CLI::App& app, Arguments& a)
     app.add_option("--screenshot", a.screenshot, "render off the screen, write this PNG file and end");
     app.add_option("--size", a.size, "WIDTHxHEIGHT of the window")->capture_default_str();
     app.add_flag("--xray", a.xray, "start under the x-ray");
+    app.add_option("--select", a.select, "with --screenshot: the number of the body whose story is told")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--substep", a.look_at_substep, "with --screenshot: the sub-step of the last step to look at");
 }
 
@@ -70,8 +73,12 @@ bool parse_size(const std::string& text, lab::ViewerOptions& options)
 
 int window(const Arguments& a, const scenes::SceneEntry& entry)
 {
-    lab::ViewerOptions options{
-        .entry = &entry, .xray = a.xray, .screenshot = a.screenshot, .steps = std::max(a.steps, 0), .substep = a.look_at_substep};
+    lab::ViewerOptions options{.entry = &entry,
+                               .xray = a.xray,
+                               .screenshot = a.screenshot,
+                               .steps = std::max(a.steps, 0),
+                               .select = a.select,
+                               .substep = a.look_at_substep};
     if (!parse_size(a.size, options))
     {
         std::fprintf(stderr, "carom-lab: --size %s is not WIDTHxHEIGHT from 64 to 16384\n", a.size.c_str());

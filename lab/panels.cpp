@@ -1,12 +1,18 @@
 #include "lab/panels.h"
 
 #include "lab/stage_plot.h"
+#include "view/body_story.h"
 #include "view/impact_panel.h"
 
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 namespace carom::lab {
 namespace {
@@ -30,11 +36,30 @@ void begin_at(const char* name, Vec2 at, Vec2 size)
     ImGui::PopStyleVar();
 }
 
+// In its name or in what is said of it.
+bool is_found(const scenes::SceneEntry& entry, const std::string& search)
+{
+    const auto has = [&](std::string_view text)
+    {
+        const auto same = [](char a, char b)
+        { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+        return std::search(text.begin(), text.end(), search.begin(), search.end(), same) != text.end();
+    };
+    return search.empty() || has(entry.name) || has(entry.description);
+}
+
 void scene_list(Run& run, LabState& state)
 {
+    std::array<char, 40> text{};
+    state.search.copy(text.data(), text.size() - 1);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("###search", "type to find a scene", text.data(), text.size()))
+        state.search = text.data();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 4});
     for (const scenes::SceneEntry& entry : scenes::all_scenes())
     {
+        if (!is_found(entry, state.search))
+            continue;
         const bool chosen = &entry == &run.entry();
         if (ImGui::Selectable(std::string(entry.name).c_str(), chosen))
             state.wanted = &entry;
@@ -46,16 +71,16 @@ void scene_list(Run& run, LabState& state)
 
 void time_controls(Run& run, LabState& state)
 {
-    if (ImGui::Button(run.paused ? "Play" : "Pause", {76, 0}))
+    if (ImGui::Button(run.paused ? "Play" : "Pause", {72, 0}))
         run.paused = !run.paused;
     ImGui::SameLine();
-    if (ImGui::Button("Step", {76, 0}))
+    if (ImGui::Button("Step", {72, 0}))
     {
         run.paused = true;
         run.step();
     }
     ImGui::SameLine();
-    if (ImGui::Button("Restart", {76, 0}))
+    if (ImGui::Button("Restart", {72, 0}))
         state.wanted = &run.entry();
     auto speed = static_cast<float>(run.speed);
     ImGui::SetNextItemWidth(90);
@@ -75,6 +100,69 @@ void world_controls(LabState& state)
     ImGui::Checkbox("continuous", &state.base.continuous);
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("Off: fast balls pass through thin walls. Try it with \"bullet\".\nHolds from the next restart.");
+}
+
+template <class Change>
+void slider_of(const char* name, float value, float low, float high, const char* format, const Change& change)
+{
+    ImGui::SetNextItemWidth(150);
+    if (ImGui::SliderFloat(name, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp))
+        change(value);
+}
+
+// The material of all of a body's shapes, its density, and the springs that hold it.
+void selected_controls(Scene& scene, BodyId id)
+{
+    Vec2 gravity = scene.gravity();
+    slider_of("gravity, m/s²", -gravity.y, -20, 20, "%.1f", [&](float g) { scene.set_gravity({gravity.x, -g}); });
+    const Body body = scene.body(id);
+    const std::vector<ShapeId> shapes = body.shapes();
+    if (shapes.empty())
+        return;
+    const auto for_all = [&](const auto& change)
+    {
+        for (const ShapeId shape : shapes)
+        {
+            ShapeDef def = scene.shape(shape).def();
+            change(def);
+            scene.shape(shape).set_def(def);
+        }
+    };
+    const ShapeDef first = scene.shape(shapes.front()).def();
+    slider_of("bounciness e", first.restitution, 0, 1, "%.2f",
+              [&](float e) { for_all([&](ShapeDef& d) { d.restitution = e; }); });
+    slider_of("friction", first.friction, 0, 2, "%.2f", [&](float mu) { for_all([&](ShapeDef& d) { d.friction = mu; }); });
+    if (body.type() == BodyType::Dynamic)
+        slider_of("density, kg/m²", first.density, 0.05f, 20, "%.2f",
+                  [&](float rho) { for_all([&](ShapeDef& d) { d.density = rho; }); });
+    for (const JointId joint : body.joints())
+    {
+        const JointDef def = scene.joint(joint).def();
+        if (const auto* spring = std::get_if<SpringDef>(&def))
+        {
+            ImGui::PushID(joint.slot);
+            slider_of("stiffness, N/m", spring->stiffness, 0, 5000, "%.0f",
+                      [&](float k)
+                      {
+                          SpringDef changed = *spring;
+                          changed.stiffness = k;
+                          scene.joint(joint).set_def(changed);
+                      });
+            ImGui::PopID();
+        }
+    }
+}
+
+void selected_panel(view::Window& window, Run& run, LabState& state)
+{
+    if (!run.scene().is_valid(state.selected))
+    {
+        ImGui::TextWrapped("Click a thing: it tells who pushes it, and why it moves or does not.");
+        return;
+    }
+    view::story_widgets(window.fonts(), view::body_story(run.scene(), state.selected, run.entry().h));
+    ImGui::Separator();
+    selected_controls(run.scene(), state.selected);
 }
 
 void number_row(const char* name, const std::string& value)
@@ -120,6 +208,8 @@ void knowledge_panel(view::Window& window, Run& run, LabState& state)
     begin_at("knowledge", {size.x - story_width, 0}, {story_width, size.y});
     if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen))
         xray_panel(run, state);
+    if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen))
+        selected_panel(window, run, state);
     if (ImGui::CollapsingHeader("Last impact", ImGuiTreeNodeFlags_DefaultOpen))
         view::impact_widgets(window.fonts(), run.impacts.last());
     ImGui::End();
@@ -163,6 +253,7 @@ void narrow_panels(view::Window& window, Run& run, LabState& state)
         tab("Scenes", [&] { scene_list(run, state); });
         tab("X-ray", [&] { xray_panel(run, state); });
         tab("Numbers", [&] { numbers(run); });
+        tab("Selected", [&] { selected_panel(window, run, state); });
         tab("Impact", [&] { view::impact_widgets(window.fonts(), run.impacts.last()); });
         tab("World", [&] { world_controls(state); });
         ImGui::EndTabBar();

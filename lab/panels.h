@@ -7,6 +7,8 @@
 #include "view/window.h"
 #include "view/xray.h"
 
+#include <string>
+
 namespace carom::lab {
 
 /// What the panels read and change.
@@ -15,6 +17,8 @@ struct LabState
     const scenes::SceneEntry* wanted = nullptr; ///< a scene to load before the next frame; also the present one, to restart it
     SceneDef base{};                            ///< for the next start
     bool xray = false;
+    BodyId selected{};    ///< whose story is told
+    std::string search{}; ///< in the names of scenes
     view::XrayOverlay overlay;
 };
 

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <vector>
 
 namespace carom::lab {
 namespace {
@@ -51,6 +53,9 @@ public:
         for (int i = 0; i < m_options.steps; ++i)
             m_run->step();
         m_run->paused = true;
+        const std::vector<BodyId> bodies = m_run->scene().bodies();
+        if (m_options.select >= 0 && static_cast<std::size_t>(m_options.select) < bodies.size())
+            m_state.selected = bodies[static_cast<std::size_t>(m_options.select)];
         if (m_options.substep >= 0)
             m_run->scrubber.select(m_options.substep);
         view::Image image;
@@ -77,6 +82,7 @@ private:
         m_run->speed = speed;
         m_hand.forget();
         m_state.wanted = nullptr;
+        m_state.selected = {};
         if (!same)
             m_own_camera = false;
     }
@@ -88,8 +94,26 @@ private:
         const bool mouse = event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEWHEEL;
         if (mouse && m_window.wants_mouse())
             return;
+        select(event);
         if (m_hand.handle(event, m_run->scene(), m_camera))
             m_own_camera = true;
+    }
+
+    // A click, not a drag.
+    void select(const SDL_Event& event)
+    {
+        if (event.type == SDL_MOUSEBUTTONDOWN && event.button.button == SDL_BUTTON_LEFT)
+            m_pressed_at = {event.button.x, event.button.y};
+        if (event.type != SDL_MOUSEBUTTONUP || event.button.button != SDL_BUTTON_LEFT || m_window.wants_mouse())
+            return;
+        const SDL_Point at{event.button.x, event.button.y};
+        if (std::abs(at.x - m_pressed_at.x) + std::abs(at.y - m_pressed_at.y) > 4)
+            return;
+        const Scene& scene = m_run->scene();
+        const std::vector<ShapeId> under =
+            scene.overlap_point(m_camera.to_world({static_cast<float>(at.x), static_cast<float>(at.y)}));
+        m_state.selected = under.empty() ? BodyId{} : scene.shape(under.front()).body();
+        m_state.xray = m_state.xray || !under.empty();
     }
 
     void key(SDL_Scancode code)
@@ -151,6 +175,9 @@ private:
             m_run->scrubber.draw(canvas, m_run->scene());
         if (m_state.xray && m_run->impacts.last())
             view::draw_impact(canvas, *m_run->impacts.last());
+        if (m_run->scene().is_valid(m_state.selected))
+            view::draw_ghost(canvas, m_run->scene(), m_state.selected, m_run->scene().body(m_state.selected).pose(),
+                             {view::rgb(0xffe066), 3});
         m_hand.draw(canvas, m_run->scene());
         caption(area);
         canvas.pop_clip();
@@ -195,6 +222,7 @@ private:
     std::unique_ptr<Run> m_run;
     Hand m_hand;
     view::Camera m_camera;
+    SDL_Point m_pressed_at{};
     bool m_own_camera = false; ///< the user has moved it
 };
 

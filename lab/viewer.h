@@ -17,6 +17,7 @@ struct ViewerOptions
     bool xray = false;
     std::string screenshot{}; ///< where set: take `steps` steps, write this PNG, end
     int steps = 0;
+    int select = -1;  ///< the number of a body, with screenshot
     int substep = -1; ///< for a screenshot: look at this sub-step of the last step
 };
 

@@ -55,15 +55,19 @@ Position kept_in_view(const Canvas& canvas, Position at, Vec2 size)
 
 } // namespace
 
-void impact_widgets(Fonts& fonts, const std::optional<ImpactRecord>& record)
+void story_widgets(Fonts& fonts, const std::vector<StoryLine>& story)
 {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 3});
-    if (!record)
-        ImGui::TextWrapped("Nothing has been hit yet. The next impact is written out here, step by step.");
-    else
-        for (const StoryLine& line : impact_story(*record))
-            line_widget(fonts, line);
+    for (const StoryLine& line : story)
+        line_widget(fonts, line);
     ImGui::PopStyleVar();
+}
+
+void impact_widgets(Fonts& fonts, const std::optional<ImpactRecord>& record)
+{
+    if (record)
+        return story_widgets(fonts, impact_story(*record));
+    ImGui::TextWrapped("Nothing has been hit yet. The next impact is written out here, step by step.");
 }
 
 void draw_impact(Canvas& canvas, const ImpactRecord& record)

@@ -9,6 +9,7 @@
 namespace carom::view {
 
 /// The story as text in the present Dear ImGui window, wrapped to its width.
+void story_widgets(Fonts& fonts, const std::vector<StoryLine>& story);
 void impact_widgets(Fonts& fonts, const std::optional<ImpactRecord>& record);
 
 /// The blow in the picture: the line of the hit, both speeds, both parties named.
