@@ -116,6 +116,8 @@ private:
             lose_focus();
         if (event.type == SDL_CONTROLLERDEVICEADDED)
             SDL_GameControllerOpen(event.cdevice.which);
+        if (m_xray)
+            select(event);
         if (m_machine.name_entry().active() && write_name(event))
             return;
         if (const auto press = button_of(event))
@@ -152,6 +154,17 @@ private:
         if (wish != asked)
             return;
         asked == Wish::Quit ? m_window.request_quit() : restart();
+    }
+
+    // A click on a thing of the table.
+    void select(const SDL_Event& event)
+    {
+        if (event.type != SDL_MOUSEBUTTONDOWN || event.button.button != SDL_BUTTON_LEFT || m_window.wants_mouse())
+            return;
+        const Scene& scene = m_machine.game().scene();
+        const Position at = m_stage.seen.to_world({static_cast<float>(event.button.x), static_cast<float>(event.button.y)});
+        const auto near = scene.closest_point(at, m_stage.seen.meters(8));
+        m_machine.selected = near ? scene.shape(near->shape).body() : BodyId{};
     }
 
     // Letters are letters while a name is written.

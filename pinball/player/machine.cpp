@@ -46,6 +46,11 @@ Machine::Machine(const std::string& file, std::uint64_t seed, bool autoplay, boo
         m_player.emplace(m_game.table(), m_seed);
 }
 
+view::ShapeNamer Machine::namer() const
+{
+    return [this](const Scene& scene, ShapeId shape) { return name_of(m_game.table(), scene.shape(shape).user_data()); };
+}
+
 void Machine::load_scores()
 {
     if (m_score_file)
@@ -108,6 +113,7 @@ void Machine::begin(Table table)
     m_name_entry = {};
     impacts.clear();
     scrubber.clear();
+    selected = {};
     m_game.record_substeps(m_record);
 }
 
@@ -122,6 +128,7 @@ void Machine::restart()
     m_name_entry = {};
     impacts.clear();
     scrubber.clear();
+    selected = {};
     m_game.record_substeps(m_record);
 }
 

@@ -55,6 +55,9 @@ public:
     void look_into_step();
     view::SubstepScrubber scrubber{};
     view::ImpactWatch impacts;
+    BodyId selected{}; ///< whose story the x-ray tells
+    /// What a thing is called: by its element.
+    [[nodiscard]] view::ShapeNamer namer() const;
 
 private:
     void begin(Table table);

@@ -30,6 +30,7 @@ void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Fram
     draw_room(screen, window.size());
 
     const view::Camera camera = stage.camera.look(machine.game(), layout, frame.status.time);
+    stage.seen = camera;
     view::Canvas table = window.canvas(camera);
     // A little more than the table, for the names at an impact near its edge.
     const Vec2 more{layout.landscape ? camera.meters(22) : 0, 0};

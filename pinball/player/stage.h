@@ -23,6 +23,7 @@ struct Frame
 struct Stage
 {
     TableCamera camera{};
+    view::Camera seen{}; ///< through which the table was drawn last
     XrayPanel xray{};
 };
 

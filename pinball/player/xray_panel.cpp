@@ -1,7 +1,9 @@
 #include "pinball/player/xray_panel.h"
 
 #include "pinball/player/keys.h"
+#include "view/body_story.h"
 #include "view/impact_panel.h"
+#include "view/shape_art.h"
 
 #include <imgui.h>
 
@@ -49,7 +51,22 @@ void XrayPanel::draw(view::Canvas& table, const Machine& machine, bool paused)
         machine.scrubber.draw(table, machine.game().scene());
     if (machine.impacts.last())
         view::draw_impact(table, *machine.impacts.last());
+    const Scene& scene = machine.game().scene();
+    if (scene.is_valid(machine.selected))
+        view::draw_ghost(table, scene, machine.selected, scene.body(machine.selected).pose(), {view::rgb(0xffe066), 3});
 }
+
+namespace {
+
+void selected_widgets(view::Window& window, const Machine& machine)
+{
+    const Scene& scene = machine.game().scene();
+    if (!scene.is_valid(machine.selected))
+        return ImGui::TextDisabled("Click a thing on the table: it tells its story.");
+    view::story_widgets(window.fonts(), view::body_story(scene, machine.selected, machine.game().table().physics.step, machine.namer()));
+}
+
+} // namespace
 
 void XrayPanel::wide(view::Window& window, Machine& machine, const Status& status)
 {
@@ -59,6 +76,8 @@ void XrayPanel::wide(view::Window& window, Machine& machine, const Status& statu
     m_overlay.widgets();
     ImGui::Separator();
     within_step(machine, status);
+    ImGui::Separator();
+    selected_widgets(window, machine);
     ImGui::Separator();
     view::impact_widgets(window.fonts(), machine.impacts.last());
 }
@@ -77,6 +96,7 @@ void XrayPanel::narrow(view::Window& window, Machine& machine, const Status& sta
     if (!ImGui::BeginTabBar("tabs"))
         return;
     tab("Impact", [&] { view::impact_widgets(window.fonts(), machine.impacts.last()); });
+    tab("Selected", [&] { selected_widgets(window, machine); });
     tab("Step",
         [&]
         {
