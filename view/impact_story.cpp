@@ -9,7 +9,7 @@ namespace {
 
 using Kind = StoryLine::Kind;
 
-constexpr float shown = 5e-4f; // of a number: what its three digits can tell
+constexpr float digits_tell = 5e-4f; // of a number: what its three digits can tell
 
 // Where all that holds it is a hinge to something that stands still.
 void find_pivot(const Scene& scene, const ConstBody& body, const ImpactEvent& event, ImpactParty& p)
@@ -179,7 +179,7 @@ void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
     const float formula = impulse_by_formula(record);
     const float engine = record.event.impulse;
-    const bool same = std::abs(formula - engine) <= shown * std::max(formula, engine) || number(formula) == number(engine);
+    const bool same = std::abs(formula - engine) <= digits_tell * std::max(formula, engine) || number(formula) == number(engine);
     story.push_back({Kind::Result, "The engine gave " + number(engine) + " N·s" + (same ? ": the same" : "")});
     if (!same)
         story.push_back({Kind::Text, "They differ: friction or another contact took part in the same blow."});
@@ -196,7 +196,7 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const float change = impulse / effective;
     const float by_formula = first ? before - change : before + change;
     const float scale = std::max({std::abs(before), std::abs(after), change});
-    const bool is_alone = std::abs(by_formula - after) <= 0.2f * shown * scale;
+    const bool is_alone = std::abs(by_formula - after) <= 0.2f * digits_tell * scale;
     const std::string way = is_alone ? v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
                                            number(impulse) + "/" + number(effective) + " = "
                                      : v + " from " + number(before) + " to ";
@@ -211,7 +211,7 @@ void tell_parting(std::vector<StoryLine>& story, const ImpactEvent& e)
     const std::string formula = "e·(v₁−v₂)" + std::string(e.kick_speed > 0 ? " + kick" : "") + " = " + number(e.restitution) +
                                 "·" + number(e.approach_speed) + (e.kick_speed > 0 ? " + " + number(e.kick_speed) : "") + " = " +
                                 number(by_formula) + " m/s";
-    if (std::abs(parting - by_formula) <= 2 * shown * std::max(e.approach_speed, std::abs(by_formula)))
+    if (std::abs(parting - by_formula) <= 2 * digits_tell * std::max(e.approach_speed, std::abs(by_formula)))
     {
         story.push_back({Kind::Formula, "they part at " + formula});
         return;
