@@ -140,7 +140,7 @@ void selected_controls(Scene& scene, BodyId id)
         const JointDef def = scene.joint(joint).def();
         if (const auto* spring = std::get_if<SpringDef>(&def))
         {
-            ImGui::PushID(joint.slot);
+            ImGui::PushID(static_cast<int>(joint.slot));
             slider_of("stiffness, N/m", spring->stiffness, 0, 5000, "%.0f",
                       [&](float k)
                       {

@@ -63,7 +63,8 @@ void selected_widgets(view::Window& window, const Machine& machine)
     const Scene& scene = machine.game().scene();
     if (!scene.is_valid(machine.selected))
         return ImGui::TextDisabled("Click a thing on the table: it tells its story.");
-    view::story_widgets(window.fonts(), view::body_story(scene, machine.selected, machine.game().table().physics.step, machine.namer()));
+    view::story_widgets(window.fonts(),
+                        view::body_story(scene, machine.selected, machine.game().table().physics.step, machine.namer()));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace carom::pinball {
 namespace {
@@ -78,6 +79,35 @@ void FieldReader::fail(std::string_view key, std::string sentence)
     fail(node != nullptr ? *node : m_object, key, std::move(sentence));
 }
 
+namespace {
+
+// One letter more, less, other, or two that changed places; in long names two of them.
+bool are_alike(std::string_view a, std::string_view b)
+{
+    const std::size_t most = std::min(a.size(), b.size()) >= 8 ? 2 : 1;
+    if (a == b || std::min(a.size(), b.size()) < 3 || (a.size() > b.size() ? a.size() - b.size() : b.size() - a.size()) > most)
+        return false;
+    std::vector<std::size_t> before_last;
+    std::vector<std::size_t> last(b.size() + 1);
+    for (std::size_t j = 0; j < last.size(); ++j)
+        last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        std::vector<std::size_t> row(b.size() + 1);
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before_last[j - 2] + 1);
+        }
+        before_last = std::exchange(last, std::move(row));
+    }
+    return last.back() <= most;
+}
+
+} // namespace
+
 bool FieldReader::has(std::string_view key) { return look_up(key, false) != nullptr; }
 
 const JsonNode* FieldReader::look_up(std::string_view key, bool required)
@@ -85,7 +115,7 @@ const JsonNode* FieldReader::look_up(std::string_view key, bool required)
     if (std::find(m_known.begin(), m_known.end(), key) == m_known.end())
         m_known.emplace_back(key);
     const JsonNode* node = m_object.member(key);
-    if (node == nullptr && required)
+    if (node == nullptr && required && !is_misspelt(key))
         fail(m_object, key, "is missing");
     return node;
 }
@@ -104,7 +134,20 @@ void FieldReader::refuse_unknown_keys()
     for (std::size_t i = 0; i < m_object.keys.size(); ++i)
         if (std::find(m_known.begin(), m_known.end(), m_object.keys[i]) == m_known.end())
             fail(m_object.items[i], m_object.keys[i].substr(0, max_text_length),
-                 "is not a key of this object; it has " + joined(m_known));
+                 "is not a key of this object; " + likely_name(m_object.keys[i]));
+}
+
+// A key that stands there and is like it: that one will be told.
+bool FieldReader::is_misspelt(std::string_view key) const
+{
+    return std::ranges::any_of(m_object.keys, [&](const std::string& written) { return are_alike(written, key); });
+}
+
+std::string FieldReader::likely_name(std::string_view written) const
+{
+    const auto likely = std::ranges::find_if(m_known, [&](const std::string& known)
+                                             { return are_alike(written, known) && m_object.member(known) == nullptr; });
+    return likely != m_known.end() ? "is \"" + *likely + "\" meant?" : "it has " + joined(m_known);
 }
 
 std::optional<double> FieldReader::checked_number(const JsonNode& node, const std::string& key, Range range)

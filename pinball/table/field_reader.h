@@ -88,6 +88,8 @@ public:
     [[nodiscard]] const JsonNode& object() const { return m_object; }
 
 private:
+    [[nodiscard]] bool is_misspelt(std::string_view key) const;
+    [[nodiscard]] std::string likely_name(std::string_view written) const;
     const JsonNode* look_up(std::string_view key, bool required);
     std::optional<double> checked_number(const JsonNode& node, const std::string& key, Range range);
     std::optional<Vec2> checked_vec2(const JsonNode& node, const std::string& key, Range range);

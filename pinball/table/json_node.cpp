@@ -67,11 +67,55 @@ private:
     Cursor* m_cursor;
 };
 
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+// The last sign before a place that is no blank; a comment counts for what it ends with.
+char sign_before(std::string_view text, std::size_t end)
+{
+    while (end > 0 && is_blank(text[end - 1]))
+        --end;
+    return end > 0 ? text[end - 1] : ' ';
+}
+
+bool ends_value(char c) { return c == '"' || c == '}' || c == ']' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); }
+
+// What is wrong at the sign that was read last, in the words of one who writes the file.
+std::string syntax_sentence(std::string_view text, std::size_t read, std::size_t open_line, const std::string& message)
+{
+    if (message.find("UTF-8") != std::string::npos)
+        return "not UTF-8: save the file in that encoding";
+    if (message.find("number overflow") != std::string::npos)
+        return "a number that is too big";
+    const std::size_t last = text.find_last_not_of(" \t\r\n");
+    if (last == std::string_view::npos)
+        return "the file is empty";
+    if (read == 0 || read > last + 1)
+        return open_line > 0 ? "the file ends here, and a bracket of line " + std::to_string(open_line) + " is still open"
+                             : "the file ends here";
+    const char sign = text[read - 1];
+    std::size_t start = read - 1;
+    if (sign == '"' && start > 0) // of a string, read whole
+        start = std::min(text.rfind('"', start - 1), start);
+    const char before = sign_before(text, start);
+    const bool closes = sign == ']' || sign == '}';
+    if (before == ',' && (closes || sign == ','))
+        return std::string("a comma too many") + (closes ? " before " + std::string(1, sign) : "");
+    if (message.find("expected ':'") != std::string::npos)
+        return "a colon is missing after the key";
+    if (ends_value(before) && !closes && sign != ':' && sign != ',')
+        return "a comma is missing before this";
+    const std::size_t expected = message.rfind("expected ");
+    const bool known = expected != std::string::npos && (expected < 2 || message.compare(expected - 2, 2, "un") != 0);
+    return std::string("unexpected ") + sign + (known ? "; " + message.substr(expected) : "");
+}
+
 /// nlohmann's parser calls this for every token.
 class TreeBuilder
 {
 public:
-    TreeBuilder(const Cursor& cursor, LoadErrors& errors) : m_cursor(cursor), m_errors(errors) {}
+    TreeBuilder(std::string_view text, const Cursor& cursor, LoadErrors& errors)
+        : m_text(text), m_cursor(cursor), m_errors(errors)
+    {}
 
     JsonNode take() { return std::move(m_root); }
     [[nodiscard]] bool clean() const { return m_clean; }
@@ -98,6 +142,7 @@ private:
     JsonNode& attach(JsonNode node);
     void fail(TextPlace place, std::string sentence);
 
+    std::string_view m_text;
     const Cursor& m_cursor;
     LoadErrors& m_errors;
     JsonNode m_root{};
@@ -159,9 +204,10 @@ bool TreeBuilder::key(std::string& name)
     return true;
 }
 
-bool TreeBuilder::parse_error(std::size_t, const std::string& token, const nlohmann::json::exception&)
+bool TreeBuilder::parse_error(std::size_t read, const std::string&, const nlohmann::json::exception& error)
 {
-    fail(m_cursor.now, "not valid JSON: unexpected \"" + token.substr(0, 40) + "\"");
+    const std::size_t open_line = m_open.empty() ? 0 : static_cast<std::size_t>(m_open.back().line);
+    fail(m_cursor.now, "not valid JSON: " + syntax_sentence(m_text, read, open_line, error.what()));
     return false;
 }
 
@@ -187,7 +233,7 @@ std::optional<JsonNode> parse_json(std::string_view text, LoadErrors& errors)
         return std::nullopt;
     }
     Cursor cursor;
-    TreeBuilder builder(cursor, errors);
+    TreeBuilder builder(text, cursor, errors);
     const CountingIterator first(text.data(), &cursor);
     const CountingIterator last(text.data() + text.size(), &cursor);
     const bool read = nlohmann::json::sax_parse(first, last, &builder, nlohmann::json::input_format_t::json, true, true);

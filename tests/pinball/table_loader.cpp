@@ -237,7 +237,13 @@ TEST(TableLoader, SyntaxErrorsNameTheLine)
     expect_error("", "", "not valid JSON");
     expect_error(table_with(post) + "x", "", "not valid JSON");
     expect_error("{\"a\": 1e999}", "", "not valid JSON", "", 1);
-    expect_error("{\"a\": \"\xff\"}", "", "not valid JSON", "", 1);
+    expect_error("{\"a\": \"\xff\"}", "", "not UTF-8", "", 1);
+    expect_error("{\"a\": 1,, \"b\": 2}", "", "a comma too many", "", 1);
+    expect_error("{\"a\": [1, 2,]}", "", "a comma too many before ]", "", 1);
+    expect_error("{\"a\": 1\n \"b\": 2}", "", "a comma is missing before this", "", 2);
+    expect_error("{\"a\" 1}", "", "a colon is missing after the key", "", 1);
+    expect_error("{\n\"a\": [1,", "", "the file ends here, and a bracket of line 2 is still open");
+    expect_error(" \n", "", "the file is empty");
 }
 
 TEST(TableLoader, KeysStandOnce) { expect_error("{\n\"format\": 1,\n\"format\": 2}", "", "\"format\" stands twice", "", 3); }
@@ -283,6 +289,9 @@ TEST(TableLoader, UnknownKeysAreErrorsEverywhere)
 {
     expect_error(table_with("", ", \"wall\": 1"), "wall", "is not a key", "", 8);
     expect_error(replaced(table_with(""), "\"mass\"", "\"mas\": 1, \"mass\""), "ball.mas", "is not a key");
+    // Misspelt: one error, with the likely name.
+    expect_error(replaced(table_with(""), "\"friction\"", "\"fricton\""), "materials.rubber.fricton", "is \"friction\" meant?");
+    expect_error(replaced(table_with(""), "\"mass\"", "\"msas\""), "ball.msas", "is \"mass\" meant?");
     expect_error(replaced(table_with(""), "\"slope_deg\"", "\"slope\": 1, \"slope_deg\""), "physics.slope", "is not a key");
     expect_error(replaced(table_with(""), "\"friction\"", "\"grip\": 1, \"friction\""), "materials.rubber.grip", "is not a key");
     expect_error(table_with(replaced(std::string(post), "\"radius\"", "\"radios\": 1,\n\"radius\"")), "elements[1].radios",
