@@ -7,6 +7,7 @@
 #include <imgui_impl_sdl.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -117,6 +118,12 @@ Window::Window(const WindowDef& def) : m_native(std::make_unique<Native>()), m_b
     m_native->video = true;
     const char* driver = SDL_GetCurrentVideoDriver();
     m_native->offscreen = driver != nullptr && std::strcmp(driver, "offscreen") == 0;
+    // SDL goes on without a display: a program that nobody sees and nobody can end.
+    const bool is_seen =
+        driver != nullptr && !m_native->offscreen && std::strcmp(driver, "dummy") != 0 && std::strcmp(driver, "evdev") != 0;
+    if (!is_seen && std::getenv("SDL_VIDEODRIVER") == nullptr)
+        throw std::runtime_error(
+            "there is no display; with SDL_VIDEODRIVER=offscreen in the environment it is drawn without one");
     ask_for_gl();
     const Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
     m_native->window =

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <functional>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 namespace carom::view {
@@ -55,6 +57,22 @@ protected:
         return image;
     }
 };
+
+TEST_F(WindowTest, WithoutADisplayItSaysSo)
+{
+    for (const char* name : {"SDL_VIDEODRIVER", "DISPLAY", "WAYLAND_DISPLAY"})
+        unsetenv(name);
+    std::string sentence;
+    try
+    {
+        const Window window;
+    }
+    catch (const std::runtime_error& error)
+    {
+        sentence = error.what();
+    }
+    EXPECT_NE(sentence.find("there is no display"), std::string::npos) << sentence;
+}
 
 TEST_F(WindowTest, PictureHasTheSizeAndTheBackground)
 {
