@@ -140,7 +140,7 @@ private:
         m_paused = m_paused || is_in_game();
     }
 
-    // What would end a game is asked for; it waits meanwhile.
+    // Asks before a key ends a game, which waits meanwhile.
     void ask(Wish wish)
     {
         m_asking = wish;

@@ -56,7 +56,7 @@ public:
     view::SubstepScrubber scrubber{};
     view::ImpactWatch impacts;
     BodyId selected{}; ///< whose story the x-ray tells
-    /// What a thing is called: by its element.
+    /// Names a thing by its element.
     [[nodiscard]] view::ShapeNamer namer() const;
 
 private:

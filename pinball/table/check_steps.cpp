@@ -22,7 +22,7 @@ struct Meeting
     double share = 0; ///< of the speed along the way that goes into the bat
 };
 
-// Where a ball on its way, with the surface's normal under it, touches the bat.
+// The ball's touch of the bat at a place of its way; `normal` is that of the surface under it.
 std::optional<Meeting> meeting_at(const std::vector<Curve>& bat, Point center, Point normal, Point down, double radius)
 {
     const auto nearest = std::ranges::min_element(bat, {}, [&](const Curve& c) { return distance(c, center); });

@@ -79,7 +79,7 @@ char sign_before(std::string_view text, std::size_t end)
 
 bool ends_value(char c) { return c == '"' || c == '}' || c == ']' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); }
 
-// What is wrong at the sign that was read last, in the words of one who writes the file.
+// Says in plain words what is wrong at the sign that was read last.
 std::string syntax_sentence(std::string_view text, std::size_t read, std::size_t open_line, const std::string& message)
 {
     if (message.find("UTF-8") != std::string::npos)

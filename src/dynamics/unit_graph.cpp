@@ -386,7 +386,7 @@ public:
             state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
     }
 
-    // What is struck may leave as fast as what strikes it comes: of each unit, the longest way of what is not through with its contacts.
+    // A struck body may leave as fast as the one that strikes it comes. So each unit notes the longest way of its fliers that may still meet something.
     void find_fastest()
     {
         for (UnitTally& t : scratch.tallies)

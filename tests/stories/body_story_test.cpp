@@ -1,4 +1,4 @@
-// What a selected body says of who pushes it.
+// The story of a selected body: who pushes it, and how hard.
 
 #include "scenes/scenes.h"
 #include "view/body_story.h"
