@@ -30,6 +30,8 @@ enum class EventKind : std::uint8_t
     FlipperCoil, ///< a flipper's coil went on (`value` 1) or off (0)
     PlungerPulled,
     PlungerReleased, ///< `speed` is how far it was pulled, m
+    Nudged,          ///< a hand pushes the cabinet, along `normal`
+    BobTouched,      ///< the tilt bob swung to its ring
     // From here on: events of the rules.
     GameStarted,
     GroupCompleted, ///< `value` is the index of the group; `element` the member that completed it
@@ -42,6 +44,10 @@ enum class EventKind : std::uint8_t
     Combo,   ///< `value` the length of the chain
     SkillShot,
     MultiballStarted,
+    Warned,      ///< `value` warnings so far on this ball
+    Tilted,      ///< the ball is over, its bonus lost
+    BallSearch,  ///< no switch for a while: the coils feel for the ball; `value` is the round from 1
+    BallMissing, ///< it was not found and another one comes; `value` how many
     GameEnded,
     HighScore, ///< `value` is the rank from 0
 };

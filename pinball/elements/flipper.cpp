@@ -36,7 +36,9 @@ public:
                                        .lower_angle = std::min(0.0f, m_stroke),
                                        .upper_angle = std::max(0.0f, m_stroke),
                                        .limit_restitution = def.stop_restitution});
-        scene.set_force_law(state.body, {.function = law, .user = this, .greatest_torque = def.coil_torque});
+        const float scatter = field.table().physics.scatter;
+        scene.set_force_law(state.body,
+                            {.function = law, .user = this, .greatest_torque = (1 + scatter) * (1 + scatter) * def.coil_torque});
         state.angle = def.rest;
     }
 
@@ -69,6 +71,7 @@ public:
         m_coil.add_to(hash);
         hash.add(m_enabled);
         hash.add(m_at_stop);
+        hash.add(m_luck);
     }
 
 private:
@@ -91,6 +94,11 @@ private:
         field.scene().body(state.body).set_awake(true);
         field.emit({.kind = EventKind::FlipperCoil, .element = index(), .point = m_def.pivot, .value = on ? 1 : 0});
         state.down = on;
+        if (on)
+        {
+            const float luck = field.luck();
+            m_luck = luck * luck; // a speed goes with the root of the torque
+        }
     }
 
     static Load law(void* user, const BodyMotion& motion)
@@ -106,7 +114,7 @@ private:
                 const float then = angle + motion.angular_velocity * static_cast<float>(time - begin);
                 return flipper.target_torque(flipper.is_on(flipper.m_field.buttons_at(time - flipper.m_step_began)), then);
             });
-        return {.torque = flipper.m_stroke > 0 ? torque : -torque};
+        return {.torque = (flipper.m_stroke > 0 ? flipper.m_luck : -flipper.m_luck) * torque};
     }
 
     // A bat mostly rests, and the arc tangent is what its law costs.
@@ -156,6 +164,7 @@ private:
     float m_seen_angle = 0;
     int m_at_stop = -1; ///< -1 lower, 1 upper, 0 between
     std::vector<StopHit> m_stop_hits{};
+    float m_luck = 1; ///< of this stroke's torque
     bool m_enabled;
 };
 

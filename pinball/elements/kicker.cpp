@@ -26,8 +26,12 @@ public:
                 fire(field, *ball);
     }
 
-    void command(Playfield&, Command command) override
+    void command(Playfield& field, Command command) override
     {
+        if (command == Command::Pulse)
+            for (const BodyId body : inside())
+                if (Ball* ball = field.find_ball(body); ball && !ball->drained)
+                    fire(field, *ball);
         if (command == Command::Light || command == Command::Unlight)
             state.lit = command == Command::Light;
         if (command == Command::Enable || command == Command::Disable)
@@ -39,14 +43,14 @@ public:
 private:
     void fire(Playfield& field, Ball& ball)
     {
-        const Vec2 change = m_def.kick - ball.state.velocity;
-        field.scene().body(ball.state.body).set_velocity(m_def.kick);
-        ball.state.velocity = m_def.kick;
+        const Vec2 kick = field.luck() * m_def.kick;
+        const Vec2 change = kick - ball.state.velocity;
+        field.throw_ball(ball, kick);
         report_hit(field, {.kind = EventKind::Fired,
                            .point = ball.state.position,
                            .normal = normalize(m_def.kick),
                            .impulse = field.table().ball.mass * length(change),
-                           .speed = length(m_def.kick),
+                           .speed = length(kick),
                            .ball = ball.state.serial});
     }
 

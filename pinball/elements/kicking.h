@@ -12,6 +12,7 @@ class KickingDevice : public Device
 public:
     void on_strike(Playfield& field, Ball& ball, const Strike& strike) override;
     void command(Playfield& field, Command command) override;
+    void add_to(Hash& hash) const override;
 
 protected:
     KickingDevice(Index index, const Kick& kick) : Device(index), m_kick(kick) {}
@@ -19,7 +20,13 @@ protected:
     void add_kicker(Playfield& field, BodyId body, const Geometry& geometry);
 
 private:
+    /// Sets what the next blow gets.
+    void arm(Playfield& field);
+    void pulse(Playfield& field);
+
     Kick m_kick;
+    float m_luck = 1;
+    bool m_enabled = true;
     ShapeId m_kicker{};
 };
 

@@ -81,7 +81,8 @@ bool PlungerLane::contains(Position p) const
 }
 
 Playfield::Playfield(const Table& table, std::uint64_t seed)
-    : m_table(table), m_scene(scene_def(table)), m_random(seed), m_lane(table),
+    : m_table(table), m_scene(scene_def(table)), m_random(seed), m_lane(table), m_cabinet(table.cabinet),
+      m_slope(m_scene.gravity()),
       m_floor{.slope = m_scene.gravity(),
               .friction = table.physics.mu_playfield * table.physics.g * Rotation::from_angle(table.physics.slope).c,
               .ball_mass = table.ball.mass}
@@ -108,6 +109,39 @@ const Buttons& Playfield::buttons_at(double time) const
     return last->buttons;
 }
 
+float Playfield::luck()
+{
+    const float scatter = m_table.physics.scatter;
+    return scatter > 0 ? 1 + m_random.between(-scatter, scatter) : 1;
+}
+
+// Everything on the table feels the opposite of what the cabinet does.
+void Playfield::shake()
+{
+    const auto hand = [this](bool Buttons::* button, Vec2 direction)
+    {
+        for (std::size_t i = 1; i < m_changes.size(); ++i)
+            if (m_changes[i].buttons.*button && !(m_changes[i - 1].buttons.*button))
+            {
+                m_cabinet.push(direction, m_changes[i].time);
+                emit({.kind = EventKind::Nudged,
+                      .point = Position(0.5f * m_table.size),
+                      .normal = direction,
+                      .speed = m_table.cabinet.nudge_speed});
+            }
+    };
+    hand(&Buttons::nudge_left, {1, 0});
+    hand(&Buttons::nudge_right, {-1, 0});
+    hand(&Buttons::nudge_up, {0, 1});
+    if (m_cabinet.step(h()))
+        emit({.kind = EventKind::BobTouched, .point = Position(0.5f * m_table.size)});
+    const Vec2 felt = m_slope - m_cabinet.acceleration();
+    if (felt == m_floor.slope)
+        return;
+    m_floor.slope = felt;
+    m_scene.set_gravity(felt);
+}
+
 void Playfield::step(const Buttons& buttons)
 {
     const ButtonChange at_once{.buttons = buttons};
@@ -120,6 +154,7 @@ void Playfield::step_through(std::span<const ButtonChange> changes)
     m_events.clear();
     m_changes = {{.buttons = m_changes.back().buttons}};
     m_changes.insert(m_changes.end(), changes.begin(), changes.end());
+    shake();
     for (auto& device : m_devices)
         device->before_step(*this);
     let_balls_roll();
@@ -363,6 +398,36 @@ void Playfield::release(Ball& ball, Vec2 velocity)
     ball.state.velocity = velocity;
 }
 
+void Playfield::throw_ball(Ball& ball, Vec2 velocity)
+{
+    m_scene.body(ball.state.body).set_velocity(velocity);
+    ball.state.velocity = velocity;
+}
+
+namespace {
+
+bool is_lost(const Ball& ball, const PlungerLane& lane) { return ball.state.is_free() && !lane.contains(ball.state.position); }
+
+} // namespace
+
+int Playfield::take_lost_balls()
+{
+    int lost = 0;
+    for (Ball& ball : m_balls)
+        if (is_lost(ball, m_lane))
+        {
+            ball.drained = true;
+            ++lost;
+        }
+    remove_drained();
+    return lost;
+}
+
+bool Playfield::knows_all_balls() const
+{
+    return std::ranges::none_of(m_balls, [this](const Ball& ball) { return is_lost(ball, m_lane); });
+}
+
 // --- For the elements ----------------------------------------------------------------------------------------------
 
 BodyId Playfield::add_fixed(bool enabled) { return m_scene.create_body({.type = BodyType::Static, .enabled = enabled}); }
@@ -404,6 +469,7 @@ void Playfield::add_to(Hash& hash) const
     hash.add(m_scene.state_hash());
     hash.add(m_random.state());
     hash.add(m_step);
+    m_cabinet.add_to(hash);
     for (const Ball& ball : m_balls)
     {
         hash.add(ball.state.serial);

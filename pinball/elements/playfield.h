@@ -4,6 +4,7 @@
 /// The table as a world: the scene, its elements and its balls. It is stepped with the buttons and tells events.
 
 #include "carom/scene.h"
+#include "pinball/elements/cabinet.h"
 #include "pinball/elements/device.h"
 #include "pinball/elements/random.h"
 #include "pinball/elements/rolling.h"
@@ -26,6 +27,9 @@ struct Buttons
     bool left = false;
     bool right = false;
     bool plunger = false;
+    bool nudge_left = false;  ///< a hand on the left side: the cabinet moves to the right
+    bool nudge_right = false; ///< a hand on the right side: it moves to the left
+    bool nudge_up = false;    ///< a hand at the front: it moves up the table
 };
 
 /// The buttons from a time of the step on, until the next change.
@@ -82,12 +86,15 @@ public:
     [[nodiscard]] std::int64_t step_count() const { return m_step; }
     [[nodiscard]] const Scene& scene() const { return m_scene; }
     [[nodiscard]] const Table& table() const { return m_table; }
+    [[nodiscard]] const Cabinet& cabinet() const { return m_cabinet; }
     void record_substeps(bool record) { m_scene.set_record_substeps(record); }
     void add_to(Hash& hash) const;
 
     // For the elements.
     [[nodiscard]] Scene& scene() { return m_scene; }
     [[nodiscard]] Random& random() { return m_random; }
+    /// A factor near 1 for the next speed that a coil or a spring gives: Physics::scatter.
+    [[nodiscard]] float luck();
     /// The changes of this step; the first is at its start.
     [[nodiscard]] std::span<const ButtonChange> button_changes() const { return m_changes; }
     /// The buttons at a time since the step began.
@@ -110,9 +117,16 @@ public:
     /// Takes a ball out of the world at a place, and lets it back in from there.
     void hold(Ball& ball, Position at);
     void release(Ball& ball, Vec2 velocity);
+    /// Gives a free ball this velocity.
+    void throw_ball(Ball& ball, Vec2 velocity);
+    /// Takes balls off the table that are neither captive nor held nor before the plunger; says how many.
+    int take_lost_balls();
+    /// Whether it is known where all balls are: held, captive, or before the plunger.
+    [[nodiscard]] bool knows_all_balls() const;
 
 private:
     void add_devices();
+    void shake();
     void let_balls_roll();
     static Load roll(void* user, const BodyMotion& motion);
     void rub(Ball& ball, const ImpactEvent& impact) const;
@@ -131,6 +145,8 @@ private:
     Random m_random;
     std::vector<ButtonChange> m_changes{{}};
     PlungerLane m_lane;
+    Cabinet m_cabinet;
+    Vec2 m_slope; ///< acceleration down the table at rest, m/s²
     Floor m_floor{};
     std::vector<std::unique_ptr<Device>> m_devices{};
     std::vector<Ball> m_balls{};

@@ -5,6 +5,7 @@
 #include "pinball/elements/playfield.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::pinball {
 
@@ -40,16 +41,18 @@ public:
                                      .stiffness = def.k,
                                      .damping = def.c,
                                      .length = at_rest + def.preload / def.k});
-        m_slope = scene.gravity();
         m_strength = 2 * (def.preload + def.k * def.stroke);
         scene.set_force_law(state.body, {.function = law, .user = this, .greatest_force = m_strength});
     }
 
     void before_step(Playfield& field) override
     {
+        m_slope = std::as_const(field).scene().gravity();
         for (const ButtonChange& change : field.button_changes())
             turn_key(field, change);
     }
+
+    void add_to(Hash& hash) const override { hash.add(m_luck); }
 
     void after_step(Playfield& field) override
     {
@@ -70,7 +73,10 @@ private:
         if (pull)
             field.emit({.kind = EventKind::PlungerPulled, .element = index(), .point = m_def.pos});
         else
+        {
+            m_luck = field.luck();
             report_hit(field, {.kind = EventKind::PlungerReleased, .point = m_def.pos, .speed = travel});
+        }
     }
 
     // The pull lasts for as much of the sub-step as the key is held.
@@ -78,7 +84,8 @@ private:
     {
         const auto& plunger = *static_cast<PlungerDevice*>(user);
         const float held = plunger.share_held(motion.time, static_cast<double>(motion.h));
-        return {.force = held > 0 ? held * plunger.pull(motion) * plunger.m_def.axis : Vec2{}};
+        const float force = held > 0 ? held * plunger.pull(motion) : plunger.scatter(motion);
+        return {.force = force * plunger.m_def.axis};
     }
 
     [[nodiscard]] float share_held(double begin, double h) const
@@ -91,12 +98,23 @@ private:
         return static_cast<float>(std::clamp(held / h, 0.0, 1.0));
     }
 
+    [[nodiscard]] float travel(const BodyMotion& motion) const
+    {
+        return -dot(motion.pose.position - Position(m_def.pos), m_def.axis);
+    }
+
+    // No two strokes rub alike: the spring seems stronger or weaker.
+    [[nodiscard]] float scatter(const BodyMotion& motion) const
+    {
+        return (m_luck * m_luck - 1) * m_def.k * std::max(0.0f, travel(motion));
+    }
+
     // Along the axis: against spring and slope, and what brings the rod to the wanted speed; a hand is only so strong.
     [[nodiscard]] float pull(const BodyMotion& motion) const
     {
-        const float travel = -dot(motion.pose.position - Position(m_def.pos), m_def.axis);
-        const float wanted = -std::min(m_def.pull_speed, (m_def.stroke - travel) / ease_time);
-        const float push = m_def.preload + m_def.k * travel - m_def.c * wanted + m_def.mass * dot(m_slope, m_def.axis);
+        const float pulled = travel(motion);
+        const float wanted = -std::min(m_def.pull_speed, (m_def.stroke - pulled) / ease_time);
+        const float push = m_def.preload + m_def.k * pulled - m_def.c * wanted + m_def.mass * dot(m_slope, m_def.axis);
         const float lacking = wanted - dot(motion.velocity, m_def.axis);
         return std::clamp(m_def.mass / grip_time * lacking - push, -m_strength, m_strength);
     }
@@ -106,6 +124,7 @@ private:
     JointId m_slider{};
     Vec2 m_slope{};       ///< acceleration down the table, m/s²
     float m_strength = 0; ///< N
+    float m_luck = 1;     ///< of this stroke: its speed over that of the spring alone
 };
 
 } // namespace

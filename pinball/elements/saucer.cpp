@@ -37,8 +37,11 @@ public:
     {
         if (command == Command::Hold)
             m_keep = true;
-        if (command == Command::Eject)
-            m_keep = false, m_steps_left = 0;
+        if (command == Command::Eject || command == Command::Pulse)
+        {
+            m_keep = false;
+            m_steps_left = 0;
+        }
     }
 
     void add_to(Hash& hash) const override
@@ -96,7 +99,7 @@ private:
     void eject(Playfield& field, Ball& ball)
     {
         const float scatter = field.random().between(-m_def.spread, m_def.spread);
-        const Vec2 kick = rotate(Rotation::from_angle(scatter), m_def.kick);
+        const Vec2 kick = field.luck() * rotate(Rotation::from_angle(scatter), m_def.kick);
         field.release(ball, kick);
         m_thrown = m_held;
         m_held = {};

@@ -57,7 +57,7 @@ public:
 
     void command(Playfield&, Command command) override
     {
-        if (command == Command::Raise)
+        if (command == Command::Raise || command == Command::Pulse)
             m_wants_up = state.down;
     }
 

@@ -26,7 +26,10 @@ Index plunger_of(const Table& table)
 struct Session
 {
     Session(const Table& table, const Options& options)
-        : field(table, options.seed), rules(table, options.ball_save, options.kickback, options.balls_at_once),
+        : field(table, options.seed), rules(table, {.ball_save = options.ball_save,
+                                                    .kickback = options.kickback,
+                                                    .ball_search = options.ball_search,
+                                                    .balls_at_once = options.balls_at_once}),
           auto_plunger(table.physics.step)
     {}
 
@@ -49,6 +52,7 @@ struct Game::State
 
     void step(std::span<const InputChange> changes);
     [[nodiscard]] Presses press(std::span<const InputChange> changes);
+    void recall();
     void serve();
     void obey();
     void note_balls();
@@ -92,7 +96,14 @@ void Game::State::step(std::span<const InputChange> changes)
     Session& s = *session;
     const bool pull = auto_pull();
     const auto buttons = [pull](const Input& input)
-    { return Buttons{.left = input.left, .right = input.right, .plunger = input.plunger || pull}; };
+    {
+        return Buttons{.left = input.left,
+                       .right = input.right,
+                       .plunger = input.plunger || pull,
+                       .nudge_left = input.nudge_left,
+                       .nudge_right = input.nudge_right,
+                       .nudge_up = input.nudge_up};
+    };
     std::vector<ButtonChange> button_changes;
     if (changes.empty() || changes.front().time > 0)
         button_changes.push_back({.buttons = buttons(s.held)});
@@ -102,7 +113,10 @@ void Game::State::step(std::span<const InputChange> changes)
     const Presses presses = press(changes);
     const auto told = s.field.events();
     s.events.assign(told.begin(), told.end());
-    s.rules.step(s.field.step_count(), presses, s.events, s.field.balls_in_play());
+    s.rules.step(s.field.step_count(), presses, s.events,
+                 {.balls_in_play = s.field.balls_in_play(),
+                  .all_known = s.field.knows_all_balls(),
+                  .flipper_is_held = s.held.left || s.held.right});
     s.events.insert(s.events.end(), s.rules.announced().begin(), s.rules.announced().end());
     obey();
     note_score();
@@ -128,7 +142,20 @@ void Game::State::obey()
 {
     for (const Order& order : session->rules.desk().take_orders())
         session->field.command(order.element, order.command);
+    recall();
     serve();
+}
+
+// Balls that nobody could find are written off; others come in their place, unless the ball is over anyway.
+void Game::State::recall()
+{
+    Desk& desk = session->rules.desk();
+    if (!std::exchange(desk.recalls, false))
+        return;
+    const int lost = session->field.take_lost_balls();
+    session->events.push_back({.kind = EventKind::BallMissing, .value = lost});
+    for (int i = 0; i < lost && !desk.tilted; ++i)
+        desk.serve(true);
 }
 
 void Game::State::serve()
@@ -237,8 +264,12 @@ LampState Game::lamp(Index element) const
 
 std::span<const Message> Game::messages() const { return m_state->session->rules.desk().messages(); }
 
+bool Game::tilted() const { return m_state->session->rules.desk().tilted; }
+
 std::string_view Game::message() const
 {
+    if (tilted())
+        return "TILT";
     const Message* best = nullptr;
     for (const Message& message : messages())
         if (!best || message.priority >= best->priority)
@@ -252,6 +283,8 @@ const std::vector<BallState>& Game::balls() const { return m_state->session->bal
 
 std::span<const GameEvent> Game::events() const { return m_state->session->events; }
 
+const Cabinet& Game::cabinet() const { return m_state->session->field.cabinet(); }
+
 const Scene& Game::scene() const { return std::as_const(m_state->session->field).scene(); }
 
 void Game::record_substeps(bool record) { m_state->session->field.record_substeps(record); }
@@ -263,7 +296,8 @@ std::uint64_t Game::state_hash() const
     s.field.add_to(hash);
     s.rules.add_to(hash);
     s.auto_plunger.add_to(hash);
-    for (const bool held : {s.held.left, s.held.right, s.held.plunger, s.held.start})
+    for (const bool held :
+         {s.held.left, s.held.right, s.held.plunger, s.held.start, s.held.nudge_left, s.held.nudge_right, s.held.nudge_up})
         hash.add(held);
     return hash.value();
 }

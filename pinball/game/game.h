@@ -5,6 +5,7 @@
 /// inputs give the same game, bit for bit.
 
 #include "carom/scene.h"
+#include "pinball/elements/cabinet.h"
 #include "pinball/elements/event.h"
 #include "pinball/elements/state.h"
 #include "pinball/rules/high_scores.h"
@@ -24,8 +25,11 @@ struct Input
 {
     bool left = false;
     bool right = false;
-    bool plunger = false; ///< held: pulls the rod; let go: releases it
-    bool start = false;   ///< pressed: starts a game when none is on; skips the bonus count
+    bool plunger = false;     ///< held: pulls the rod; let go: releases it
+    bool start = false;       ///< pressed: starts a game when none is on; skips the bonus count
+    bool nudge_left = false;  ///< pressed: a slap on the left side; the cabinet moves to the right
+    bool nudge_right = false; ///< pressed: a slap on the right side
+    bool nudge_up = false;    ///< pressed: a push at the front, up the table
 
     friend bool operator==(Input, Input) = default;
 };
@@ -42,6 +46,7 @@ struct Options
     std::uint64_t seed = 1;
     bool ball_save = true;
     bool kickback = true;
+    bool ball_search = true;
     int balls_at_once = 1; ///< kept in play whatever the table's rules; with more than one no ball is the last
 };
 
@@ -73,6 +78,7 @@ public:
     [[nodiscard]] int bonus_multiplier() const;
     [[nodiscard]] int letters() const;         ///< lit ones of the bank rule's word
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
+    [[nodiscard]] bool tilted() const;         ///< until the ball has drained
     [[nodiscard]] static constexpr int players() { return 1; }
 
     /// Of any element: a Light shows its state; every other one what a light on it would show.
@@ -87,6 +93,8 @@ public:
     /// What happened in the last step, in order.
     [[nodiscard]] std::span<const GameEvent> events() const;
 
+    /// How it stands, and the tilt bob in it.
+    [[nodiscard]] const Cabinet& cabinet() const;
     /// For queries and drawing.
     [[nodiscard]] const Scene& scene() const;
     void record_substeps(bool record);

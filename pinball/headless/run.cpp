@@ -41,7 +41,10 @@ HeadlessRun::HeadlessRun(const Table& table, std::uint64_t seed, int balls_at_on
 void HeadlessRun::new_session()
 {
     Random seeds(m_seed + static_cast<std::uint64_t>(m_sessions++));
-    m_game.emplace(m_table, Options{.seed = seeds.bits(), .balls_at_once = m_balls_at_once});
+    m_game.emplace(m_table, Options{// a ball that the machine had to look for counts as stuck
+                                    .seed = seeds.bits(),
+                                    .ball_search = false,
+                                    .balls_at_once = m_balls_at_once});
     m_player.emplace(m_table, seeds.bits());
     m_judge.emplace(m_table);
     m_stats.new_session();

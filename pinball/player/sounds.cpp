@@ -111,6 +111,10 @@ std::optional<Strike> of_rules(const GameEvent& event)
     case EventKind::Combo:
     case EventKind::SkillShot: return bell(1864, 0.55f, 1.0f);
     case EventKind::GameEnded: return bell(392, 0.5f, 1.8f);
+    case EventKind::BallSearch:
+        return Strike{.pitch_hz = 110, .brightness = 0.4f, .noise = 0.7f, .decay_s = 0.12f, .loudness = 0.6f};
+    case EventKind::Warned: return bell(233, 0.6f, 0.9f);
+    case EventKind::Tilted: return bell(117, 0.8f, 2.5f);
     case EventKind::HighScore: return bell(2637, 0.6f, 1.8f);
     default: return std::nullopt;
     }
@@ -140,6 +144,8 @@ std::optional<Strike> of_element(const Table& table, const GameEvent& event)
                       .noise = 0.6f,
                       .decay_s = 0.2f,
                       .loudness = std::clamp(event.speed * 16, 0.1f, 0.8f)};
+    case EventKind::Nudged: return Strike{.pitch_hz = 55, .brightness = 0.2f, .noise = 0.8f, .decay_s = 0.15f, .loudness = 0.5f};
+    case EventKind::BobTouched: return Strike{.pitch_hz = 1900, .brightness = 0.6f, .decay_s = 0.1f, .loudness = 0.3f};
     default: return std::nullopt;
     }
 }

@@ -28,10 +28,12 @@ void Desk::serve(bool launch_it)
     to_launch += launch_it ? 1 : 0;
 }
 
-void Desk::begin_step(std::int64_t step, int balls_in_play)
+void Desk::begin_step(std::int64_t step, const Seen& seen)
 {
     m_now = step;
-    m_balls_in_play = balls_in_play;
+    m_balls_in_play = seen.balls_in_play;
+    knows_all_balls = seen.all_known;
+    flipper_is_held = seen.flipper_is_held;
     std::erase_if(m_messages, [step](const Message& message) { return message.until < step; });
 }
 
@@ -45,6 +47,8 @@ void Desk::add_to(Hash& hash) const
         hash.add(value);
     hash.add(score);
     hash.add(saved_until);
+    hash.add(tilted);
+    hash.add(shaken_until);
     hash.add(lock_is_lit);
     hash.add(multiball);
     hash.add(flashing);

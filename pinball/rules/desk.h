@@ -18,6 +18,14 @@ struct Order
     Command command = Command::Raise;
 };
 
+/// What the machine knows of its balls and of the player's hands in a step.
+struct Seen
+{
+    int balls_in_play = 0;
+    bool all_known = true; ///< each is held, or lies before the plunger
+    bool flipper_is_held = false;
+};
+
 class Desk
 {
 public:
@@ -37,7 +45,7 @@ public:
     /// Another ball before the plunger, as soon as there is room.
     void serve(bool launch_it = false);
 
-    void begin_step(std::int64_t step, int balls_in_play);
+    void begin_step(std::int64_t step, const Seen& seen);
     [[nodiscard]] std::vector<GameEvent> take_announced();
     [[nodiscard]] std::vector<Order> take_orders();
     void ball_served() { --to_serve; }
@@ -57,6 +65,11 @@ public:
     int to_launch = 0;            ///< of them, that the machine launches by itself
     std::int64_t saved_until = 0; ///< step until which the ball save is lit
     bool ball_was_saved = false;  ///< of the drain that is being judged
+    bool tilted = false;          ///< until the ball has drained
+    std::int64_t shaken_until = 0;
+    bool knows_all_balls = true;
+    bool flipper_is_held = false;
+    bool recalls = false; ///< wants the balls on the table written off
     bool lock_is_lit = false;
     bool multiball = false;
     Index flashing = none; ///< the skill shot

@@ -38,5 +38,7 @@ RulePtr make_multiball(const MultiballRule&);
 RulePtr make_kickback(const Table&, bool on);
 RulePtr make_more_balls(int balls);
 RulePtr make_ball_save(const BallSaveRule&);
+RulePtr make_tilt(int warnings);
+RulePtr make_ball_search(float time);
 
 } // namespace carom::pinball

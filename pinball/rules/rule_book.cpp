@@ -1,6 +1,7 @@
 #include "pinball/rules/rule_book.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::pinball {
 
@@ -12,7 +13,7 @@ constexpr int count_pieces = 15;        // so that no bonus takes longer than a 
 } // namespace
 
 // The ball save comes last: it judges a drain after all the others have seen it.
-RuleBook::RuleBook(const Table& table, bool ball_save, bool kickback, int balls_at_once) : m_desk(table)
+RuleBook::RuleBook(const Table& table, const RuleOptions& options) : m_desk(table)
 {
     const Rules& rules = table.rules;
     m_rules.push_back(make_groups(table));
@@ -27,23 +28,28 @@ RuleBook::RuleBook(const Table& table, bool ball_save, bool kickback, int balls_
         m_rules.push_back(make_combo(*rules.combo));
     if (rules.multiball)
         m_rules.push_back(make_multiball(*rules.multiball));
-    m_rules.push_back(make_kickback(table, kickback));
-    if (balls_at_once > 1)
-        m_rules.push_back(make_more_balls(balls_at_once));
-    if (rules.ball_save && ball_save)
+    m_rules.push_back(make_kickback(table, options.kickback));
+    if (options.balls_at_once > 1)
+        m_rules.push_back(make_more_balls(options.balls_at_once));
+    m_rules.push_back(make_tilt(rules.tilt_warnings));
+    if (options.ball_search && rules.ball_search > 0)
+        m_rules.push_back(make_ball_search(rules.ball_search));
+    if (rules.ball_save && options.ball_save)
         m_rules.push_back(make_ball_save(*rules.ball_save));
     m_desk.order_all(Command::Disable);
 }
 
-void RuleBook::step(std::int64_t step, const Presses& presses, std::span<const GameEvent> events, int balls_in_play)
+void RuleBook::step(std::int64_t step, const Presses& presses, std::span<const GameEvent> events, const Seen& seen)
 {
     m_announced.clear();
-    m_desk.begin_step(step, balls_in_play);
+    m_desk.begin_step(step, seen);
     press(presses);
     for (const GameEvent& event : events)
         hear(event);
     for (auto& rule : m_rules)
         rule->on_step(m_desk);
+    if (m_desk.tilted && is_playing() && m_desk.balls_out() == 0)
+        end_ball();
     if (m_desk.phase == Phase::Bonus)
         count_bonus();
     hear_announced();
@@ -55,7 +61,7 @@ void RuleBook::press(const Presses& presses)
         start_game();
     else if (presses.start && m_desk.phase == Phase::Bonus)
         m_bonus_piece = m_bonus_left;
-    if (!is_playing())
+    if (!is_playing() || m_desk.tilted)
         return;
     for (auto& rule : m_rules)
     {
@@ -71,8 +77,9 @@ void RuleBook::hear(const GameEvent& event)
     if (!is_playing())
         return;
     m_desk.ball_was_saved = false;
-    for (auto& rule : m_rules)
-        rule->on_event(m_desk, event);
+    if (!m_desk.tilted)
+        for (auto& rule : m_rules)
+            rule->on_event(m_desk, event);
     if (event.kind == EventKind::Drained)
     {
         if (!m_desk.ball_was_saved && m_desk.balls_out() == 0)
@@ -121,6 +128,8 @@ void RuleBook::start_ball()
     m_desk.bonus = 0;
     m_desk.multiplier = 1;
     m_desk.phase = Phase::Ready;
+    if (std::exchange(m_desk.tilted, false))
+        m_desk.order_all(Command::Enable);
     for (auto& rule : m_rules)
         rule->start_ball(m_desk);
     m_desk.serve();
@@ -135,8 +144,9 @@ void RuleBook::end_ball()
     m_desk.flashing = none;
     m_bonus_left = std::int64_t{m_desk.bonus} * m_desk.multiplier;
     m_bonus_piece = (m_bonus_left / count_pieces / 10 + 1) * 10;
-    m_next_count = m_desk.now() + m_desk.steps(4 * count_interval);
-    m_desk.say("BONUS " + std::to_string(m_desk.bonus) + " X" + std::to_string(m_desk.multiplier), 5, 2);
+    m_next_count = std::max(m_desk.now() + m_desk.steps(4 * count_interval), m_desk.shaken_until);
+    if (!m_desk.tilted)
+        m_desk.say("BONUS " + std::to_string(m_desk.bonus) + " X" + std::to_string(m_desk.multiplier), 5, 2);
 }
 
 void RuleBook::count_bonus()

@@ -18,14 +18,22 @@ struct Presses
     bool start = false;
 };
 
+struct RuleOptions
+{
+    bool ball_save = true;
+    bool kickback = true;
+    bool ball_search = true;
+    int balls_at_once = 1; ///< kept in play whatever the table's rules
+};
+
 class RuleBook
 {
 public:
     /// The table must outlive the rules.
-    RuleBook(const Table& table, bool ball_save, bool kickback, int balls_at_once = 1);
+    RuleBook(const Table& table, const RuleOptions& options = {});
 
     /// Hears what happened in a step. The orders to the table are left on the desk.
-    void step(std::int64_t step, const Presses& presses, std::span<const GameEvent> events, int balls_in_play);
+    void step(std::int64_t step, const Presses& presses, std::span<const GameEvent> events, const Seen& seen);
 
     [[nodiscard]] Desk& desk() { return m_desk; }
     [[nodiscard]] const Desk& desk() const { return m_desk; }

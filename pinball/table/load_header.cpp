@@ -86,9 +86,25 @@ Physics read_physics(FieldReader in)
     const Physics physics{.g = in.number("g", {0, 30, "m/s²"}, 9.81f),
                           .slope = in.degrees("slope_deg", {0, 45, "degrees"}),
                           .step = in.number("step", {0.0001, 0.01, "s"}, 0.001f),
-                          .mu_playfield = in.number("mu_playfield", {0, 2, ""})};
+                          .mu_playfield = in.number("mu_playfield", {0, 2, ""}),
+                          .scatter = in.number("scatter", {0, 0.2, ""}, 0)};
     in.refuse_unknown_keys();
     return physics;
+}
+
+CabinetDef read_cabinet(FieldReader in)
+{
+    const CabinetDef usual;
+    CabinetDef cabinet{.nudge_speed = in.number("nudge_mps", {0, 1, "m/s"}, usual.nudge_speed),
+                       .push_time = in.number("push_time", {0.005, 0.2, "s"}, usual.push_time),
+                       .tilt = in.degrees("tilt_deg", {0.1, 30, "degrees"}, usual.tilt),
+                       .bob_length = in.number("bob_length", {0.02, 0.5, "m"}, usual.bob_length)};
+    if (in.has("frequency_hz"))
+        cabinet.frequency = in.vec2("frequency_hz", {1, 40, "Hz"});
+    if (in.has("damping"))
+        cabinet.damping = in.vec2("damping", range::share);
+    in.refuse_unknown_keys();
+    return cabinet;
 }
 
 } // namespace
@@ -140,6 +156,8 @@ void load_header(FieldReader& in, const NameIndex& materials, Table& table)
         table.ball = read_ball(in.child(*ball, "ball"), materials);
     if (const JsonNode* physics = in.member("physics", JsonNode::Kind::Object, true))
         table.physics = read_physics(in.child(*physics, "physics"));
+    if (const JsonNode* cabinet = in.member("cabinet", JsonNode::Kind::Object, false))
+        table.cabinet = read_cabinet(in.child(*cabinet, "cabinet"));
 }
 
 } // namespace carom::pinball

@@ -181,6 +181,8 @@ void load_rules(const JsonNode& rules, Table& table, LoadErrors& errors)
         .balls = in.integer("balls", {1, 10, ""}, 3),
         .bonus_per_switch = in.integer("bonus_per_switch", range::score, 0),
         .bonus_multiplier_max = in.integer("bonus_multiplier_max", {1, 20, ""}, 1),
+        .tilt_warnings = in.integer("tilt_warnings", {0, 10, ""}, 2),
+        .ball_search = in.number("ball_search", range::time, 8),
         .ball_save = read_rule(in, "ball_save", names, read_ball_save),
         .skill_shot = read_rule(in, "skill_shot", names, read_skill_shot),
         .lanes = read_rule(in, "lanes", names, read_lanes),

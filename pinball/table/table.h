@@ -365,6 +365,8 @@ struct Rules
     int balls = 3;
     int bonus_per_switch = 0;
     int bonus_multiplier_max = 1;
+    int tilt_warnings = 2; ///< touches of the bob on a ball before the one that ends it
+    float ball_search = 8; ///< s without a switch after which the coils look for the ball; 0: never
     std::optional<BallSaveRule> ball_save{};
     std::optional<SkillShotRule> skill_shot{};
     std::optional<LaneRule> lanes{};
@@ -391,6 +393,18 @@ struct Physics
     float slope = 0;        ///< of the table, rad
     float step = 0.001f;    ///< s
     float mu_playfield = 0; ///< friction between ball and playfield
+    float scatter = 0;      ///< of the speeds that plunger and coils give: a share up or down, drawn anew for each
+};
+
+/// The cabinet on its legs, what a nudge does to it, and the bob that hangs in it. x is sideways, y along the table.
+struct CabinetDef
+{
+    float nudge_speed = 0.2f;     ///< that a push would give a cabinet without legs, m/s
+    float push_time = 0.025f;     ///< s
+    Vec2 frequency{9.3f, 5.8f};   ///< of the cabinet on its legs, Hz
+    Vec2 damping{0.052f, 0.055f}; ///< share of the critical damping
+    float tilt = 3.5f * pi / 180; ///< of the bob when it touches its ring, rad
+    float bob_length = 0.1f;      ///< m
 };
 
 struct Table
@@ -400,6 +414,7 @@ struct Table
     Vec2 size{};
     BallDef ball{};
     Physics physics{};
+    CabinetDef cabinet{};
     std::vector<Material> materials{};
     std::vector<Element> elements{}; ///< in the order of the file
     std::vector<Group> groups{};

@@ -344,5 +344,89 @@ TEST(Judge, DoesNotMindABallThatIsHeldOrWaitsInTheLane)
     }
 }
 
+constexpr const char* cup = R"(
+    {"id": "cup", "type": "wall", "material": "wood", "radius": 0.002, "path": [["M", 0.17, 0.32], ["L", 0.19, 0.28], ["L", 0.21, 0.28], ["L", 0.23, 0.32]]},)";
+// A bumper that a ball never comes at fast enough, and two posts that hold the ball on it.
+constexpr const char* slow_bumper = R"(
+    {"id": "bumper", "type": "bumper", "material": "wood", "pos": [0.2, 0.3], "radius": 0.02, "kick_speed": 1.5, "threshold": 3, "cooldown": 0.05},
+    {"id": "post_a", "type": "post", "material": "wood", "pos": [0.182, 0.335], "radius": 0.003},
+    {"id": "post_b", "type": "post", "material": "wood", "pos": [0.218, 0.335], "radius": 0.003},)";
+
+/// A box in which a ball falls into a pocket.
+std::string pocket_table(const std::string& pocket)
+{
+    return R"({"format": "pinball-table", "version": 1, "name": "pocket", "size": [0.4, 0.6], "outline": "outer",
+  "ball": {"radius": 0.0135, "mass": 0.08, "spawn": [0.2, 0.4], "material": "wood"},
+  "physics": {"slope_deg": 6.5, "mu_playfield": 0.12},
+  "materials": {"wood": {"restitution": 0.3, "friction": 0.3}},
+  "elements": [
+    {"id": "outer", "type": "wall", "material": "wood", "path": [["M", 0.01, 0], ["L", 0.01, 0.59], ["L", 0.39, 0.59], ["L", 0.39, 0]]},)" +
+           pocket + R"(
+    {"id": "lane", "type": "sensor", "pos": [0.2, 0.36], "half": [0.1, 0.005], "score": 10},
+    {"id": "drain", "type": "sensor", "pos": [0.2, 0.02], "half": [0.19, 0.02], "kills": true}]})";
+}
+
+struct Search
+{
+    int rounds = 0;
+    int missing = 0;
+    bool freed = false; ///< out of the pocket
+    int ball = 0;
+};
+
+Search search(const std::string& pocket)
+{
+    LoadResult result = load_table(pocket_table(pocket));
+    for (const LoadError& error : result.errors)
+        ADD_FAILURE() << to_string(error);
+    Game game(result.table.value());
+    Search seen;
+    game.step({.start = true});
+    for (int i = 0; i < 25'000; ++i)
+    {
+        game.step({});
+        for (const GameEvent& event : game.events())
+        {
+            seen.rounds += event.kind == EventKind::BallSearch ? 1 : 0;
+            seen.missing += event.kind == EventKind::BallMissing ? event.value : 0;
+        }
+        if (!game.balls().empty())
+            seen.freed |= game.balls()[0].position.y < 0.25;
+        seen.ball = game.ball_number();
+    }
+    return seen;
+}
+
+TEST(Game, ABallThatNoCoilReachesIsReplaced)
+{
+    const Search seen = search(cup);
+    EXPECT_EQ(seen.rounds, 3);
+    EXPECT_EQ(seen.missing, 1);
+    EXPECT_EQ(seen.ball, 1) << "it costs no ball";
+    EXPECT_FALSE(seen.freed);
+}
+
+std::string bumper_at(const char* x)
+{
+    std::string text = slow_bumper;
+    return text.replace(text.find("0.2,"), 4, std::string(x) + ",");
+}
+
+TEST(Game, ABallThatLiesAgainstACoilIsThrownOut)
+{
+    const Search seen = search(bumper_at("0.203"));
+    EXPECT_GE(seen.rounds, 1);
+    EXPECT_EQ(seen.missing, 0);
+    EXPECT_TRUE(seen.freed);
+}
+
+TEST(Game, ABallThatFallsBackAgainAndAgainIsReplaced)
+{
+    const Search seen = search(slow_bumper);
+    EXPECT_EQ(seen.rounds, 3);
+    EXPECT_EQ(seen.missing, 1);
+    EXPECT_EQ(seen.ball, 1);
+}
+
 } // namespace
 } // namespace carom::pinball::test

@@ -13,7 +13,7 @@ namespace {
 /// A table of parts that need no place, with all rules, and the rules of it at work.
 struct Machine
 {
-    Machine() : table(make_table()), book(table, true, true) { step({}, 0); }
+    Machine() : table(make_table()), book(table) { step({}, 0); }
 
     Table make_table()
     {
@@ -66,7 +66,7 @@ struct Machine
 
     void step(const std::vector<GameEvent>& events, int in_play = 1, const Presses& presses = {})
     {
-        book.step(++now, presses, events, in_play);
+        book.step(++now, presses, events, {.balls_in_play = in_play, .all_known = all_known});
         for (const Order& order : book.desk().take_orders())
             orders.push_back(order);
         while (book.desk().to_serve > 0)
@@ -108,6 +108,7 @@ struct Machine
     RuleBook book;
     std::vector<Order> orders{};
     std::int64_t now = 0;
+    bool all_known = false; ///< where the balls are
     int served = 0;
 };
 
@@ -187,7 +188,7 @@ TEST(Rules, ALateDrainEndsTheBall)
 TEST(Rules, WithTheSaveSwitchedOffEveryDrainCounts)
 {
     Machine m;
-    m.book = RuleBook(m.table, false, true);
+    m.book = RuleBook(m.table, {.ball_save = false});
     m.start();
     m.tell(EventKind::Entered, m.orbit);
     m.drain_ball();
@@ -497,6 +498,108 @@ TEST(Rules, EqualEventsGiveEqualHashes)
     a.book.add_to(hc);
     b.book.add_to(hd);
     EXPECT_NE(hc.value(), hd.value());
+}
+
+TEST(Tilt, WarnsTwiceThenEndsTheBallWithoutItsBonus)
+{
+    Machine m;
+    m.start();
+    m.use_up_save();
+    const auto shake = [&]
+    {
+        m.step({{.kind = EventKind::BobTouched}});
+        const bool told = m.announced(EventKind::Warned) || m.announced(EventKind::Tilted);
+        m.wait(1);
+        return told;
+    };
+    EXPECT_TRUE(shake());
+    EXPECT_TRUE(shake());
+    EXPECT_FALSE(m.desk().tilted);
+    EXPECT_TRUE(shake());
+    EXPECT_TRUE(m.desk().tilted);
+    EXPECT_TRUE(m.ordered(m.kicker, Command::Disable));
+    const std::int64_t score = m.desk().score;
+    m.tell(EventKind::Entered, m.orbit);
+    m.tell(EventKind::Fired, m.bumper);
+    EXPECT_EQ(m.desk().score, score) << "a tilted machine counts nothing";
+    m.orders.clear();
+    m.drain_ball();
+    EXPECT_EQ(m.desk().phase, Phase::Bonus);
+    m.wait(3, 0);
+    EXPECT_EQ(m.desk().score, score) << "nor the bonus";
+    EXPECT_EQ(m.desk().ball, 2);
+    EXPECT_FALSE(m.desk().tilted);
+    EXPECT_TRUE(m.ordered(m.kicker, Command::Enable));
+    EXPECT_EQ(m.served, 2);
+}
+
+TEST(Tilt, OneSwingWarnsOnceAndBeforeTheFirstSwitchNever)
+{
+    Machine m;
+    m.start();
+    for (int i = 0; i < 5; ++i)
+        m.step({{.kind = EventKind::BobTouched}});
+    m.tell(EventKind::Entered, m.orbit);
+    for (int i = 0; i < 5; ++i)
+        m.step({{.kind = EventKind::BobTouched}});
+    EXPECT_FALSE(m.desk().tilted);
+}
+
+TEST(Tilt, EndsTheBallInEveryKindOfPlay)
+{
+    for (const int balls : {1, 3})
+    {
+        Machine m;
+        m.start();
+        m.use_up_save();
+        for (int i = 0; i < 3; ++i)
+        {
+            m.step({{.kind = EventKind::BobTouched}}, balls);
+            m.wait(1, balls);
+        }
+        for (int others = balls - 1; others >= 0; --others)
+        {
+            EXPECT_EQ(m.desk().phase, Phase::InPlay);
+            m.drain_ball(others);
+        }
+        EXPECT_EQ(m.desk().phase, Phase::Bonus) << balls;
+    }
+}
+
+TEST(BallSearch, FiresTheCoilsWhenNoSwitchClosesAndGivesUpAtLast)
+{
+    Machine m;
+    m.start();
+    m.all_known = true;
+    m.use_up_save();
+    m.all_known = false;
+    m.orders.clear();
+    m.wait(7.9f);
+    EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse));
+    m.wait(0.2f);
+    EXPECT_TRUE(m.ordered(m.bumper, Command::Pulse));
+    m.orders.clear();
+    m.wait(4);
+    EXPECT_TRUE(m.ordered(m.bumper, Command::Pulse)) << "again";
+    m.wait(8);
+    EXPECT_TRUE(m.desk().recalls) << "the ball is written off";
+    EXPECT_EQ(m.desk().ball, 1) << "and the game goes on";
+}
+
+TEST(BallSearch, LeavesABallAloneThatIsWhereItBelongs)
+{
+    Machine m;
+    m.start();
+    m.use_up_save();
+    m.all_known = true; // held by a saucer
+    m.orders.clear();
+    m.wait(60);
+    EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse));
+    m.all_known = false;
+    m.wait(5);
+    m.tell(EventKind::Entered, m.orbit);
+    m.wait(5);
+    EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse)) << "a switch closed meanwhile";
 }
 
 } // namespace
