@@ -17,6 +17,7 @@ struct Ball;
 /// Orders of the rules to an element. Each one is understood by the types named; the others ignore it.
 enum class Command : std::uint8_t
 {
+    Drop,    ///< drop target: go down, though nothing struck it
     Raise,   ///< drop target: come up as soon as no ball is in the way
     Light,   ///< kicker: fire at the next ball
     Unlight, ///< kicker

@@ -44,12 +44,17 @@ enum class EventKind : std::uint8_t
     Combo,   ///< `value` the length of the chain
     SkillShot,
     MultiballStarted,
-    Warned,      ///< `value` warnings so far on this ball
-    Tilted,      ///< the ball is over, its bonus lost
-    BallSearch,  ///< no switch for a while: the coils feel for the ball; `value` is the round from 1
-    BallMissing, ///< it was not found and another one comes; `value` how many
+    ExtraBall,
+    Replay,       ///< the score that wins a game or a ball was reached
+    PlayerJoined, ///< `value` how many play now
+    TurnBegan,    ///< `value` whose, from 0
+    Match,        ///< `value` the number drawn; `speed` 1 where a score ends in it
+    Warned,       ///< `value` warnings so far on this ball
+    Tilted,       ///< the ball is over, its bonus lost
+    BallSearch,   ///< no switch for a while: the coils feel for the ball; `value` is the round from 1
+    BallMissing,  ///< it was not found and another one comes; `value` how many
     GameEnded,
-    HighScore, ///< `value` is the rank from 0
+    HighScore, ///< `value` is the rank from 0; `ball` the player's number, from 0
 };
 
 struct GameEvent

@@ -40,8 +40,7 @@ public:
     {
         if (strike.speed < m_def.min_speed || state.down)
             return;
-        state.down = true;
-        field.scene().body(m_body).set_enabled(false);
+        drop(field);
         report_strike(field, EventKind::Fell, ball, strike, strike.speed);
     }
 
@@ -55,8 +54,10 @@ public:
         field.emit({.kind = EventKind::Raised, .element = index(), .point = 0.5f * (m_def.a + m_def.b)});
     }
 
-    void command(Playfield&, Command command) override
+    void command(Playfield& field, Command command) override
     {
+        if (command == Command::Drop)
+            drop(field);
         if (command == Command::Raise || command == Command::Pulse)
             m_wants_up = state.down;
     }
@@ -64,6 +65,13 @@ public:
     void add_to(Hash& hash) const override { hash.add(m_wants_up); }
 
 private:
+    void drop(Playfield& field)
+    {
+        state.down = true;
+        m_wants_up = false;
+        field.scene().body(m_body).set_enabled(false);
+    }
+
     // A little more room than the target takes, so that the ball beside it is not even touched.
     [[nodiscard]] bool is_free(Playfield& field) const
     {

@@ -6,6 +6,8 @@
 #include "pinball/rules/rule_book.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 namespace carom::pinball {
@@ -26,7 +28,8 @@ Index plunger_of(const Table& table)
 struct Session
 {
     Session(const Table& table, const Options& options)
-        : field(table, options.seed), rules(table, {.ball_save = options.ball_save,
+        : field(table, options.seed), rules(table, {.seed = options.seed,
+                                                    .ball_save = options.ball_save,
                                                     .kickback = options.kickback,
                                                     .ball_search = options.ball_search,
                                                     .balls_at_once = options.balls_at_once}),
@@ -39,7 +42,7 @@ struct Session
     Input held{};
     std::vector<GameEvent> events{};
     std::vector<BallState> balls{};
-    int last_rank = -1;
+    std::vector<int> last_ranks{};
 };
 
 struct Game::State
@@ -204,9 +207,19 @@ void Game::State::note_score()
     const bool ended = std::ranges::any_of(session->events, [](const GameEvent& e) { return e.kind == EventKind::GameEnded; });
     if (!ended)
         return;
-    session->last_rank = high_scores.insert({"YOU", session->rules.desk().score});
-    if (session->last_rank >= 0)
-        session->events.push_back({.kind = EventKind::HighScore, .value = session->last_rank});
+    const RuleBook& rules = session->rules;
+    std::vector<int> players(static_cast<std::size_t>(rules.desk().players));
+    std::iota(players.begin(), players.end(), 0);
+    // From the best to the worst: none moves one that was put in before it.
+    std::ranges::stable_sort(players, std::ranges::greater{}, [&rules](int player) { return rules.score(player); });
+    session->last_ranks.assign(players.size(), -1);
+    for (const int player : players)
+    {
+        const int rank = high_scores.insert({"YOU", rules.score(player)});
+        session->last_ranks[static_cast<std::size_t>(player)] = rank;
+        if (rank >= 0)
+            session->events.push_back({.kind = EventKind::HighScore, .ball = player, .value = rank});
+    }
 }
 
 // --- What shows ----------------------------------------------------------------------------------------------------
@@ -217,19 +230,29 @@ std::int64_t Game::step_count() const { return m_state->session->field.step_coun
 
 Phase Game::phase() const { return m_state->session->rules.desk().phase; }
 
-int Game::ball_number() const { return m_state->session->rules.desk().ball; }
+int Game::ball_number() const { return m_state->session->rules.desk().player.ball; }
 
 int Game::balls_per_game() const { return m_state->table.rules.balls; }
 
 int Game::balls_served() const { return m_state->session->field.served(); }
 
-std::int64_t Game::score() const { return m_state->session->rules.desk().score; }
+std::int64_t Game::score() const { return m_state->session->rules.desk().player.score; }
 
-int Game::bonus() const { return m_state->session->rules.desk().bonus; }
+std::int64_t Game::score(int player) const { return m_state->session->rules.score(player); }
 
-int Game::bonus_multiplier() const { return m_state->session->rules.desk().multiplier; }
+int Game::players() const { return m_state->session->rules.desk().players; }
 
-int Game::letters() const { return m_state->session->rules.desk().letters; }
+int Game::player_up() const { return m_state->session->rules.desk().player_up; }
+
+int Game::extra_balls() const { return m_state->session->rules.desk().player.extra_balls; }
+
+int Game::credits() const { return m_state->session->rules.desk().credits; }
+
+int Game::bonus() const { return m_state->session->rules.desk().player.bonus; }
+
+int Game::bonus_multiplier() const { return m_state->session->rules.desk().player.multiplier; }
+
+int Game::letters() const { return m_state->session->rules.desk().player.letters; }
 
 int Game::ball_save_steps() const { return m_state->session->rules.ball_save_steps(); }
 
@@ -249,15 +272,17 @@ LampState Game::lamp(Index element) const
         return on_if(this->element(element).lit);
     const auto* light = std::get_if<Light>(&part);
     if (!light)
-        return element == desk.flashing ? LampState::Blink : desk.lamps[element];
+        return element == desk.flashing ? LampState::Blink : desk.player.lamps[element];
     switch (light->shows)
     {
     case Lamp::Element: return light->element == none ? LampState::Off : lamp(light->element);
     case Lamp::BallSave: return blink_if(ball_save_steps() > 0);
-    case Lamp::Bonus: return on_if(desk.multiplier >= light->number && desk.ball > 0);
-    case Lamp::Letter: return on_if(desk.letters >= light->number);
-    case Lamp::Lock: return blink_if(desk.lock_is_lit);
+    case Lamp::Bonus: return on_if(desk.player.multiplier >= light->number && desk.player.ball > 0);
+    case Lamp::Letter: return on_if(desk.player.letters >= light->number);
+    case Lamp::Lock: return blink_if(desk.player.lock_is_lit);
     case Lamp::Multiball: return blink_if(desk.multiball);
+    case Lamp::ExtraBall: return blink_if(desk.player.extra_ball_is_lit);
+    case Lamp::ShootAgain: return on_if(desk.player.extra_balls > 0);
     }
     return LampState::Off;
 }
@@ -306,8 +331,8 @@ const HighScores& Game::high_scores() const { return m_state->high_scores; }
 
 void Game::set_high_scores(HighScores scores) { m_state->high_scores = std::move(scores); }
 
-int Game::last_rank() const { return m_state->session->last_rank; }
+std::span<const int> Game::last_ranks() const { return m_state->session->last_ranks; }
 
-void Game::name_last(std::string_view name) { m_state->high_scores.rename(last_rank(), name); }
+void Game::rename_score(int rank, std::string_view name) { m_state->high_scores.rename(rank, name); }
 
 } // namespace carom::pinball

@@ -25,8 +25,8 @@ struct Input
 {
     bool left = false;
     bool right = false;
-    bool plunger = false;     ///< held: pulls the rod; let go: releases it
-    bool start = false;       ///< pressed: starts a game when none is on; skips the bonus count
+    bool plunger = false; ///< held: pulls the rod; let go: releases it
+    bool start = false;   ///< pressed: starts a game when none is on, adds a player during the first ball; skips the bonus count
     bool nudge_left = false;  ///< pressed: a slap on the left side; the cabinet moves to the right
     bool nudge_right = false; ///< pressed: a slap on the right side
     bool nudge_up = false;    ///< pressed: a push at the front, up the table
@@ -72,14 +72,18 @@ public:
     [[nodiscard]] Phase phase() const;
     [[nodiscard]] int ball_number() const; ///< from 1; 0 in attract
     [[nodiscard]] int balls_per_game() const;
-    [[nodiscard]] int balls_served() const; ///< since the first step, saved ones included
-    [[nodiscard]] std::int64_t score() const;
-    [[nodiscard]] int bonus() const; ///< not yet multiplied
+    [[nodiscard]] int balls_served() const;   ///< since the first step, saved ones included
+    [[nodiscard]] std::int64_t score() const; ///< of whose turn it is, or was last
+    [[nodiscard]] std::int64_t score(int player) const;
+    [[nodiscard]] int players() const;     ///< in this game, 1 to 4
+    [[nodiscard]] int player_up() const;   ///< whose turn it is, from 0
+    [[nodiscard]] int extra_balls() const; ///< that wait for this player
+    [[nodiscard]] int credits() const;     ///< games won and not yet played
+    [[nodiscard]] int bonus() const;       ///< not yet multiplied
     [[nodiscard]] int bonus_multiplier() const;
     [[nodiscard]] int letters() const;         ///< lit ones of the bank rule's word
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
     [[nodiscard]] bool tilted() const;         ///< until the ball has drained
-    [[nodiscard]] static constexpr int players() { return 1; }
 
     /// Of any element: a Light shows its state; every other one what a light on it would show.
     [[nodiscard]] LampState lamp(Index element) const;
@@ -104,9 +108,9 @@ public:
 
     [[nodiscard]] const HighScores& high_scores() const;
     void set_high_scores(HighScores scores);
-    /// The place of the game that just ended, from 0; -1 where it is not among the best.
-    [[nodiscard]] int last_rank() const;
-    void name_last(std::string_view name);
+    /// The places that the game that just ended has won, by player: from 0, or -1 where a score is not among the best.
+    [[nodiscard]] std::span<const int> last_ranks() const;
+    void rename_score(int rank, std::string_view name);
 
 private:
     struct State;

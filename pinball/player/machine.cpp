@@ -57,20 +57,34 @@ void Machine::load_scores()
         m_game.set_high_scores(m_score_file->load(m_game.table().name));
 }
 
-Machine::~Machine()
+Machine::~Machine() { keep_scores(); }
+
+void Machine::keep_score(int rank)
 {
-    if (m_name_entry.active())
-        keep_score();
+    if (m_score_file)
+        m_score_trouble = m_score_file->add(m_game.table().name, m_game.high_scores().entries()[static_cast<std::size_t>(rank)]);
 }
 
-// The last one, with its name.
-void Machine::keep_score()
+// Those that wait for a name go to the file without one, and what is being written as far as it has come.
+void Machine::keep_scores()
 {
     if (m_name_entry.active())
-        m_game.name_last(m_name_entry.name());
-    const int rank = m_game.last_rank();
-    if (m_score_file && rank >= 0)
-        m_score_trouble = m_score_file->add(m_game.table().name, m_game.high_scores().entries()[static_cast<std::size_t>(rank)]);
+    {
+        m_game.rename_score(m_name_entry.rank(), m_name_entry.name());
+        keep_score(m_name_entry.rank());
+    }
+    for (const GameEvent& event : m_unnamed)
+        keep_score(event.value);
+    m_name_entry = {};
+    m_unnamed.clear();
+}
+
+void Machine::ask_for_name()
+{
+    if (m_name_entry.active() || m_unnamed.empty())
+        return;
+    m_name_entry.begin(m_unnamed.front().value, m_game.players() > 1 ? m_unnamed.front().ball : -1);
+    m_unnamed.pop_front();
 }
 
 void Machine::step(Input input)
@@ -79,26 +93,26 @@ void Machine::step(Input input)
         input = m_player->play(m_game);
     if (m_name_entry.step(input))
     {
-        m_game.name_last(m_name_entry.name());
-        keep_score();
+        m_game.rename_score(m_name_entry.rank(), m_name_entry.name());
+        keep_score(m_name_entry.rank());
     }
     m_times.measure([&] { m_game.step(m_name_entry.leaves_over(input)); });
     for (const GameEvent& event : m_game.events())
         if (event.kind == EventKind::HighScore)
         {
             if (m_player)
-                keep_score();
+                keep_score(event.value);
             else
-                m_name_entry.begin(event.value);
+                m_unnamed.push_back(event);
         }
+    ask_for_name();
     m_effects.observe(m_game);
     impacts.observe(m_game.scene());
 }
 
 void Machine::begin(Table table)
 {
-    if (m_name_entry.active())
-        keep_score();
+    keep_scores();
     const HighScores scores = m_game.high_scores();
     const bool same = table.name == m_game.table().name;
     m_game = Game(std::move(table), {.seed = m_seed});
@@ -110,7 +124,6 @@ void Machine::begin(Table table)
     m_art = TableArt(m_game.table());
     if (m_autoplay)
         m_player.emplace(m_game.table(), m_seed);
-    m_name_entry = {};
     impacts.clear();
     scrubber.clear();
     selected = {};
@@ -119,13 +132,11 @@ void Machine::begin(Table table)
 
 void Machine::restart()
 {
-    if (m_name_entry.active())
-        keep_score();
+    keep_scores();
     m_game.restart();
     m_effects = Effects(m_game.table());
     if (m_autoplay)
         m_player.emplace(m_game.table(), m_seed);
-    m_name_entry = {};
     impacts.clear();
     scrubber.clear();
     selected = {};

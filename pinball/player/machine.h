@@ -14,6 +14,7 @@
 #include "view/impact_story.h"
 #include "view/substep_scrubber.h"
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,7 +63,10 @@ public:
 private:
     void begin(Table table);
     void load_scores();
-    void keep_score();
+    /// Takes down the next name, where a score waits for one.
+    void ask_for_name();
+    void keep_score(int rank);
+    void keep_scores();
 
     TableWatch m_watch;
     std::uint64_t m_seed;
@@ -74,6 +78,7 @@ private:
     TableArt m_art;
     std::optional<ReflexPlayer> m_player{};
     NameEntry m_name_entry{};
+    std::deque<GameEvent> m_unnamed{}; ///< scores that wait for a name
     std::string m_score_trouble{};
     std::vector<std::string> m_table_errors{};
     StepTimes m_times{};

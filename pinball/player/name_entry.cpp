@@ -4,11 +4,12 @@
 
 namespace carom::pinball {
 
-void NameEntry::begin(int rank)
+void NameEntry::begin(int rank, int player)
 {
     *this = {};
     m_active = true;
     m_rank = rank;
+    m_player = player;
     // Whatever is held now was not meant for this.
     m_held = {.left = true, .right = true, .plunger = true, .start = true};
 }

@@ -15,9 +15,11 @@ class NameEntry
 public:
     static constexpr int letters = 3;
 
-    void begin(int rank);
+    /// `player` from 0, or -1 where only one plays.
+    void begin(int rank, int player = -1);
     [[nodiscard]] bool active() const { return m_active; }
     [[nodiscard]] int rank() const { return m_rank; }
+    [[nodiscard]] int player() const { return m_player; }
     [[nodiscard]] int cursor() const { return m_cursor; } ///< letters: all are typed
     [[nodiscard]] const std::string& name() const { return m_name; }
 
@@ -36,6 +38,7 @@ private:
     bool m_typed = false;
     bool m_swallow = false; ///< the button that ended the entry is still down
     int m_rank = -1;
+    int m_player = -1;
     int m_cursor = 0;
     std::string m_name = "AAA";
     Input m_held{};

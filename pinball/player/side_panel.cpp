@@ -68,7 +68,8 @@ float draw_high_scores(Canvas& screen, const Area& area, const Machine& machine,
         screen.text({left, y}, "none yet: the first one is yours", {.size = 14 * unit, .color = palette::text_faint});
     for (std::size_t i = 0; i < entries.size() && y + 20 * unit < area.max.y; ++i, y += 21 * unit)
     {
-        const bool fresh = static_cast<int>(i) == machine.game().last_rank();
+        const bool fresh =
+            std::ranges::find(machine.game().last_ranks(), static_cast<int>(i)) != machine.game().last_ranks().end();
         const view::Color color = fresh ? palette::gold : palette::text;
         screen.text({left, y}, std::to_string(i + 1), {.size = 14 * unit, .color = palette::text_faint});
         screen.text({left + 30 * unit, y}, entries[i].name, {.size = 14 * unit, .color = color, .face = Face::Mono});

@@ -11,17 +11,17 @@ class Bank final : public Rule
 public:
     explicit Bank(const BankRule& rule) : m_rule(rule) {}
 
-    void start_game(Desk& desk) override { desk.letters = 0; }
+    void start_game(Desk& desk) override { desk.player.letters = 0; }
 
     void on_event(Desk& desk, const GameEvent& event) override
     {
         if (event.kind != EventKind::GroupCompleted || static_cast<Index>(event.value) != m_rule.group)
             return;
         const int length = static_cast<int>(m_rule.letters.size());
-        desk.letters = desk.letters == length ? 1 : desk.letters + 1;
-        desk.announce({.kind = EventKind::LetterLit, .element = event.element, .value = desk.letters});
-        desk.say(m_rule.letters.substr(0, static_cast<std::size_t>(desk.letters)), 4, 2);
-        if (desk.letters == length)
+        desk.player.letters = desk.player.letters == length ? 1 : desk.player.letters + 1;
+        desk.announce({.kind = EventKind::LetterLit, .element = event.element, .value = desk.player.letters});
+        desk.say(m_rule.letters.substr(0, static_cast<std::size_t>(desk.player.letters)), 4, 2);
+        if (desk.player.letters == length)
         {
             desk.add_score(m_rule.score);
             desk.say(m_rule.letters + " COMPLETE", 5, 3);

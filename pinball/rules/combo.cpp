@@ -1,4 +1,5 @@
-// Combos: different shots in quick succession pay more with each link of the chain.
+// Combos: different shots in quick succession pay more with each link of the chain. A shot is what a flipper made: the ball must have
+// been on one since its last shot. So a plunge that runs round the orbit is none.
 
 #include "pinball/rules/rule.h"
 
@@ -13,11 +14,19 @@ class Combo final : public Rule
 public:
     explicit Combo(const ComboRule& rule) : m_rule(rule) {}
 
-    void start_ball(Desk&) override { m_chain = 0; }
+    void start_ball(Desk&) override
+    {
+        m_chain = 0;
+        m_flipped.clear();
+    }
 
     void on_event(Desk& desk, const GameEvent& event) override
     {
+        if (is_flip(desk, event) && !was_flipped(event.ball))
+            m_flipped.push_back(event.ball);
         if (!is_made(event) || std::ranges::find(m_rule.shots, event.element) == m_rule.shots.end())
+            return;
+        if (std::erase(m_flipped, event.ball) == 0)
             return;
         const bool in_time = m_chain > 0 && desk.now() <= m_until;
         // The same switch twice is a rattle, not a combo.
@@ -38,13 +47,23 @@ public:
         hash.add(m_chain);
         hash.add(m_until);
         hash.add(m_last);
+        for (const int ball : m_flipped)
+            hash.add(ball);
     }
 
 private:
+    [[nodiscard]] static bool is_flip(const Desk& desk, const GameEvent& event)
+    {
+        return event.kind == EventKind::Impact && event.element != none &&
+               std::holds_alternative<Flipper>(desk.table().elements[event.element].part);
+    }
+    [[nodiscard]] bool was_flipped(int ball) const { return std::ranges::find(m_flipped, ball) != m_flipped.end(); }
+
     ComboRule m_rule;
     int m_chain = 0;
     std::int64_t m_until = 0;
     Index m_last = none;
+    std::vector<int> m_flipped{}; ///< balls that were on a flipper since their last shot
 };
 
 } // namespace

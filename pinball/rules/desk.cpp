@@ -6,7 +6,24 @@
 
 namespace carom::pinball {
 
-Desk::Desk(const Table& table) : lamps(table.elements.size(), LampState::Off), m_table(&table) {}
+Desk::Desk(const Table& table, std::uint64_t seed) : random(seed), m_table(&table) { player = new_player(); }
+
+Player Desk::new_player() const
+{
+    Player fresh;
+    fresh.lamps.assign(m_table->elements.size(), LampState::Off);
+    fresh.armed.assign(m_table->elements.size(), false);
+    return fresh;
+}
+
+std::string Desk::prefix() const { return players > 1 ? "PLAYER " + std::to_string(player_up + 1) + " " : ""; }
+
+void Desk::order(Index element, Command command)
+{
+    if (command == Command::Light || command == Command::Unlight)
+        player.armed[element] = command == Command::Light;
+    m_orders.push_back({element, command});
+}
 
 std::int64_t Desk::steps(float seconds) const { return std::lround(seconds / m_table->physics.step); }
 
@@ -41,19 +58,30 @@ std::vector<GameEvent> Desk::take_announced() { return std::exchange(m_announced
 
 std::vector<Order> Desk::take_orders() { return std::exchange(m_orders, {}); }
 
-void Desk::add_to(Hash& hash) const
+void Player::add_to(Hash& hash) const
 {
-    for (const int value : {static_cast<int>(phase), ball, bonus, multiplier, letters, bumper_level, to_serve, to_launch})
+    for (const int value : {ball, bonus, multiplier, extra_balls, letters, bumper_level})
         hash.add(value);
     hash.add(score);
+    hash.add(extra_ball_is_lit);
+    hash.add(lock_is_lit);
+    for (const LampState lamp : lamps)
+        hash.add(static_cast<int>(lamp));
+    for (const bool is_armed : armed)
+        hash.add(is_armed);
+}
+
+void Desk::add_to(Hash& hash) const
+{
+    for (const int value : {static_cast<int>(phase), players, player_up, credits, to_serve, to_launch})
+        hash.add(value);
+    player.add_to(hash);
+    hash.add(random.state());
     hash.add(saved_until);
     hash.add(tilted);
     hash.add(shaken_until);
-    hash.add(lock_is_lit);
     hash.add(multiball);
     hash.add(flashing);
-    for (const LampState lamp : lamps)
-        hash.add(static_cast<int>(lamp));
 }
 
 bool is_made(const GameEvent& event)

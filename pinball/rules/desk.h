@@ -4,6 +4,7 @@
 /// What the rules share: the score, the state of the ball, lamps and messages, and the tray of orders to the table.
 
 #include "pinball/elements/device.h"
+#include "pinball/elements/random.h"
 #include "pinball/rules/show.h"
 #include "pinball/table/table.h"
 
@@ -18,6 +19,24 @@ struct Order
     Command command = Command::Raise;
 };
 
+/// What belongs to one player, and waits while another one plays.
+struct Player
+{
+    std::int64_t score = 0;
+    int ball = 0;        ///< from 1; 0 before the first
+    int bonus = 0;       ///< of the present ball
+    int multiplier = 1;  ///< of that
+    int extra_balls = 0; ///< won and not yet played
+    int letters = 0;
+    int bumper_level = 0;
+    bool extra_ball_is_lit = false;
+    bool lock_is_lit = false;
+    std::vector<LampState> lamps{};
+    std::vector<bool> armed{}; ///< kickers, by element
+
+    void add_to(Hash& hash) const;
+};
+
 /// What the machine knows of its balls and of the player's hands in a step.
 struct Seen
 {
@@ -29,18 +48,22 @@ struct Seen
 class Desk
 {
 public:
-    explicit Desk(const Table& table);
+    Desk(const Table& table, std::uint64_t seed);
+    /// One at the start of a game.
+    [[nodiscard]] Player new_player() const;
+    /// "PLAYER 2 " where several play, else nothing.
+    [[nodiscard]] std::string prefix() const;
 
     [[nodiscard]] const Table& table() const { return *m_table; }
     [[nodiscard]] std::int64_t now() const { return m_now; }
     [[nodiscard]] std::int64_t steps(float seconds) const;
 
-    void add_score(std::int64_t points) { score += points; }
+    void add_score(std::int64_t points) { player.score += points; }
     /// Lines shown for as long as they last; the highest priority wins.
     void say(std::string text, int priority, float seconds);
     /// An event of the rules: all rules hear it, and so does whoever watches the game.
     void announce(GameEvent event) { m_announced.push_back(event); }
-    void order(Index element, Command command) { m_orders.push_back({element, command}); }
+    void order(Index element, Command command);
     void order_all(Command command); ///< to everything that takes part in the game
     /// Another ball before the plunger, as soon as there is room.
     void serve(bool launch_it = false);
@@ -55,12 +78,10 @@ public:
     void add_to(Hash& hash) const;
 
     Phase phase = Phase::Attract;
-    std::int64_t score = 0;
-    int ball = 0;
-    int bonus = 0;
-    int multiplier = 1;
-    int letters = 0;
-    int bumper_level = 0;
+    Player player{};   ///< who plays now
+    int players = 1;   ///< in this game
+    int player_up = 0; ///< who of them, from 0
+    int credits = 0;   ///< games won and not yet played
     int to_serve = 0;
     int to_launch = 0;            ///< of them, that the machine launches by itself
     std::int64_t saved_until = 0; ///< step until which the ball save is lit
@@ -70,10 +91,9 @@ public:
     bool knows_all_balls = true;
     bool flipper_is_held = false;
     bool recalls = false; ///< wants the balls on the table written off
-    bool lock_is_lit = false;
     bool multiball = false;
     Index flashing = none; ///< the skill shot
-    std::vector<LampState> lamps{};
+    Random random;
 
 private:
     const Table* m_table;

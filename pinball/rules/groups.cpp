@@ -29,6 +29,13 @@ public:
             reset(desk, g);
     }
 
+    void begin_turn(Desk& desk) override
+    {
+        for (std::size_t g = 0; g < m_states.size(); ++g)
+            for (std::size_t i = 0; i < m_states[g].made.size(); ++i)
+                desk.order(desk.table().groups[g].members[i], m_states[g].made[i] ? Command::Drop : Command::Raise);
+    }
+
     void start_ball(Desk& desk) override
     {
         for (std::size_t g = 0; g < m_states.size(); ++g)
@@ -118,7 +125,7 @@ private:
     {
         const std::vector<Index>& members = desk.table().groups[g].members;
         for (std::size_t i = 0; i < members.size(); ++i)
-            desk.lamps[members[i]] = m_states[g].made[i] ? LampState::On : LampState::Off;
+            desk.player.lamps[members[i]] = m_states[g].made[i] ? LampState::On : LampState::Off;
     }
 
     std::vector<GroupState> m_states{};

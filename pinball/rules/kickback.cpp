@@ -19,6 +19,14 @@ public:
                 desk.order(i, m_on && kicker->lit ? Command::Light : Command::Unlight);
     }
 
+    void begin_turn(Desk& desk) override
+    {
+        const auto& elements = desk.table().elements;
+        for (Index i = 0; i < elements.size(); ++i)
+            if (std::holds_alternative<Kicker>(elements[i].part))
+                desk.order(i, desk.player.armed[i] ? Command::Light : Command::Unlight);
+    }
+
     void on_event(Desk& desk, const GameEvent& event) override
     {
         if (event.kind != EventKind::Fired || !std::holds_alternative<Kicker>(desk.table().elements[event.element].part))

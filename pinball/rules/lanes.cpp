@@ -11,15 +11,15 @@ class Lanes final : public Rule
 public:
     explicit Lanes(const LaneRule& rule) : m_rule(rule) {}
 
-    void start_ball(Desk& desk) override { desk.multiplier = 1; }
+    void start_ball(Desk& desk) override { desk.player.multiplier = 1; }
 
     void on_event(Desk& desk, const GameEvent& event) override
     {
         if (event.kind != EventKind::GroupCompleted || static_cast<Index>(event.value) != m_rule.group)
             return;
-        if (desk.multiplier < desk.table().rules.bonus_multiplier_max)
-            ++desk.multiplier;
-        desk.say("BONUS X" + std::to_string(desk.multiplier), 4, 2);
+        if (desk.player.multiplier < desk.table().rules.bonus_multiplier_max)
+            ++desk.player.multiplier;
+        desk.say("BONUS X" + std::to_string(desk.player.multiplier), 4, 2);
         if (m_rule.kicker != none)
             desk.order(m_rule.kicker, Command::Light);
     }

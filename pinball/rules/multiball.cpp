@@ -26,7 +26,7 @@ public:
             on_jackpot(desk, event);
         else if (event.element == m_rule.target && event.kind == EventKind::Hit)
             on_target(desk);
-        else if (event.element == m_rule.saucer && event.kind == EventKind::Captured && desk.lock_is_lit)
+        else if (event.element == m_rule.saucer && event.kind == EventKind::Captured && desk.player.lock_is_lit)
             on_lock(desk);
     }
 
@@ -46,7 +46,7 @@ public:
 private:
     void on_target(Desk& desk)
     {
-        if (desk.lock_is_lit || ++m_hits < m_rule.hits)
+        if (desk.player.lock_is_lit || ++m_hits < m_rule.hits)
             return;
         m_hits = 0;
         light_lock(desk, true);
@@ -95,14 +95,14 @@ private:
 
     void light_lock(Desk& desk, bool lit)
     {
-        desk.lock_is_lit = lit;
-        desk.lamps[m_rule.saucer] = lit ? LampState::Blink : LampState::Off;
+        desk.player.lock_is_lit = lit;
+        desk.player.lamps[m_rule.saucer] = lit ? LampState::Blink : LampState::Off;
     }
 
     void show_jackpot(Desk& desk, LampState lamp)
     {
         if (m_next_jackpot < m_rule.jackpots.size())
-            desk.lamps[m_rule.jackpots[m_next_jackpot]] = lamp;
+            desk.player.lamps[m_rule.jackpots[m_next_jackpot]] = lamp;
     }
 
     MultiballRule m_rule;

@@ -18,6 +18,8 @@ public:
     Rule& operator=(const Rule&) = delete;
 
     virtual void start_game(Desk&) {}
+    /// Another player's turn begins, in a game of several: the table must stand as this one left it.
+    virtual void begin_turn(Desk&) {}
     virtual void start_ball(Desk&) {}
     virtual void on_event(Desk&, const GameEvent&) {}
     virtual void on_press(Desk&, Side) {}
@@ -39,6 +41,8 @@ RulePtr make_kickback(const Table&, bool on);
 RulePtr make_more_balls(int balls);
 RulePtr make_ball_save(const BallSaveRule&);
 RulePtr make_tilt(int warnings);
+RulePtr make_replay(const ReplayRule&);
+RulePtr make_extra_ball(const ExtraBallRule&);
 RulePtr make_ball_search(float time);
 
 } // namespace carom::pinball

@@ -16,7 +16,7 @@ public:
     {
         m_bumper_hits = 0;
         m_spinner_until = 0;
-        desk.bumper_level = 0;
+        desk.player.bumper_level = 0;
     }
 
     void on_event(Desk& desk, const GameEvent& event) override
@@ -28,7 +28,7 @@ public:
         if (points == 0)
             return;
         desk.add_score(points);
-        desk.bonus += desk.table().rules.bonus_per_switch;
+        desk.player.bonus += desk.table().rules.bonus_per_switch;
     }
 
     void add_to(Hash& hash) const override
@@ -56,13 +56,13 @@ private:
     [[nodiscard]] std::int64_t bumper(Desk& desk, const BumperRule& rule, const GameEvent& event)
     {
         const int last = static_cast<int>(rule.scores.size()) - 1;
-        const std::int64_t points = rule.scores[static_cast<std::size_t>(desk.bumper_level)];
-        if (desk.bumper_level < last && ++m_bumper_hits >= rule.hits_per_level)
+        const std::int64_t points = rule.scores[static_cast<std::size_t>(desk.player.bumper_level)];
+        if (desk.player.bumper_level < last && ++m_bumper_hits >= rule.hits_per_level)
         {
             m_bumper_hits = 0;
-            ++desk.bumper_level;
-            desk.say("BUMPERS LEVEL " + std::to_string(desk.bumper_level + 1), 3, 1.5f);
-            desk.announce({.kind = EventKind::LevelUp, .element = event.element, .value = desk.bumper_level});
+            ++desk.player.bumper_level;
+            desk.say("BUMPERS LEVEL " + std::to_string(desk.player.bumper_level + 1), 3, 1.5f);
+            desk.announce({.kind = EventKind::LevelUp, .element = event.element, .value = desk.player.bumper_level});
         }
         return points;
     }

@@ -14,6 +14,7 @@ enum class Phase : std::uint8_t
     Ready,    ///< the ball lies before the plunger
     InPlay,   ///< it has touched the first switch of the playfield
     Bonus,    ///< the end-of-ball bonus is counted
+    Match,    ///< all balls are played; a number is drawn
     GameOver, ///< the score stands; start begins a new game
 };
 

@@ -19,7 +19,7 @@ public:
     void start_ball(Desk& desk) override
     {
         const auto& members = lanes(desk);
-        m_lane = members.empty() ? 0 : static_cast<std::size_t>(desk.ball) % members.size();
+        m_lane = members.empty() ? 0 : static_cast<std::size_t>(desk.player.ball) % members.size();
         m_open = !members.empty();
         show(desk);
     }

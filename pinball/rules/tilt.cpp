@@ -46,7 +46,7 @@ private:
     static void tilt(Desk& desk)
     {
         desk.tilted = true;
-        desk.bonus = 0;
+        desk.player.bonus = 0;
         desk.saved_until = 0;
         desk.flashing = none;
         desk.order_all(Command::Disable);

@@ -244,7 +244,8 @@ Part read_captive_ball(FieldReader& in) { return CaptiveBall{.pos = in.vec2("pos
 
 Part read_light(FieldReader& in)
 {
-    constexpr std::array<std::string_view, 6> lamps = {"element", "ball_save", "bonus", "letter", "lock", "multiball"};
+    constexpr std::array<std::string_view, 8> lamps = {"element", "ball_save", "bonus",      "letter",
+                                                       "lock",    "multiball", "extra_ball", "shoot_again"};
     Light light{.pos = in.vec2("pos", range::coordinate),
                 .radius = in.number("radius", range::radius),
                 .shows = static_cast<Lamp>(in.choice("shows", lamps, std::nullopt)),

@@ -139,6 +139,20 @@ MultiballRule read_multiball(FieldReader& in, const Names& names)
             .jackpots = in.references("jackpots", names.elements, "element")};
 }
 
+ExtraBallRule read_extra_ball(FieldReader& in, const Names& names)
+{
+    return {.group = in.reference("group", names.groups, "group"),
+            .completions = in.integer("completions", range::count, 1),
+            .shot = in.reference("shot", names.elements, "element"),
+            .per_game = in.integer("per_game", range::count, 1)};
+}
+
+ReplayRule read_replay(FieldReader& in, const Names&)
+{
+    constexpr std::array<std::string_view, 2> prizes = {"game", "ball"};
+    return {.score = in.integer("score", {1, 1'000'000'000, ""}), .wins_a_ball = in.choice("wins", prizes, 0) == 1};
+}
+
 template <typename Rule>
 std::optional<Rule> read_rule(FieldReader& in, const char* key, const Names& names, Rule (*read)(FieldReader&, const Names&))
 {
@@ -173,6 +187,33 @@ void load_groups(const JsonNode& groups, Table& table, LoadErrors& errors)
     }
 }
 
+void load_card(FieldReader& in, Table& table, LoadErrors& errors)
+{
+    constexpr std::size_t most_entries = 16;
+    constexpr std::size_t longest_name = 40;
+    constexpr std::size_t longest_text = 160;
+    const JsonNode* card = in.member("card", JsonNode::Kind::Array, false);
+    if (card == nullptr)
+        return;
+    if (card->items.size() > most_entries)
+        in.fail(*card, "card", "must have at most " + std::to_string(most_entries) + " entries");
+    for (std::size_t i = 0; i < std::min(card->items.size(), most_entries); ++i)
+    {
+        FieldReader entry(card->items[i], "card[" + std::to_string(i) + "]", "", errors);
+        if (card->items[i].kind != JsonNode::Kind::Object)
+        {
+            entry.fail("", "must be an object with \"name\" and \"text\"");
+            continue;
+        }
+        table.card.push_back({entry.text("name"), entry.text("text")});
+        if (table.card.back().name.size() > longest_name)
+            entry.fail("name", "must have at most " + std::to_string(longest_name) + " bytes");
+        if (table.card.back().text.size() > longest_text)
+            entry.fail("text", "must have at most " + std::to_string(longest_text) + " bytes");
+        entry.refuse_unknown_keys();
+    }
+}
+
 void load_rules(const JsonNode& rules, Table& table, LoadErrors& errors)
 {
     const Names names = collect_names(table);
@@ -191,6 +232,9 @@ void load_rules(const JsonNode& rules, Table& table, LoadErrors& errors)
         .spinner = read_rule(in, "spinner", names, read_spinner_rule),
         .combo = read_rule(in, "combo", names, read_combo),
         .multiball = read_rule(in, "multiball", names, read_multiball),
+        .extra_ball = read_rule(in, "extra_ball", names, read_extra_ball),
+        .replay = read_rule(in, "replay", names, read_replay),
+        .match = in.boolean("match", false),
     };
     in.refuse_unknown_keys();
 }

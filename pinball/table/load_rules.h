@@ -8,5 +8,7 @@ namespace carom::pinball {
 void load_groups(const JsonNode& groups, Table& table, LoadErrors& errors);
 /// Reads the object "rules". Elements and groups must be there already.
 void load_rules(const JsonNode& rules, Table& table, LoadErrors& errors);
+/// Reads "card", the rules as the player reads them, from the table's own object.
+void load_card(FieldReader& in, Table& table, LoadErrors& errors);
 
 } // namespace carom::pinball

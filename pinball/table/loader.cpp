@@ -28,6 +28,7 @@ void load_body(FieldReader& in, Table& table, LoadErrors& errors)
         load_groups(*groups, table, errors);
     if (const JsonNode* rules = in.member("rules", JsonNode::Kind::Object, false))
         load_rules(*rules, table, errors);
+    load_card(in, table, errors);
     table.outline = in.reference("outline", names_of<Wall>(table), "wall");
     in.refuse_unknown_keys();
 }

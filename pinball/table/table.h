@@ -241,6 +241,8 @@ enum class Lamp : std::uint8_t
     Letter, ///< letter `number` of the bank rule, from 1
     Lock,
     Multiball,
+    ExtraBall,  ///< blinks while the shot would win one
+    ShootAgain, ///< an extra ball waits
 };
 
 /// An insert in the playfield. Drawn only.
@@ -348,6 +350,20 @@ struct ComboRule
     int max = 0;
 };
 
+struct ExtraBallRule
+{
+    Index group = none; ///< its completions light the extra ball
+    int completions = 1;
+    Index shot = none; ///< wins it when it is lit
+    int per_game = 1;  ///< each player
+};
+
+struct ReplayRule
+{
+    int score = 0;
+    bool wins_a_ball = false; ///< else a game
+};
+
 struct MultiballRule
 {
     Index target = none; ///< its hits light the lock
@@ -375,6 +391,9 @@ struct Rules
     std::optional<SpinnerRule> spinner{};
     std::optional<ComboRule> combo{};
     std::optional<MultiballRule> multiball{};
+    std::optional<ExtraBallRule> extra_ball{};
+    std::optional<ReplayRule> replay{};
+    bool match = false; ///< at the end of a game a number is drawn; whose score ends in it wins a game
 };
 
 // --- The table ----------------------------------------------------------------------------------------------------
@@ -407,6 +426,13 @@ struct CabinetDef
     float bob_length = 0.1f;      ///< m
 };
 
+/// A line of the rules card: what something is called and what it is for.
+struct CardEntry
+{
+    std::string name{};
+    std::string text{};
+};
+
 struct Table
 {
     std::string name{};
@@ -419,7 +445,8 @@ struct Table
     std::vector<Element> elements{}; ///< in the order of the file
     std::vector<Group> groups{};
     Rules rules{};
-    Index outline = none; ///< the wall that surrounds the game; closed by a straight line from its end to its start
+    std::vector<CardEntry> card{}; ///< the rules as the player reads them
+    Index outline = none;          ///< the wall that surrounds the game; closed by a straight line from its end to its start
 
     /// The index of the element with this id, or none.
     [[nodiscard]] Index find(std::string_view id) const

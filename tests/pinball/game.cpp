@@ -277,8 +277,9 @@ TEST(Game, AFinishedGameEntersTheHighScores)
     ASSERT_TRUE(ended);
     EXPECT_GT(game.score(), 0);
     EXPECT_EQ(game.high_scores().best(), game.score());
-    EXPECT_EQ(game.last_rank(), 0);
-    game.name_last("CRM");
+    ASSERT_EQ(game.last_ranks().size(), 1u);
+    EXPECT_EQ(game.last_ranks()[0], 0);
+    game.rename_score(0, "CRM");
     EXPECT_EQ(game.high_scores().entries()[0].name, "CRM");
     game.restart();
     EXPECT_EQ(game.high_scores().best() > 0, true) << "they stay";

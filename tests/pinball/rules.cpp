@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
+#include <vector>
 
 namespace carom::pinball::test {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 struct Machine
 {
     Machine() : table(make_table()), book(table) { step({}, 0); }
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
 
     Table make_table()
     {
@@ -32,6 +36,7 @@ struct Machine
         shooter = add(t, Sensor{});
         plunger = add(t, Plunger{.lane = shooter});
         drain = add(t, Sensor{.kills = true});
+        flipper = add(t, Flipper{});
         t.groups = {
             {.id = "lanes",
              .members = {lanes[0], lanes[1], lanes[2]},
@@ -87,6 +92,7 @@ struct Machine
     {
         step({{.kind = kind, .element = element, .impulse = impulse}});
     }
+    void flip() { tell(EventKind::Impact, flipper); }
     void drain_ball(int left = 0) { step({{.kind = EventKind::Drained, .element = drain}}, left); }
     /// Uses up the save of this ball and gets past the skill shot.
     void use_up_save()
@@ -103,7 +109,7 @@ struct Machine
 
     Index lanes[3]{};
     Index bank[2]{};
-    Index bumper{}, spinner{}, inlane{}, orbit{}, bash{}, saucer{}, kicker{}, shooter{}, plunger{}, drain{};
+    Index bumper{}, spinner{}, inlane{}, orbit{}, bash{}, saucer{}, kicker{}, shooter{}, plunger{}, drain{}, flipper{};
     Table table;
     RuleBook book;
     std::vector<Order> orders{};
@@ -119,7 +125,7 @@ TEST(Rules, StartServesTheFirstBallAndGivesPower)
     EXPECT_TRUE(m.ordered(m.bumper, Command::Disable));
     m.start();
     EXPECT_EQ(m.desk().phase, Phase::Ready);
-    EXPECT_EQ(m.desk().ball, 1);
+    EXPECT_EQ(m.desk().player.ball, 1);
     EXPECT_EQ(m.served, 1);
     EXPECT_TRUE(m.ordered(m.bumper, Command::Enable));
     EXPECT_TRUE(m.ordered(m.kicker, Command::Light));
@@ -141,7 +147,7 @@ TEST(Rules, NothingScoresBeforeAndAfterAGame)
 {
     Machine m;
     m.tell(EventKind::Fired, m.bumper);
-    EXPECT_EQ(m.desk().score, 0);
+    EXPECT_EQ(m.desk().player.score, 0);
 }
 
 TEST(Rules, AnEarlyDrainIsSavedOnce)
@@ -153,7 +159,7 @@ TEST(Rules, AnEarlyDrainIsSavedOnce)
     m.drain_ball();
     EXPECT_TRUE(m.announced(EventKind::BallSaved));
     EXPECT_EQ(m.served, 2);
-    EXPECT_EQ(m.desk().ball, 1);
+    EXPECT_EQ(m.desk().player.ball, 1);
     EXPECT_EQ(m.book.ball_save_steps(), 0) << "its light is out";
     m.wait(1);
     m.drain_ball();
@@ -180,7 +186,7 @@ TEST(Rules, ALateDrainEndsTheBall)
     EXPECT_FALSE(m.announced(EventKind::BallSaved));
     EXPECT_EQ(m.desk().phase, Phase::Bonus);
     m.wait(2, 0);
-    EXPECT_EQ(m.desk().ball, 2);
+    EXPECT_EQ(m.desk().player.ball, 2);
     EXPECT_EQ(m.desk().phase, Phase::Ready);
     EXPECT_EQ(m.served, 2);
 }
@@ -201,7 +207,7 @@ TEST(Rules, AfterThreeBallsTheGameIsOver)
     m.start();
     for (int ball = 1; ball <= 3; ++ball)
     {
-        EXPECT_EQ(m.desk().ball, ball);
+        EXPECT_EQ(m.desk().player.ball, ball);
         m.use_up_save();
         m.drain_ball();
         for (int i = 0; i < 3000 && m.desk().phase == Phase::Bonus; ++i)
@@ -210,8 +216,8 @@ TEST(Rules, AfterThreeBallsTheGameIsOver)
     EXPECT_EQ(m.desk().phase, Phase::GameOver);
     EXPECT_TRUE(m.announced(EventKind::GameEnded));
     m.start();
-    EXPECT_EQ(m.desk().ball, 1);
-    EXPECT_EQ(m.desk().score, 0);
+    EXPECT_EQ(m.desk().player.ball, 1);
+    EXPECT_EQ(m.desk().player.score, 0);
 }
 
 TEST(Rules, TheBonusIsCountedTimesTheMultiplier)
@@ -223,14 +229,14 @@ TEST(Rules, TheBonusIsCountedTimesTheMultiplier)
         m.tell(EventKind::Entered, lane);
     for (int i = 0; i < 5; ++i)
         m.tell(EventKind::Entered, m.inlane);
-    EXPECT_EQ(m.desk().bonus, 80) << "eight switches";
-    EXPECT_EQ(m.desk().multiplier, 2);
-    const std::int64_t before = m.desk().score;
+    EXPECT_EQ(m.desk().player.bonus, 80) << "eight switches";
+    EXPECT_EQ(m.desk().player.multiplier, 2);
+    const std::int64_t before = m.desk().player.score;
     m.drain_ball();
     m.wait(2, 0);
-    EXPECT_EQ(m.desk().score - before, 160);
-    EXPECT_EQ(m.desk().bonus, 0) << "the next ball starts anew";
-    EXPECT_EQ(m.desk().multiplier, 1);
+    EXPECT_EQ(m.desk().player.score - before, 160);
+    EXPECT_EQ(m.desk().player.bonus, 0) << "the next ball starts anew";
+    EXPECT_EQ(m.desk().player.multiplier, 1);
 }
 
 TEST(Rules, StartSkipsTheBonusCountAndLosesNothing)
@@ -240,13 +246,13 @@ TEST(Rules, StartSkipsTheBonusCountAndLosesNothing)
     m.use_up_save();
     for (int i = 0; i < 100; ++i)
         m.tell(EventKind::Entered, m.inlane);
-    const std::int64_t before = m.desk().score;
+    const std::int64_t before = m.desk().player.score;
     m.drain_ball();
     m.wait(0.3f, 0);
     m.step({}, 0, {.start = true});
     m.wait(0.2f, 0);
     EXPECT_EQ(m.desk().phase, Phase::Ready);
-    EXPECT_EQ(m.desk().score - before, 1000);
+    EXPECT_EQ(m.desk().player.score - before, 1000);
 }
 
 TEST(Rules, FlippersTurnTheLitLanesRound)
@@ -255,13 +261,13 @@ TEST(Rules, FlippersTurnTheLitLanesRound)
     m.start();
     m.use_up_save();
     m.tell(EventKind::Entered, m.lanes[0]);
-    EXPECT_EQ(m.desk().lamps[m.lanes[0]], LampState::On);
+    EXPECT_EQ(m.desk().player.lamps[m.lanes[0]], LampState::On);
     m.step({}, 1, {.right = true});
-    EXPECT_EQ(m.desk().lamps[m.lanes[0]], LampState::Off);
-    EXPECT_EQ(m.desk().lamps[m.lanes[1]], LampState::On);
+    EXPECT_EQ(m.desk().player.lamps[m.lanes[0]], LampState::Off);
+    EXPECT_EQ(m.desk().player.lamps[m.lanes[1]], LampState::On);
     m.step({}, 1, {.left = true});
     m.step({}, 1, {.left = true});
-    EXPECT_EQ(m.desk().lamps[m.lanes[2]], LampState::On);
+    EXPECT_EQ(m.desk().player.lamps[m.lanes[2]], LampState::On);
 }
 
 TEST(Rules, CompleteLanesRaiseTheMultiplierUpToItsLimitAndRelightTheKickback)
@@ -275,9 +281,9 @@ TEST(Rules, CompleteLanesRaiseTheMultiplierUpToItsLimitAndRelightTheKickback)
         for (const Index lane : m.lanes)
             m.tell(EventKind::Entered, lane);
         m.wait(0.6f);
-        EXPECT_EQ(m.desk().lamps[m.lanes[0]], LampState::Off) << "they start anew";
+        EXPECT_EQ(m.desk().player.lamps[m.lanes[0]], LampState::Off) << "they start anew";
     }
-    EXPECT_EQ(m.desk().multiplier, 3);
+    EXPECT_EQ(m.desk().player.multiplier, 3);
     EXPECT_TRUE(m.ordered(m.kicker, Command::Light));
 }
 
@@ -295,14 +301,14 @@ TEST(Rules, TheBankSpellsALetterAndIsRaisedAfterASecond)
     m.start();
     m.use_up_save();
     m.orders.clear();
-    const std::int64_t before = m.desk().score;
+    const std::int64_t before = m.desk().player.score;
     m.tell(EventKind::Fell, m.bank[0]);
     EXPECT_FALSE(m.announced(EventKind::GroupCompleted));
     m.tell(EventKind::Fell, m.bank[1]);
     EXPECT_TRUE(m.announced(EventKind::GroupCompleted));
     EXPECT_TRUE(m.announced(EventKind::LetterLit));
-    EXPECT_EQ(m.desk().letters, 1);
-    EXPECT_EQ(m.desk().score - before, 2 * 500 + 10'000);
+    EXPECT_EQ(m.desk().player.letters, 1);
+    EXPECT_EQ(m.desk().player.score - before, 2 * 500 + 10'000);
     EXPECT_FALSE(m.ordered(m.bank[0], Command::Raise));
     m.wait(0.9f);
     EXPECT_FALSE(m.ordered(m.bank[0], Command::Raise));
@@ -316,15 +322,15 @@ TEST(Rules, TheWordPaysAndBeginsAgain)
     Machine m;
     m.start();
     m.use_up_save();
-    const std::int64_t before = m.desk().score;
+    const std::int64_t before = m.desk().player.score;
     for (int letter = 1; letter <= 5; ++letter)
     {
         m.tell(EventKind::Fell, m.bank[0]);
         m.tell(EventKind::Fell, m.bank[1]);
-        EXPECT_EQ(m.desk().letters, letter == 5 ? 1 : letter);
+        EXPECT_EQ(m.desk().player.letters, letter == 5 ? 1 : letter);
         m.wait(1.1f);
     }
-    EXPECT_EQ(m.desk().score - before, 5 * 11'000 + 50'000);
+    EXPECT_EQ(m.desk().player.score - before, 5 * 11'000 + 50'000);
 }
 
 TEST(Rules, BumpersRiseALevelWithTheirHits)
@@ -332,11 +338,11 @@ TEST(Rules, BumpersRiseALevelWithTheirHits)
     Machine m;
     m.start();
     m.use_up_save();
-    const std::int64_t before = m.desk().score;
+    const std::int64_t before = m.desk().player.score;
     for (int i = 0; i < 8; ++i)
         m.tell(EventKind::Fired, m.bumper);
-    EXPECT_EQ(m.desk().bumper_level, 2);
-    EXPECT_EQ(m.desk().score - before, 3 * 100 + 3 * 200 + 2 * 500);
+    EXPECT_EQ(m.desk().player.bumper_level, 2);
+    EXPECT_EQ(m.desk().player.score - before, 3 * 100 + 3 * 200 + 2 * 500);
 }
 
 TEST(Rules, TheSpinnerPaysMoreForAWhileAfterTheInlane)
@@ -344,17 +350,17 @@ TEST(Rules, TheSpinnerPaysMoreForAWhileAfterTheInlane)
     Machine m;
     m.start();
     m.use_up_save();
-    std::int64_t before = m.desk().score;
+    std::int64_t before = m.desk().player.score;
     m.tell(EventKind::Spun, m.spinner);
-    EXPECT_EQ(m.desk().score - before, 100);
+    EXPECT_EQ(m.desk().player.score - before, 100);
     m.tell(EventKind::Entered, m.inlane);
-    before = m.desk().score;
+    before = m.desk().player.score;
     m.tell(EventKind::Spun, m.spinner);
-    EXPECT_EQ(m.desk().score - before, 500);
+    EXPECT_EQ(m.desk().player.score - before, 500);
     m.wait(10.1f);
-    before = m.desk().score;
+    before = m.desk().player.score;
     m.tell(EventKind::Spun, m.spinner);
-    EXPECT_EQ(m.desk().score - before, 100);
+    EXPECT_EQ(m.desk().player.score - before, 100);
 }
 
 TEST(Rules, TheBashTargetPaysByHowHardItWasHit)
@@ -365,9 +371,9 @@ TEST(Rules, TheBashTargetPaysByHowHardItWasHit)
     for (const auto& [impulse, points] : {std::pair{0.03f, 1000}, {0.07f, 2000}, {0.2f, 3000}})
     {
         m.wait(5); // no combo
-        const std::int64_t before = m.desk().score;
+        const std::int64_t before = m.desk().player.score;
         m.tell(EventKind::Hit, m.bash, impulse);
-        EXPECT_EQ(m.desk().score - before, points);
+        EXPECT_EQ(m.desk().player.score - before, points);
     }
 }
 
@@ -383,7 +389,7 @@ TEST(Rules, TheSkillShotPaysOnlyAsTheFirstThing)
     EXPECT_EQ(m.desk().flashing, lane) << "rollovers on the way do not end it";
     m.tell(EventKind::Entered, lane);
     EXPECT_TRUE(m.announced(EventKind::SkillShot));
-    EXPECT_EQ(m.desk().score, 25'000 + 250 + 100);
+    EXPECT_EQ(m.desk().player.score, 25'000 + 250 + 100);
     EXPECT_EQ(m.desk().flashing, none);
 
     Machine other;
@@ -401,14 +407,21 @@ TEST(Rules, CombosPayForDifferentShotsInTime)
     m.start();
     m.use_up_save();
     m.tell(EventKind::Entered, m.orbit);
+    m.tell(EventKind::Hit, m.bash, 0.02f);
+    EXPECT_FALSE(m.announced(EventKind::Combo)) << "no flipper made these";
+    m.flip();
+    m.tell(EventKind::Entered, m.orbit);
     m.wait(1);
+    m.flip();
     m.tell(EventKind::Entered, m.orbit);
     EXPECT_FALSE(m.announced(EventKind::Combo)) << "the same one again";
-    std::int64_t before = m.desk().score;
+    m.flip();
+    std::int64_t before = m.desk().player.score;
     m.tell(EventKind::Hit, m.bash, 0.02f);
     EXPECT_TRUE(m.announced(EventKind::Combo));
-    EXPECT_EQ(m.desk().score - before, 1000 + 2 * 1000);
+    EXPECT_EQ(m.desk().player.score - before, 1000 + 2 * 1000);
     m.wait(5);
+    m.flip();
     m.tell(EventKind::Entered, m.orbit);
     EXPECT_FALSE(m.announced(EventKind::Combo)) << "too late";
 }
@@ -419,10 +432,10 @@ void start_multiball(Machine& m)
     {
         for (int hit = 0; hit < 3; ++hit)
         {
-            EXPECT_FALSE(m.desk().lock_is_lit);
+            EXPECT_FALSE(m.desk().player.lock_is_lit);
             m.tell(EventKind::Hit, m.bash, 0.02f);
         }
-        EXPECT_TRUE(m.desk().lock_is_lit);
+        EXPECT_TRUE(m.desk().player.lock_is_lit);
         EXPECT_FALSE(m.desk().multiball);
         m.tell(EventKind::Captured, m.saucer);
     }
@@ -446,16 +459,16 @@ TEST(Rules, InMultiballJackpotsPayInTurnAndEveryBallIsSavedForAWhile)
     m.start();
     m.use_up_save();
     start_multiball(m);
-    std::int64_t before = m.desk().score;
+    std::int64_t before = m.desk().player.score;
     m.step({{.kind = EventKind::Entered, .element = m.orbit}}, 3);
-    EXPECT_LT(m.desk().score - before, 20'000) << "it is the other one's turn";
-    before = m.desk().score;
+    EXPECT_LT(m.desk().player.score - before, 20'000) << "it is the other one's turn";
+    before = m.desk().player.score;
     m.step({{.kind = EventKind::Hit, .element = m.bash, .impulse = 0.02f}}, 3);
-    EXPECT_GE(m.desk().score - before, 20'000);
+    EXPECT_GE(m.desk().player.score - before, 20'000);
     EXPECT_TRUE(m.announced(EventKind::Jackpot));
-    before = m.desk().score;
+    before = m.desk().player.score;
     m.step({{.kind = EventKind::Entered, .element = m.orbit}}, 3);
-    EXPECT_GE(m.desk().score - before, 20'000);
+    EXPECT_GE(m.desk().player.score - before, 20'000);
     const int served = m.served;
     m.drain_ball(2);
     EXPECT_EQ(m.served, served + 1);
@@ -518,16 +531,16 @@ TEST(Tilt, WarnsTwiceThenEndsTheBallWithoutItsBonus)
     EXPECT_TRUE(shake());
     EXPECT_TRUE(m.desk().tilted);
     EXPECT_TRUE(m.ordered(m.kicker, Command::Disable));
-    const std::int64_t score = m.desk().score;
+    const std::int64_t score = m.desk().player.score;
     m.tell(EventKind::Entered, m.orbit);
     m.tell(EventKind::Fired, m.bumper);
-    EXPECT_EQ(m.desk().score, score) << "a tilted machine counts nothing";
+    EXPECT_EQ(m.desk().player.score, score) << "a tilted machine counts nothing";
     m.orders.clear();
     m.drain_ball();
     EXPECT_EQ(m.desk().phase, Phase::Bonus);
     m.wait(3, 0);
-    EXPECT_EQ(m.desk().score, score) << "nor the bonus";
-    EXPECT_EQ(m.desk().ball, 2);
+    EXPECT_EQ(m.desk().player.score, score) << "nor the bonus";
+    EXPECT_EQ(m.desk().player.ball, 2);
     EXPECT_FALSE(m.desk().tilted);
     EXPECT_TRUE(m.ordered(m.kicker, Command::Enable));
     EXPECT_EQ(m.served, 2);
@@ -583,7 +596,7 @@ TEST(BallSearch, FiresTheCoilsWhenNoSwitchClosesAndGivesUpAtLast)
     EXPECT_TRUE(m.ordered(m.bumper, Command::Pulse)) << "again";
     m.wait(8);
     EXPECT_TRUE(m.desk().recalls) << "the ball is written off";
-    EXPECT_EQ(m.desk().ball, 1) << "and the game goes on";
+    EXPECT_EQ(m.desk().player.ball, 1) << "and the game goes on";
 }
 
 TEST(BallSearch, LeavesABallAloneThatIsWhereItBelongs)
@@ -600,6 +613,175 @@ TEST(BallSearch, LeavesABallAloneThatIsWhereItBelongs)
     m.tell(EventKind::Entered, m.orbit);
     m.wait(5);
     EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse)) << "a switch closed meanwhile";
+}
+
+/// Plays the ball out, with the points that its orbit was made, and waits for the next one.
+void play_ball(Machine& m, int orbits)
+{
+    m.tell(EventKind::Entered, m.inlane);
+    for (int i = 0; i < orbits; ++i)
+        m.tell(EventKind::Entered, m.inlane);
+    m.drain_ball();
+    m.wait(0.1f, 0);
+    m.wait(3, 0);
+}
+
+struct WithoutSave : Machine
+{
+    WithoutSave() { rebuild({}); }
+    void rebuild(const RuleOptions& options)
+    {
+        table.rules.ball_save.reset();
+        book = RuleBook(table, options);
+        step({}, 0);
+    }
+};
+
+void press_start(Machine& m) { m.step({}, 1, {.start = true}); }
+
+TEST(Players, TakeTurnsAndKeepTheirOwnScores)
+{
+    WithoutSave m;
+    m.start();
+    press_start(m);
+    press_start(m);
+    EXPECT_EQ(m.desk().players, 3);
+    std::vector<int> turns;
+    for (int ball = 1; ball <= 3; ++ball)
+        for (int player = 0; player < 3; ++player)
+        {
+            turns.push_back(m.desk().player_up);
+            EXPECT_EQ(m.desk().player.ball, ball);
+            play_ball(m, player);
+        }
+    EXPECT_EQ(turns, (std::vector<int>{0, 1, 2, 0, 1, 2, 0, 1, 2}));
+    EXPECT_EQ(m.desk().phase, Phase::GameOver);
+    // A switch pays 100 and 10 of bonus; each ball has one more than the player's number.
+    for (int player = 0; player < 3; ++player)
+        EXPECT_EQ(m.book.score(player), 3 * (player + 1) * 110);
+}
+
+TEST(Players, JoinDuringTheFirstBallOnly)
+{
+    WithoutSave m;
+    m.start();
+    play_ball(m, 0);
+    press_start(m);
+    EXPECT_EQ(m.desk().players, 1);
+    WithoutSave n;
+    n.start();
+    for (int i = 0; i < 6; ++i)
+        press_start(n);
+    EXPECT_EQ(n.desk().players, 4) << "no more than four";
+}
+
+TEST(Players, FindTheTableAsTheyLeftIt)
+{
+    WithoutSave m;
+    m.start();
+    press_start(m);
+    m.tell(EventKind::Fell, m.bank[0]);
+    m.tell(EventKind::Entered, m.lanes[1]);
+    m.tell(EventKind::Fired, m.kicker);
+    m.orders.clear();
+    m.drain_ball();
+    m.wait(3, 0);
+    ASSERT_EQ(m.desk().player_up, 1);
+    EXPECT_TRUE(m.ordered(m.bank[0], Command::Raise)) << "a new player's targets stand";
+    EXPECT_TRUE(m.ordered(m.kicker, Command::Light));
+    EXPECT_EQ(m.desk().player.lamps[m.lanes[1]], LampState::Off);
+    m.orders.clear();
+    play_ball(m, 0);
+    ASSERT_EQ(m.desk().player_up, 0);
+    EXPECT_TRUE(m.ordered(m.bank[0], Command::Drop));
+    EXPECT_TRUE(m.ordered(m.bank[1], Command::Raise));
+    EXPECT_TRUE(m.ordered(m.kicker, Command::Unlight));
+    EXPECT_EQ(m.desk().player.lamps[m.lanes[1]], LampState::On);
+}
+
+TEST(ExtraBall, IsLitByTheGroupWonByTheShotAndPlayedNext)
+{
+    WithoutSave m;
+    m.table.rules.extra_ball = ExtraBallRule{.group = 1, .completions = 2, .shot = m.orbit, .per_game = 1};
+    m.rebuild({});
+    m.start();
+    press_start(m);
+    m.tell(EventKind::Entered, m.orbit);
+    const auto complete = [&]
+    {
+        m.tell(EventKind::Fell, m.bank[0]);
+        m.tell(EventKind::Fell, m.bank[1]);
+        m.wait(1.5f);
+    };
+    complete();
+    EXPECT_FALSE(m.desk().player.extra_ball_is_lit);
+    complete();
+    EXPECT_TRUE(m.desk().player.extra_ball_is_lit);
+    m.tell(EventKind::Entered, m.orbit);
+    EXPECT_TRUE(m.announced(EventKind::ExtraBall));
+    EXPECT_EQ(m.desk().player.extra_balls, 1);
+    m.drain_ball();
+    m.wait(3, 0);
+    EXPECT_EQ(m.desk().player_up, 0) << "the same player shoots again";
+    EXPECT_EQ(m.desk().player.ball, 1);
+    EXPECT_EQ(m.desk().player.extra_balls, 0);
+    complete();
+    complete();
+    EXPECT_FALSE(m.desk().player.extra_ball_is_lit) << "one a game";
+    play_ball(m, 0);
+    EXPECT_EQ(m.desk().player_up, 1);
+}
+
+TEST(Replay, IsWonOnceAGame)
+{
+    for (const bool ball : {false, true})
+    {
+        WithoutSave m;
+        m.table.rules.replay = ReplayRule{.score = 300, .wins_a_ball = ball};
+        m.rebuild({});
+        m.start();
+        m.tell(EventKind::Entered, m.inlane);
+        m.tell(EventKind::Entered, m.inlane);
+        EXPECT_FALSE(m.announced(EventKind::Replay));
+        m.tell(EventKind::Entered, m.inlane);
+        EXPECT_TRUE(m.announced(EventKind::Replay));
+        m.tell(EventKind::Entered, m.inlane);
+        EXPECT_FALSE(m.announced(EventKind::Replay));
+        EXPECT_EQ(m.desk().credits, ball ? 0 : 1);
+        EXPECT_EQ(m.desk().player.extra_balls, ball ? 1 : 0);
+    }
+}
+
+TEST(Match, DrawsANumberAndGivesAGameToWhoEndsInIt)
+{
+    int won = 0;
+    std::set<int> drawn;
+    for (std::uint64_t seed = 0; seed < 40; ++seed)
+    {
+        WithoutSave m;
+        m.table.rules.match = true;
+        m.table.rules.balls = 1;
+        m.rebuild({.seed = seed});
+        m.start();
+        m.tell(EventKind::Entered, m.inlane);
+        m.drain_ball();
+        m.wait(1, 0);
+        EXPECT_EQ(m.desk().phase, Phase::Match);
+        int number = -1;
+        for (int i = 0; i < 4000 && m.desk().phase == Phase::Match; ++i)
+        {
+            m.step({}, 0);
+            for (const GameEvent& event : m.book.announced())
+                if (event.kind == EventKind::Match)
+                    number = event.value;
+        }
+        EXPECT_EQ(m.desk().phase, Phase::GameOver);
+        drawn.insert(number);
+        EXPECT_EQ(m.desk().credits, number == 10 ? 1 : 0) << "the score is 110";
+        won += m.desk().credits;
+    }
+    EXPECT_GE(drawn.size(), 8u);
+    EXPECT_GE(won, 1);
 }
 
 } // namespace
