@@ -32,6 +32,7 @@ struct Session
                                                     .ball_save = options.ball_save,
                                                     .kickback = options.kickback,
                                                     .ball_search = options.ball_search,
+                                                    .credits = options.credits,
                                                     .balls_at_once = options.balls_at_once}),
           auto_plunger(table.physics.step)
     {}

@@ -1,5 +1,6 @@
 #include "pinball/headless/headless.h"
 
+#include "pinball/headless/games.h"
 #include "pinball/headless/run.h"
 #include "pinball/table/loader.h"
 
@@ -75,6 +76,10 @@ bool can_write(const std::string& file)
 int run_headless(const HeadlessOptions& options)
 {
     const std::string file = options.table.empty() ? CAROM_TABLES_DIR "/momentum.table.json" : options.table;
+    if (!options.watch.empty())
+        return watch_game(options.watch);
+    if (!options.record.empty())
+        return record_game(file, options.seed, options.record);
     const std::optional<Table> table = load(file);
     if (!table || !can_write(options.stats))
         return 1;
@@ -100,6 +105,10 @@ int headless_command(int argc, char** argv)
     app.add_option("--balls", options.balls, "to serve, saved ones included")->check(CLI::Range(1, 10'000'000));
     app.add_option("--balls-at-once", options.balls_at_once, "kept in play, whatever the table's rules")->check(CLI::Range(1, 8));
     app.add_option("--stats", options.stats, "JSON file for the numbers");
+    auto* record = app.add_option("--record", options.record, "play one game and write it to this file, by its inputs");
+    app.add_option("--watch", options.watch, "play this recorded game again and say whether it comes out the same")
+        ->check(CLI::ExistingFile)
+        ->excludes(record);
     app.add_option("--table", options.table, "table file")->check(CLI::ExistingFile);
     CLI11_PARSE(app, argc, argv);
     return run_headless(options);

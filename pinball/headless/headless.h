@@ -16,6 +16,8 @@ struct HeadlessOptions
     int balls = 100;       ///< served ones, saved ones included
     int balls_at_once = 1; ///< kept in play
     std::string stats{};   ///< file for the numbers; empty: the standard output
+    std::string record{};  ///< file: one game is played and recorded there, instead
+    std::string watch{};   ///< file: this recorded game is played again, instead
 };
 
 /// Plays and writes the numbers; interrupted, it writes those of the finished balls. The exit code of a program: 0, 1 where

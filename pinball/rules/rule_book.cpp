@@ -19,6 +19,7 @@ std::string two_digits(int number) { return {static_cast<char>('0' + number / 10
 RuleBook::RuleBook(const Table& table, const RuleOptions& options)
     : m_table(&table), m_options(options), m_desk(table, options.seed)
 {
+    m_desk.credits = options.credits;
     m_seats.push_back(new_seat());
     m_desk.order_all(Command::Disable);
 }

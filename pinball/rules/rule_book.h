@@ -24,6 +24,7 @@ struct RuleOptions
     bool ball_save = true;
     bool kickback = true;
     bool ball_search = true;
+    int credits = 0;       ///< games won before
     int balls_at_once = 1; ///< kept in play whatever the table's rules
 };
 
