@@ -30,6 +30,7 @@ struct Buttons
     bool nudge_left = false;  ///< a hand on the left side: the cabinet moves to the right
     bool nudge_right = false; ///< a hand on the right side: it moves to the left
     bool nudge_up = false;    ///< a hand at the front: it moves up the table
+    std::uint8_t rod = 0;     ///< how far a hand holds the plunger's rod back, in 255ths of its stroke
 };
 
 /// The buttons from a time of the step on, until the next change.

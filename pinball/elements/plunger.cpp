@@ -1,5 +1,5 @@
-// The plunger: a rod on a slider with a true spring. The key pulls it back at a steady speed, as a force law of the rod; let go, the
-// spring throws it forward to its stop, and the ball with it.
+// The plunger: a rod on a slider with a true spring. A hand pulls it back, as a force law of the rod: a key at a steady speed, a stick to
+// where it is held. The hand pulls and never pushes: let go, the spring throws the rod forward to its stop, and the ball with it.
 
 #include "pinball/elements/make.h"
 #include "pinball/elements/playfield.h"
@@ -18,6 +18,7 @@ constexpr float stop_restitution = 0.2f;
 // How fast the hand takes up a wrong speed, and how it eases the rod to the end of its stroke.
 constexpr float grip_time = 0.001f; // s
 constexpr float ease_time = 0.005f; // s
+constexpr float fastest_hand = 1;   // m/s
 
 class PlungerDevice final : public Device
 {
@@ -64,11 +65,13 @@ public:
 private:
     void turn_key(Playfield& field, const ButtonChange& change)
     {
-        const bool pull = change.buttons.plunger;
+        const bool pull = is_held(change.buttons);
+        if (pull != state.down || change.buttons.rod != m_rod)
+            field.scene().body(state.body).set_awake(true);
+        m_rod = change.buttons.rod;
         if (pull == state.down)
             return;
         state.down = pull;
-        field.scene().body(state.body).set_awake(true);
         const float travel = std::clamp(state.travel + static_cast<float>(change.time) * state.speed, 0.0f, m_def.stroke);
         if (pull)
             field.emit({.kind = EventKind::PlungerPulled, .element = index(), .point = m_def.pos});
@@ -83,10 +86,15 @@ private:
     static Load law(void* user, const BodyMotion& motion)
     {
         const auto& plunger = *static_cast<PlungerDevice*>(user);
+        const Buttons& buttons = plunger.m_field.buttons_at(motion.time);
+        if (buttons.rod > 0)
+            return {.force = plunger.hold(motion, buttons.rod) * plunger.m_def.axis};
         const float held = plunger.share_held(motion.time, static_cast<double>(motion.h));
         const float force = held > 0 ? held * plunger.pull(motion) : plunger.scatter(motion);
         return {.force = force * plunger.m_def.axis};
     }
+
+    [[nodiscard]] static bool is_held(const Buttons& buttons) { return buttons.plunger || buttons.rod > 0; }
 
     [[nodiscard]] float share_held(double begin, double h) const
     {
@@ -109,11 +117,23 @@ private:
         return (m_luck * m_luck - 1) * m_def.k * std::max(0.0f, travel(motion));
     }
 
-    // Along the axis: against spring and slope, and what brings the rod to the wanted speed; a hand is only so strong.
+    // A key's hand, which goes back at its speed up to the end of the stroke.
     [[nodiscard]] float pull(const BodyMotion& motion) const
     {
+        return bring_to(motion, -std::min(m_def.pull_speed, (m_def.stroke - travel(motion)) / ease_time));
+    }
+
+    // A stick's hand, which holds the rod where the stick is.
+    [[nodiscard]] float hold(const BodyMotion& motion, std::uint8_t rod) const
+    {
+        const float behind = m_def.stroke * static_cast<float>(rod) / 255 - travel(motion);
+        return std::min(0.0f, bring_to(motion, std::max(-behind / ease_time, -fastest_hand)));
+    }
+
+    // Along the axis: against spring and slope, and what brings the rod to the wanted speed; a hand is only so strong.
+    [[nodiscard]] float bring_to(const BodyMotion& motion, float wanted) const
+    {
         const float pulled = travel(motion);
-        const float wanted = -std::min(m_def.pull_speed, (m_def.stroke - pulled) / ease_time);
         const float push = m_def.preload + m_def.k * pulled - m_def.c * wanted + m_def.mass * dot(m_slope, m_def.axis);
         const float lacking = wanted - dot(motion.velocity, m_def.axis);
         return std::clamp(m_def.mass / grip_time * lacking - push, -m_strength, m_strength);
@@ -124,7 +144,8 @@ private:
     JointId m_slider{};
     Vec2 m_slope{};       ///< acceleration down the table, m/s²
     float m_strength = 0; ///< N
-    float m_luck = 1;     ///< of this stroke: its speed over that of the spring alone
+    std::uint8_t m_rod = 0;
+    float m_luck = 1; ///< of this stroke: its speed over that of the spring alone
 };
 
 } // namespace

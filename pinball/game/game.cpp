@@ -106,7 +106,8 @@ void Game::State::step(std::span<const InputChange> changes)
                        .plunger = input.plunger || pull,
                        .nudge_left = input.nudge_left,
                        .nudge_right = input.nudge_right,
-                       .nudge_up = input.nudge_up};
+                       .nudge_up = input.nudge_up,
+                       .rod = input.rod};
     };
     std::vector<ButtonChange> button_changes;
     if (changes.empty() || changes.front().time > 0)
@@ -325,6 +326,7 @@ std::uint64_t Game::state_hash() const
     for (const bool held :
          {s.held.left, s.held.right, s.held.plunger, s.held.start, s.held.nudge_left, s.held.nudge_right, s.held.nudge_up})
         hash.add(held);
+    hash.add(int{s.held.rod});
     return hash.value();
 }
 

@@ -30,6 +30,7 @@ struct Input
     bool nudge_left = false;  ///< pressed: a slap on the left side; the cabinet moves to the right
     bool nudge_right = false; ///< pressed: a slap on the right side
     bool nudge_up = false;    ///< pressed: a push at the front, up the table
+    std::uint8_t rod = 0;     ///< how far a hand holds the rod back, in 255ths of its stroke: a stick's plunger
 
     friend bool operator==(Input, Input) = default;
 };

@@ -1,6 +1,6 @@
 #include "pinball/player/app.h"
 
-#include "pinball/player/keys.h"
+#include "pinball/player/controls_panel.h"
 #include "pinball/player/palette.h"
 #include "pinball/player/sounds.h"
 #include "pinball/player/stage.h"
@@ -10,9 +10,11 @@
 #include <SDL_timer.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -21,13 +23,15 @@ namespace carom::pinball {
 namespace {
 
 constexpr double slow_motion = 0.02;
+constexpr double slowest_watched = 1.0 / 16;
+constexpr double fastest_watched = 16;
 constexpr double table_poll_ms = 400;
 
 class App
 {
 public:
     explicit App(const PlayerOptions& options)
-        : m_options(options), m_machine(options.table_file(), options.seed, options.autoplay, true),
+        : m_options(options), m_machine(options.table_file(), options.seed.value_or(seed_of_now()), options.autoplay, true),
           m_window({.title = title(),
                     .width = options.width,
                     .height = options.height,
@@ -38,6 +42,9 @@ public:
         m_sounds.sink().set_muted(options.mute);
         set_xray(options.xray);
         m_clock.skip_to(now_ms());
+        if (!options.watch.empty())
+            if (const std::string trouble = m_machine.watch(options.watch); !trouble.empty())
+                throw std::runtime_error(trouble);
         if (options.tour)
             begin_tour();
     }
@@ -56,6 +63,11 @@ public:
     }
 
 private:
+    static std::uint64_t seed_of_now()
+    {
+        return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+    }
+
     // SDL stamps events with the same clock, in whole milliseconds.
     static double now_ms() { return static_cast<double>(SDL_GetTicks64()); }
 
@@ -118,21 +130,32 @@ private:
             SDL_GameControllerOpen(event.cdevice.which);
         if (m_xray)
             select(event);
+        if (m_controls.handle(event, m_machine.controls))
+            return;
         if (m_machine.name_entry().active() && write_name(event))
             return;
-        if (const auto press = button_of(event))
-            m_buttons.push(static_cast<double>(event.common.timestamp), press->button, press->down, press->source);
-        if (m_asking && event.type == SDL_KEYDOWN && event.key.repeat == 0)
-            return answer(wish_of(event));
-        if (const auto wish = wish_of(event); wish && !m_window.wants_keyboard())
+        press(event);
+        const auto wish = m_machine.controls.wish_of(event);
+        if (m_asking && Controls::pressed(event))
+            return answer(wish);
+        if (wish && !m_window.wants_keyboard())
             obey(*wish);
     }
 
-    [[nodiscard]] bool is_in_game() const
+    void press(const SDL_Event& event)
     {
-        const Phase phase = m_machine.game().phase();
-        return phase != Phase::Attract && phase != Phase::GameOver && !m_options.autoplay;
+        const auto time = static_cast<double>(event.common.timestamp);
+        for (const ButtonPress& press : m_machine.controls.buttons_of(event))
+        {
+            m_buttons.push(time, press.button, press.down, press.source);
+            if (press.button == Button::Start && press.down && m_machine.is_watching())
+                m_machine.stop_watching();
+        }
+        if (const auto rod = Controls::rod_of(event))
+            m_buttons.hold_rod(time, *rod);
     }
+
+    [[nodiscard]] bool is_in_game() const { return !m_machine.is_idle() && !m_options.autoplay && !m_machine.is_watching(); }
 
     void lose_focus()
     {
@@ -197,8 +220,13 @@ private:
         case Wish::Louder: sink.set_volume(std::min(1.0f, sink.volume() + 0.1f)); break;
         case Wish::Xray: set_xray(!m_xray); break;
         case Wish::Tour: begin_tour(); break;
+        case Wish::Watch: watch(); break;
+        case Wish::Slower: change_speed(0.5); break;
+        case Wish::Faster: change_speed(2); break;
+        case Wish::Controls: m_controls.toggle(); break;
+        case Wish::Grid: m_stage.grid = !m_stage.grid; break;
         case Wish::Fullscreen: m_window.toggle_fullscreen(); break;
-        case Wish::Quit: is_in_game() ? ask(wish) : m_window.request_quit(); break;
+        case Wish::Quit: quit(); break;
         default:
             if (m_xray)
                 obey_xray(wish);
@@ -223,6 +251,31 @@ private:
             m_machine.look_into_step();
     }
 
+    // One thing after the other: what was opened last is closed first.
+    void quit()
+    {
+        if (m_machine.is_watching())
+            return watch();
+        is_in_game() ? ask(Wish::Quit) : m_window.request_quit();
+    }
+
+    void watch()
+    {
+        m_speed = 1;
+        m_paused = false;
+        m_trouble.clear();
+        if (m_machine.is_watching())
+            m_machine.stop_watching();
+        else if (!is_in_game())
+            m_trouble = m_machine.watch_last();
+    }
+
+    void change_speed(double factor)
+    {
+        if (m_machine.is_watching())
+            m_speed = std::clamp(m_speed * factor, slowest_watched, fastest_watched);
+    }
+
     void restart()
     {
         m_machine.restart();
@@ -237,7 +290,7 @@ private:
     {
         m_xray = on;
         m_machine.record_substeps(on);
-        if (!on)
+        if (!on && m_speed < 1 && !m_machine.is_watching())
             m_speed = 1;
     }
 
@@ -288,7 +341,9 @@ private:
                                .speed = m_speed,
                                .muted = sink.is_muted(),
                                .volume = sink.volume(),
-                               .why_mute = sink.why_mute()}});
+                               .why_mute = sink.why_mute(),
+                               .trouble = m_trouble}});
+        m_controls.draw(m_window, m_machine.controls);
     }
 
     [[nodiscard]] int save_picture() const
@@ -314,6 +369,8 @@ private:
     bool m_was_paused = false;
     std::optional<Wish> m_asking{};
     double m_speed = 1;
+    ControlsPanel m_controls{};
+    std::string m_trouble{}; ///< why a wish could not be granted
     double m_next_poll = 0;
     std::optional<tour::Tour> m_tour{};
     bool m_touring = false;

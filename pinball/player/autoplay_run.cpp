@@ -49,7 +49,7 @@ class AutoplayRun
 {
 public:
     explicit AutoplayRun(const PlayerOptions& options)
-        : m_options(options), m_machine(options.table_file(), options.seed, true, false),
+        : m_options(options), m_seed(options.seed.value_or(1)), m_machine(options.table_file(), m_seed, true, false),
           m_step_s(static_cast<double>(m_machine.game().table().physics.step))
     {
         m_sounds.sink().set_muted(options.mute);
@@ -128,13 +128,14 @@ private:
     {
         const Game& game = m_machine.game();
         std::printf("%s, seed %llu: score %lld, ball %d of %d, %d served, %.1f s played\n", game.table().name.c_str(),
-                    static_cast<unsigned long long>(m_options.seed), static_cast<long long>(game.score()), game.ball_number(),
+                    static_cast<unsigned long long>(m_seed), static_cast<long long>(game.score()), game.ball_number(),
                     game.balls_per_game(), game.balls_served(), static_cast<double>(game.step_count()) * m_step_s);
         std::printf("steps of %.0f ms: mean %.1f us, longest %.0f us, %lld steps\n", m_step_s * 1000, m_machine.times().mean_us(),
                     m_machine.times().most_us(), static_cast<long long>(m_machine.times().count()));
     }
 
     PlayerOptions m_options;
+    std::uint64_t m_seed;
     Machine m_machine;
     double m_step_s;
     Sounds m_sounds{};

@@ -11,7 +11,7 @@ void ButtonTimeline::push(double time_ms, Button button, bool down, int source)
     { // a release that still waits comes before the key is down again
         for (Change& waiting : m_waiting)
         {
-            if (waiting.button == button && waiting.source == source && !waiting.down)
+            if (waiting.rod < 0 && waiting.button == button && waiting.source == source && !waiting.down)
                 waiting.time_ms = std::min(waiting.time_ms, time_ms);
         }
         std::ranges::stable_sort(m_waiting, {}, &Change::time_ms);
@@ -19,6 +19,8 @@ void ButtonTimeline::push(double time_ms, Button button, bool down, int source)
     }
     insert({down ? time_ms : std::max(time_ms, pressed_at + shortest_press_ms), button, down, source});
 }
+
+void ButtonTimeline::hold_rod(double time_ms, std::uint8_t rod) { insert({.time_ms = time_ms, .rod = rod}); }
 
 // After all that come no later.
 void ButtonTimeline::insert(const Change& change)
@@ -30,10 +32,16 @@ void ButtonTimeline::release_all()
 {
     m_waiting.clear();
     m_sources.fill(0);
+    m_rod = 0;
 }
 
 void ButtonTimeline::apply(const Change& change)
 {
+    if (change.rod >= 0)
+    {
+        m_rod = static_cast<std::uint8_t>(change.rod);
+        return;
+    }
     const auto index = static_cast<std::size_t>(change.button);
     const std::uint32_t bit = 1u << change.source;
     if (change.down)
@@ -57,8 +65,14 @@ Input ButtonTimeline::advance_to(double time_ms)
         const auto index = static_cast<std::size_t>(button);
         return m_sources[index] != 0 || m_pressed_now[index];
     };
-    return {
-        .left = held(Button::Left), .right = held(Button::Right), .plunger = held(Button::Plunger), .start = held(Button::Start)};
+    return {.left = held(Button::Left),
+            .right = held(Button::Right),
+            .plunger = held(Button::Plunger),
+            .start = held(Button::Start),
+            .nudge_left = held(Button::NudgeLeft),
+            .nudge_right = held(Button::NudgeRight),
+            .nudge_up = held(Button::NudgeUp),
+            .rod = m_rod};
 }
 
 } // namespace carom::pinball

@@ -3,7 +3,10 @@
 #include "pinball/table/loader.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace carom::pinball {
 
@@ -19,6 +22,15 @@ Table load_or_throw(const std::string& file)
         text += "\n  " + to_string(error);
     throw std::runtime_error(text);
 }
+
+std::string text_of(const std::filesystem::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    return {(std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>()};
+}
+
+// Shorter ones are none that anybody wants to see again.
+constexpr double shortest_kept_game = 5; // s
 
 // Shapes carry the index of their element plus one, balls the highest bit (Playfield).
 std::string name_of(const Table& table, std::uint64_t tag)
@@ -36,11 +48,15 @@ std::string name_of(const Table& table, std::uint64_t tag)
 
 Machine::Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores)
     : impacts([this](const Scene& scene, ShapeId shape) { return name_of(m_game.table(), scene.shape(shape).user_data()); }),
-      m_watch(file), m_seed(seed), m_autoplay(autoplay), m_game(load_or_throw(file), {.seed = seed}), m_effects(m_game.table()),
-      m_art(m_game.table())
+      m_watch(file), m_table_text(text_of(file)), m_seeds(seed), m_seed(seed), m_autoplay(autoplay),
+      m_game(load_or_throw(file), {.seed = seed}), m_effects(m_game.table()), m_art(m_game.table())
 {
     if (keep_scores)
+    {
         m_score_file = HighScoreFile::of_user();
+        m_game_files = GameFiles::of_user();
+        m_score_trouble = controls.load(Controls::file_of_user());
+    }
     load_scores();
     if (m_autoplay)
         m_player.emplace(m_game.table(), m_seed);
@@ -57,7 +73,11 @@ void Machine::load_scores()
         m_game.set_high_scores(m_score_file->load(m_game.table().name));
 }
 
-Machine::~Machine() { keep_scores(); }
+Machine::~Machine()
+{
+    end_game();
+    keep_scores();
+}
 
 void Machine::keep_score(int rank)
 {
@@ -89,6 +109,8 @@ void Machine::ask_for_name()
 
 void Machine::step(Input input)
 {
+    if (m_playback)
+        return step_watched();
     if (m_player)
         input = m_player->play(m_game);
     if (m_name_entry.step(input))
@@ -96,8 +118,17 @@ void Machine::step(Input input)
         m_game.rename_score(m_name_entry.rank(), m_name_entry.name());
         keep_score(m_name_entry.rank());
     }
-    m_times.measure([&] { m_game.step(m_name_entry.leaves_over(input)); });
+    input = m_name_entry.leaves_over(input);
+    if (input.start && !m_start_was_down && is_idle())
+        begin_game();
+    m_start_was_down = input.start;
+    if (m_recorder)
+        m_recorder->note(input);
+    m_times.measure([&] { m_game.step(input); });
     for (const GameEvent& event : m_game.events())
+    {
+        if (event.kind == EventKind::GameEnded)
+            end_game();
         if (event.kind == EventKind::HighScore)
         {
             if (m_player)
@@ -105,38 +136,123 @@ void Machine::step(Input input)
             else
                 m_unnamed.push_back(event);
         }
+    }
     ask_for_name();
     m_effects.observe(m_game);
     impacts.observe(m_game.scene());
 }
 
-void Machine::begin(Table table)
+void Machine::put(Game game)
 {
-    keep_scores();
-    const HighScores scores = m_game.high_scores();
-    const bool same = table.name == m_game.table().name;
-    m_game = Game(std::move(table), {.seed = m_seed});
-    if (same)
-        m_game.set_high_scores(scores);
-    else
-        load_scores();
+    HighScores scores = m_game.high_scores();
+    m_game = std::move(game);
+    m_game.set_high_scores(std::move(scores));
     m_effects = Effects(m_game.table());
     m_art = TableArt(m_game.table());
-    if (m_autoplay)
-        m_player.emplace(m_game.table(), m_seed);
     impacts.clear();
     scrubber.clear();
     selected = {};
     m_game.record_substeps(m_record);
 }
 
-void Machine::restart()
+// The first one is played with the seed of the program's command line.
+void Machine::begin_game()
 {
+    end_game();
+    Options options{.seed = m_seed, .credits = m_game.credits()};
+    m_seed = m_seeds.bits();
+    m_recorder.emplace(m_table_text, options);
+    put(Game(m_game.table(), options));
+}
+
+void Machine::end_game()
+{
+    if (!m_recorder)
+        return;
+    m_last_game = std::exchange(m_recorder, std::nullopt)->recording(m_game);
+    const double played = static_cast<double>(m_last_game->steps) * static_cast<double>(m_game.table().physics.step);
+    if (m_game_files && !m_player && played >= shortest_kept_game)
+        if (std::string trouble = m_game_files->add(*m_last_game); !trouble.empty())
+            m_score_trouble = std::move(trouble);
+}
+
+std::string Machine::watch(const std::filesystem::path& file)
+{
+    LoadedRecording loaded = load_recording(file);
+    if (!loaded.recording)
+        return loaded.trouble;
+    m_last_game = std::move(loaded.recording);
+    return watch_last();
+}
+
+std::string Machine::watch_last()
+try
+{
+    if (!m_last_game)
+    {
+        const auto file = m_game_files ? m_game_files->newest() : std::nullopt;
+        return file ? watch(*file) : "no game has been recorded yet";
+    }
+    Playback playback(*m_last_game);
+    stop_watching();
+    end_game();
     keep_scores();
-    m_game.restart();
-    m_effects = Effects(m_game.table());
+    HighScores scores = m_game.high_scores();
+    m_own_game = std::exchange(m_game, playback.new_game());
+    m_game.set_high_scores(std::move(scores));
+    put(playback.new_game());
+    m_playback = std::move(playback);
+    return {};
+}
+catch (const std::exception& error)
+{
+    return error.what();
+}
+
+void Machine::stop_watching()
+{
+    if (!m_playback)
+        return;
+    m_playback.reset();
+    const HighScores scores = m_own_game->high_scores();
+    put(std::move(*m_own_game));
+    m_own_game.reset();
+    m_game.set_high_scores(scores);
+}
+
+void Machine::step_watched()
+{
+    if (m_playback->is_over())
+        return;
+    m_game.step(m_playback->next());
+    m_came_out_the_same = m_playback->is_over() && m_playback->came_out_the_same(m_game);
+    m_effects.observe(m_game);
+    impacts.observe(m_game.scene());
+}
+
+void Machine::begin(Table table)
+{
+    stop_watching();
+    m_recorder.reset(); // half of it was another table
+    keep_scores();
+    const bool same = table.name == m_game.table().name;
+    m_table_text = text_of(m_watch.file());
+    put(Game(std::move(table), {.seed = m_seed}));
+    if (!same)
+        load_scores();
     if (m_autoplay)
         m_player.emplace(m_game.table(), m_seed);
+}
+
+void Machine::restart()
+{
+    stop_watching();
+    end_game();
+    keep_scores();
+    m_game.restart();
+    if (m_autoplay)
+        m_player.emplace(m_game.table(), m_seed);
+    m_effects = Effects(m_game.table());
     impacts.clear();
     scrubber.clear();
     selected = {};

@@ -5,12 +5,15 @@
 
 #include "pinball/autoplay/reflex.h"
 #include "pinball/game/game.h"
+#include "pinball/player/controls.h"
 #include "pinball/player/effects.h"
+#include "pinball/player/game_files.h"
 #include "pinball/player/high_score_file.h"
 #include "pinball/player/name_entry.h"
 #include "pinball/player/step_times.h"
 #include "pinball/player/table_art.h"
 #include "pinball/player/table_watch.h"
+#include "pinball/recording/recording.h"
 #include "view/impact_story.h"
 #include "view/substep_scrubber.h"
 
@@ -33,6 +36,18 @@ public:
 
     void step(Input input);
     void restart();
+    /// Plays a recorded game again instead of the player's; a sentence where that cannot be. What the buttons do then counts for nothing.
+    [[nodiscard]] std::string watch(const std::filesystem::path& file);
+    /// The game that was played last, of this run of the program or of one before.
+    [[nodiscard]] std::string watch_last();
+    /// Back to the player's own table.
+    void stop_watching();
+    [[nodiscard]] bool is_watching() const { return m_playback.has_value(); }
+    /// Of what is being watched: over, and whether it came out as it was recorded.
+    [[nodiscard]] bool has_watched() const { return m_playback && m_playback->is_over(); }
+    [[nodiscard]] bool came_out_the_same() const { return m_came_out_the_same; }
+    /// A game that nobody has played or that is over.
+    [[nodiscard]] bool is_idle() const { return m_game.phase() == Phase::Attract || m_game.phase() == Phase::GameOver; }
     /// From now on, or no longer, a program plays.
     void play_by_itself(bool on);
     /// Looks whether the table file has changed. A good one is played at once: true; a bad one leaves the old table.
@@ -54,6 +69,7 @@ public:
     void record_substeps(bool record);
     /// Fills the scrubber with the last step, where sub-steps are recorded.
     void look_into_step();
+    Controls controls{};
     view::SubstepScrubber scrubber{};
     view::ImpactWatch impacts;
     BodyId selected{}; ///< whose story the x-ray tells
@@ -62,6 +78,13 @@ public:
 
 private:
     void begin(Table table);
+    /// Puts another game in place of this one; what was seen of the old one is forgotten.
+    void put(Game game);
+    void step_watched();
+    /// A game of its own for each time somebody presses start, recorded from its first step.
+    void begin_game();
+    /// Keeps what has been recorded of it.
+    void end_game();
     void load_scores();
     /// Takes down the next name, where a score waits for one.
     void ask_for_name();
@@ -69,10 +92,19 @@ private:
     void keep_scores();
 
     TableWatch m_watch;
+    std::string m_table_text;
+    Random m_seeds;
     std::uint64_t m_seed;
     bool m_autoplay;
     bool m_record = false;
     std::optional<HighScoreFile> m_score_file{};
+    std::optional<GameFiles> m_game_files{};
+    std::optional<Recorder> m_recorder{};
+    std::optional<Recording> m_last_game{};
+    std::optional<Playback> m_playback{};
+    std::optional<Game> m_own_game{}; ///< waits while another one is watched
+    bool m_came_out_the_same = false;
+    bool m_start_was_down = false;
     Game m_game;
     Effects m_effects;
     TableArt m_art;

@@ -43,6 +43,7 @@ ParsedOptions parse_options(int argc, const char* const* argv)
     app.add_flag("--autoplay", options.autoplay, "the machine plays by itself");
     app.add_option("--seconds", options.seconds, "end after this time")->check(CLI::PositiveNumber);
     app.add_option("--screenshot", options.screenshot, "write this PNG file at the end");
+    app.add_option("--watch", options.watch, "watch this recorded game")->check(CLI::ExistingFile);
     app.add_flag("--xray", options.xray, "start under the x-ray");
     app.add_flag("--mute", options.mute, "start without sound");
     auto* tour = app.add_flag("--tour", options.tour, "start with the tour: how a 2D engine works, in eleven chapters");

@@ -11,12 +11,13 @@ namespace carom::pinball {
 
 struct PlayerOptions
 {
-    std::string table{}; ///< file; empty: the table that comes with the program
-    std::uint64_t seed = 1;
+    std::string table{};                 ///< file; empty: the table that comes with the program
+    std::optional<std::uint64_t> seed{}; ///< none: another one each time in a window, 1 without
     int width = 1280;
     int height = 800;
     bool autoplay = false;
     double seconds = 0;       ///< then the program ends; 0: when the user ends it
+    std::string watch{};      ///< file of a recorded game to play again
     std::string screenshot{}; ///< PNG file, written at the end
     bool xray = false;
     bool mute = false;

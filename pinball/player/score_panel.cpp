@@ -1,5 +1,6 @@
 #include "pinball/player/score_panel.h"
 
+#include "pinball/player/attract.h"
 #include "pinball/player/dot_matrix.h"
 #include "pinball/player/palette.h"
 #include "pinball/player/side_panel.h"
@@ -18,26 +19,28 @@ using view::TextStyle;
 constexpr int score_row = 2;
 constexpr int line_row = 19;
 
-std::string resting_line(const Game& game, double time)
+std::string resting_line(const Machine& machine, double time)
 {
+    const Game& game = machine.game();
+    const std::string ball = (game.players() > 1 ? "PLAYER " + std::to_string(game.player_up() + 1) + "  " : "") + "BALL " +
+                             std::to_string(game.ball_number());
     const bool second = std::fmod(time, 4.0) >= 2.0;
-    switch (game.phase())
-    {
-    case Phase::Attract:
-    case Phase::GameOver:
-        return second || game.high_scores().entries().empty() ? "PRESS ENTER" : "BEST " + with_commas(game.high_scores().best());
-    case Phase::Ready: return second ? "HOLD SPACE" : "BALL " + std::to_string(game.ball_number());
-    default: break;
-    }
-    std::string line = "BALL " + std::to_string(game.ball_number());
-    if (game.bonus_multiplier() > 1)
-        line += "   " + std::to_string(game.bonus_multiplier()) + "X";
-    return line;
+    if (game.phase() == Phase::Ready && second)
+        return "PULL THE PLUNGER";
+    if (game.phase() == Phase::InPlay && game.bonus_multiplier() > 1)
+        return ball + "   " + std::to_string(game.bonus_multiplier()) + "X";
+    return ball;
+}
+
+void write_large(DotMatrix& dots, const std::string& text)
+{
+    dots.centered(score_row, text, DotMatrix::width(text, 2) <= DotMatrix::columns ? 2 : 1);
 }
 
 void write_name(DotMatrix& dots, const NameEntry& entry, double time)
 {
-    dots.centered(1, "RANK " + std::to_string(entry.rank() + 1));
+    const std::string who = entry.player() >= 0 ? "PLAYER " + std::to_string(entry.player() + 1) + "  " : "";
+    dots.centered(1, who + "RANK " + std::to_string(entry.rank() + 1));
     std::string name = entry.name();
     if (std::fmod(time, 0.5) > 0.3 && entry.cursor() < NameEntry::letters)
         name[static_cast<std::size_t>(entry.cursor())] = '_';
@@ -53,18 +56,19 @@ DotMatrix compose(const Machine& machine, const Status& status)
         write_name(dots, machine.name_entry(), status.time);
         return dots;
     }
-    if (game.phase() == Phase::Attract)
-        dots.centered(score_row, std::fmod(status.time, 8.0) < 4 ? "CAROM" : "PINBALL", 2);
-    else
-        dots.centered(score_row, with_commas(game.score()),
-                      DotMatrix::width(with_commas(game.score()), 2) <= DotMatrix::columns ? 2 : 1);
     const std::string message(game.message());
-    if (!message.empty())
+    if (machine.is_idle() && message.empty())
     {
-        dots.centered(line_row, message);
+        const DisplayPage page = attract_page(machine, status.time);
+        write_large(dots, page.large);
+        dots.centered(line_row, page.small, 1, 0.75f);
         return dots;
     }
-    dots.centered(line_row, resting_line(game, status.time), 1, 0.75f);
+    write_large(dots, with_commas(game.score()));
+    if (!message.empty())
+        dots.centered(line_row, message);
+    else
+        dots.centered(line_row, resting_line(machine, status.time), 1, 0.75f);
     return dots;
 }
 
@@ -146,7 +150,10 @@ float draw_row(Canvas& screen, const Layout& layout, float y, const std::string&
 float draw_rows(Canvas& screen, const Layout& layout, const Machine& machine, const Status& status, float y)
 {
     const Game& game = machine.game();
-    const bool plays = game.ball_number() != 0 && game.phase() != Phase::GameOver;
+    const bool plays = !machine.is_idle();
+    for (int player = 0; player < game.players() && game.players() > 1; ++player)
+        y = draw_row(screen, layout, y, "player " + std::to_string(player + 1), with_commas(game.score(player)),
+                     plays && player == game.player_up() ? palette::gold : palette::text);
     y = draw_row(screen, layout, y, "ball",
                  plays ? std::to_string(game.ball_number()) + " of " + std::to_string(game.balls_per_game()) : "-",
                  palette::text);
@@ -155,6 +162,10 @@ float draw_rows(Canvas& screen, const Layout& layout, const Machine& machine, co
     const bool saving = game.ball_save_steps() > 0;
     y = draw_row(screen, layout, y, "ball save", saving ? save_text(game).substr(10) : "out",
                  saving ? view::rgb(0xffb347) : palette::text_faint);
+    if (game.extra_balls() > 0)
+        y = draw_row(screen, layout, y, "extra ball", "shoot again", palette::gold);
+    if (game.credits() > 0)
+        y = draw_row(screen, layout, y, "free games", std::to_string(game.credits()), palette::gold);
     return draw_row(screen, layout, y, "sound", sound_text(status), palette::text);
 }
 

@@ -20,6 +20,7 @@ struct Status
     bool muted = false;
     float volume = 0;
     std::string why_mute{}; ///< not empty: there is no sound card
+    std::string trouble{};  ///< why something that was asked for could not be done
 };
 
 /// 1234567 as 1,234,567.

@@ -1,10 +1,10 @@
 #include "pinball/player/side_panel.h"
 
-#include "pinball/player/keys.h"
 #include "pinball/player/palette.h"
 #include "pinball/player/score_panel.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace carom::pinball {
 
@@ -41,6 +41,9 @@ std::vector<std::string> wrap(const Canvas& screen, const std::string& text, con
     }
     return lines;
 }
+
+// Of rules and keys, while nobody plays, s.
+constexpr double page_time = 8;
 
 void draw_sheet(Canvas& screen, Vec2 min, Vec2 max)
 {
@@ -79,12 +82,12 @@ float draw_high_scores(Canvas& screen, const Area& area, const Machine& machine,
     return entries.empty() ? y + 21 * unit : y;
 }
 
-float draw_keys(Canvas& screen, const Area& area, float unit)
+float draw_keys(Canvas& screen, const Area& area, const Machine& machine, float unit)
 {
     float y = heading(screen, area, "keys", unit);
     const float left = area.min.x + 34 * unit;
     const float right = area.max.x - 34 * unit;
-    for (const KeyLine& line : key_lines())
+    for (const KeyLine& line : machine.controls.key_lines())
     {
         screen.text({left, y}, line.keys, {.size = 14 * unit, .color = palette::text, .face = Face::Bold});
         screen.text({right, y}, line.meaning, {.size = 14 * unit, .color = palette::text_faint, .align_x = 1});
@@ -93,20 +96,68 @@ float draw_keys(Canvas& screen, const Area& area, float unit)
     return y;
 }
 
-void draw_card(Canvas& screen, const Layout& layout, const Machine& machine)
+float draw_rules(Canvas& screen, const Area& area, const Machine& machine, float unit)
+{
+    float y = heading(screen, area, "rules", unit);
+    const float left = area.min.x + 34 * unit;
+    const float width = area.size().x - 68 * unit;
+    for (const CardEntry& entry : machine.game().table().card)
+    {
+        screen.text({left, y}, entry.name, {.size = 13 * unit, .color = palette::text, .face = Face::Bold});
+        y += 17 * unit;
+        const TextStyle style{.size = 13 * unit, .color = palette::text_faint};
+        for (const std::string& line : wrap(screen, entry.text, style, width))
+        {
+            screen.text({left, y}, line, style);
+            y += 16 * unit;
+        }
+        y += 6 * unit;
+    }
+    return y;
+}
+
+bool shows_rules(const Machine& machine, const Status& status)
+{
+    if (machine.game().table().card.empty())
+        return false;
+    const bool waits = machine.is_idle() || status.paused;
+    return !waits || std::fmod(status.time, 2 * page_time) >= page_time;
+}
+
+void draw_card(Canvas& screen, const Layout& layout, const Machine& machine, const Status& status)
 {
     const float u = layout.unit;
     const Vec2 middle = (layout.table.min + layout.table.max) * 0.5f;
     const float half = std::min(165 * u, layout.table.size().x / 2 - 4);
-    const float shown = static_cast<float>(std::min<std::size_t>(machine.game().high_scores().entries().size(), 5));
-    const float height = (385 + 21 * std::max(shown, 1.0f)) * u;
+    const bool rules = shows_rules(machine, status);
+    const auto fill = [&](Vec2 corner)
+    {
+        const Area page{corner + Vec2{-14 * u, 60 * u}, corner + Vec2{2 * half + 14 * u, 10'000}};
+        if (rules)
+            return draw_rules(screen, page, machine, u);
+        const float below = draw_keys(screen, page, machine, u);
+        return draw_high_scores(screen, {{page.min.x, below + 12 * u}, {page.max.x, below + 190 * u}}, machine, u);
+    };
+    screen.push_clip({{0, 0}, {0, 0}});
+    const float height = fill({}) + 12 * u;
+    screen.pop_clip();
     const float top = std::max(layout.table.min.y + 8 * u, middle.y - height / 2);
     draw_sheet(screen, {middle.x - half, top}, {middle.x + half, top + height});
-    screen.text({middle.x, top + 14 * u}, machine.game().table().name,
+    screen.text({middle.x, top + 14 * u}, status.paused ? "paused" : machine.game().table().name,
                 {.size = 28 * u, .color = palette::gold, .face = Face::Bold, .align_x = 0.5f});
-    const Area keys{{middle.x - half - 14 * u, top + 60 * u}, {middle.x + half + 14 * u, top + height}};
-    const float below = draw_keys(screen, keys, u);
-    draw_high_scores(screen, {{keys.min.x, below + 12 * u}, {keys.max.x, top + height}}, machine, u);
+    fill({middle.x - half, top});
+}
+
+void draw_strip(Canvas& screen, const Layout& layout, const std::string& text)
+{
+    const float u = layout.unit;
+    const TextStyle style{.size = 13 * u, .color = palette::text};
+    const std::vector<std::string> lines = wrap(screen, text, style, layout.table.size().x - 44 * u);
+    const float height = (12 + 18 * static_cast<float>(lines.size())) * u;
+    const float top = layout.table.max.y - height - 8 * u;
+    draw_sheet(screen, {layout.table.min.x + 12 * u, top}, {layout.table.max.x - 12 * u, top + height});
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        screen.text({layout.table.min.x + 22 * u, top + (6 + 18 * static_cast<float>(i)) * u}, lines[i], style);
 }
 
 void draw_table_errors(Canvas& screen, const Layout& layout, const Machine& machine)

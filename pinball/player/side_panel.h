@@ -1,20 +1,26 @@
 #pragma once
 
 /// @file
-/// High scores and keys: beside the table, or on a card over it where there is no room beside it.
+/// High scores, keys and rules: beside the table, or on a card over it where there is no room beside it.
 
 #include "pinball/player/layout.h"
 #include "pinball/player/machine.h"
+#include "pinball/player/score_panel.h"
 #include "view/canvas.h"
 
 namespace carom::pinball {
 
-/// Both draw from the top of the area and give the y below what they drew.
+/// All draw from the top of the area and give the y below what they drew.
 float draw_high_scores(view::Canvas& screen, const Area& area, const Machine& machine, float unit);
-float draw_keys(view::Canvas& screen, const Area& area, float unit);
+float draw_keys(view::Canvas& screen, const Area& area, const Machine& machine, float unit);
+float draw_rules(view::Canvas& screen, const Area& area, const Machine& machine, float unit);
+/// Whether it is the rules' turn: while somebody plays, and by turns with the keys while not.
+[[nodiscard]] bool shows_rules(const Machine& machine, const Status& status);
 
-/// The first screen of a portrait window, over the table.
-void draw_card(view::Canvas& screen, const Layout& layout, const Machine& machine);
+/// The first screen of a portrait window, over the table; also while it is paused.
+void draw_card(view::Canvas& screen, const Layout& layout, const Machine& machine, const Status& status);
+/// A sentence at the lower edge of the table.
+void draw_strip(view::Canvas& screen, const Layout& layout, const std::string& text);
 /// What is wrong with the table file that just changed.
 void draw_table_errors(view::Canvas& screen, const Layout& layout, const Machine& machine);
 /// A word across the table, and what to do about it.

@@ -25,6 +25,7 @@ struct Stage
     TableCamera camera{};
     view::Camera seen{}; ///< through which the table was drawn last
     XrayPanel xray{};
+    bool grid = false; ///< for table makers
 };
 
 void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Frame& frame);

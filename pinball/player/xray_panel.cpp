@@ -1,6 +1,5 @@
 #include "pinball/player/xray_panel.h"
 
-#include "pinball/player/keys.h"
 #include "view/body_story.h"
 #include "view/impact_panel.h"
 #include "view/shape_art.h"
@@ -11,13 +10,13 @@ namespace carom::pinball {
 
 namespace {
 
-void key_help()
+void key_help(const Controls& controls)
 {
-    for (const KeyLine& line : xray_key_lines())
+    for (const KeyLine& line : controls.xray_key_lines())
     {
-        ImGui::TextUnformatted(line.keys);
+        ImGui::TextUnformatted(line.keys.c_str());
         ImGui::SameLine(0, 5);
-        ImGui::TextDisabled("%s", line.meaning);
+        ImGui::TextDisabled("%s", line.meaning.c_str());
         ImGui::SameLine(0, 11);
     }
     ImGui::NewLine();
@@ -71,7 +70,7 @@ void selected_widgets(view::Window& window, const Machine& machine)
 
 void XrayPanel::wide(view::Window& window, Machine& machine, const Status& status)
 {
-    key_help();
+    key_help(machine.controls);
     time_line(machine, status);
     ImGui::Separator();
     m_overlay.widgets();
@@ -103,8 +102,8 @@ void XrayPanel::narrow(view::Window& window, Machine& machine, const Status& sta
         {
             time_line(machine, status);
             within_step(machine, status);
-            for (const KeyLine& line : xray_key_lines())
-                ImGui::Text("%-5s %s", line.keys, line.meaning);
+            for (const KeyLine& line : machine.controls.xray_key_lines())
+                ImGui::Text("%-5s %s", line.keys.c_str(), line.meaning.c_str());
         });
     tab("Show", [&] { m_overlay.widgets(); });
     ImGui::EndTabBar();

@@ -93,7 +93,10 @@ Recording recording_of(const Json& json)
         if (step <= last || step >= recording.steps)
             throw std::runtime_error("\"changes\" must ascend and lie within the steps, but one is at step " +
                                      std::to_string(step));
-        recording.changes.push_back({step, input_of(change.at(1).get<int>())});
+        Input input = input_of(change.at(1).get<int>());
+        if (change.size() > 2)
+            input.rod = change.at(2).get<std::uint8_t>();
+        recording.changes.push_back({step, input});
         last = step;
     }
     return recording;
@@ -118,7 +121,12 @@ std::string Recording::to_json() const
                  {"steps", steps},           {"scores", scores},          {"hash", hex(hash)}};
     Json& list = json["changes"] = Json::array();
     for (const Change& change : changes)
-        list.push_back({change.step, bits_of(change.input)});
+    {
+        Json entry = {change.step, bits_of(change.input)};
+        if (change.input.rod != 0)
+            entry.push_back(change.input.rod);
+        list.push_back(std::move(entry));
+    }
     json["table"] = table_text;
     return json.dump() + "\n";
 }

@@ -16,7 +16,7 @@ namespace carom::pinball {
 
 struct Recording
 {
-    /// The buttons from a step on, until the next change.
+    /// The buttons from a step on, until the next change. In the file [step, bits], with a third number where the rod is held back.
     struct Change
     {
         std::int64_t step = 0;

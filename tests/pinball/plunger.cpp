@@ -105,5 +105,40 @@ TEST(Plunger, ALaunchedBallIsReportedOnce)
     EXPECT_EQ(launched, 1);
 }
 
+TEST(Plunger, AStickHoldsTheRodWhereItIs)
+{
+    const Table table = lane(1.5f, 6.5f, 0.12f);
+    Playfield field(table, 1);
+    for (const int rod : {255, 60, 128, 200, 20})
+    {
+        run(field, 400, {.rod = static_cast<std::uint8_t>(rod)});
+        EXPECT_NEAR(field.state(1).travel, 0.05f * static_cast<float>(rod) / 255, 0.0005f) << rod;
+        EXPECT_NEAR(field.state(1).speed, 0, 0.005f);
+    }
+    run(field, 400);
+    EXPECT_NEAR(field.state(1).travel, 0, 0.0002f);
+}
+
+TEST(Plunger, AStickThatIsLetGoLaunchesAsTheKeyDoes)
+{
+    const Table table = lane(1.5f, 6.5f, 0.12f);
+    const auto fastest = [&](const Buttons& buttons)
+    {
+        Playfield field(table, 1);
+        field.add_ball({1, 0.5237f});
+        run(field, 900, buttons);
+        float speed = 0;
+        for (int i = 0; i < 100; ++i)
+        {
+            field.step({});
+            speed = std::max(speed, field.balls().front().state.velocity.y);
+        }
+        return speed;
+    };
+    const float key = fastest({.plunger = true});
+    EXPECT_NEAR(fastest({.rod = 255}), key, 0.01f * key);
+    EXPECT_LT(fastest({.rod = 128}), 0.6f * key);
+}
+
 } // namespace
 } // namespace carom::pinball::test

@@ -1,5 +1,5 @@
 #include "pinball/player/buttons.h"
-#include "pinball/player/keys.h"
+#include "pinball/player/controls.h"
 #include "pinball/player/name_entry.h"
 #include "pinball/player/step_clock.h"
 #include "pinball/table/loader.h"
@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace carom::pinball {
@@ -117,24 +121,113 @@ SDL_Event key(SDL_Scancode code, bool down, int repeat = 0)
     return event;
 }
 
-TEST(PlayerInput, KeysAreFoundByTheirPlace)
+std::optional<ButtonPress> press_of(Controls& controls, const SDL_Event& event)
 {
-    for (const SDL_Scancode code : {SDL_SCANCODE_LSHIFT, SDL_SCANCODE_Z})
-        EXPECT_EQ(button_of(key(code, true))->button, Button::Left);
-    for (const SDL_Scancode code : {SDL_SCANCODE_RSHIFT, SDL_SCANCODE_SLASH})
-        EXPECT_EQ(button_of(key(code, true))->button, Button::Right);
-    EXPECT_EQ(button_of(key(SDL_SCANCODE_SPACE, false))->down, false);
-    EXPECT_EQ(button_of(key(SDL_SCANCODE_RETURN, true))->button, Button::Start);
-    EXPECT_NE(button_of(key(SDL_SCANCODE_LSHIFT, true))->source, button_of(key(SDL_SCANCODE_Z, true))->source);
-    EXPECT_FALSE(button_of(key(SDL_SCANCODE_Q, true)));
+    const std::vector<ButtonPress> presses = controls.buttons_of(event);
+    return presses.empty() ? std::nullopt : std::optional(presses.front());
 }
 
-TEST(PlayerInput, AHeldKeyIsPressedOnce)
+TEST(PlayerControls, KeysAreFoundByTheirPlace)
 {
-    EXPECT_FALSE(button_of(key(SDL_SCANCODE_Z, true, 1)));
-    EXPECT_FALSE(wish_of(key(SDL_SCANCODE_P, true, 1)));
-    EXPECT_EQ(wish_of(key(SDL_SCANCODE_N, true, 1)), Wish::SingleStep);
-    EXPECT_FALSE(wish_of(key(SDL_SCANCODE_P, false)));
+    Controls controls;
+    for (const SDL_Scancode code : {SDL_SCANCODE_LSHIFT, SDL_SCANCODE_Z})
+        EXPECT_EQ(press_of(controls, key(code, true))->button, Button::Left);
+    for (const SDL_Scancode code : {SDL_SCANCODE_RSHIFT, SDL_SCANCODE_SLASH})
+        EXPECT_EQ(press_of(controls, key(code, true))->button, Button::Right);
+    EXPECT_EQ(press_of(controls, key(SDL_SCANCODE_SPACE, false))->down, false);
+    EXPECT_EQ(press_of(controls, key(SDL_SCANCODE_RETURN, true))->button, Button::Start);
+    EXPECT_NE(press_of(controls, key(SDL_SCANCODE_LSHIFT, true))->source, press_of(controls, key(SDL_SCANCODE_Z, true))->source);
+    EXPECT_FALSE(press_of(controls, key(SDL_SCANCODE_Q, true)));
+}
+
+TEST(PlayerControls, AHeldKeyIsPressedOnce)
+{
+    Controls controls;
+    EXPECT_FALSE(press_of(controls, key(SDL_SCANCODE_Z, true, 1)));
+    EXPECT_FALSE(controls.wish_of(key(SDL_SCANCODE_P, true, 1)));
+    EXPECT_EQ(controls.wish_of(key(SDL_SCANCODE_N, true, 1)), Wish::SingleStep);
+    EXPECT_FALSE(controls.wish_of(key(SDL_SCANCODE_P, false)));
+}
+
+SDL_Event axis(SDL_GameControllerAxis which, float value)
+{
+    SDL_Event event{};
+    event.type = SDL_CONTROLLERAXISMOTION;
+    event.caxis.axis = static_cast<Uint8>(which);
+    event.caxis.value = static_cast<Sint16>(32767 * value);
+    return event;
+}
+
+TEST(PlayerControls, TriggersAreFlippersAndDoNotTremble)
+{
+    Controls controls;
+    std::vector<bool> downs;
+    for (const float value : {0.1f, 0.5f, 0.7f, 0.55f, 0.65f, 0.3f, 0.5f})
+        for (const ButtonPress& press : controls.buttons_of(axis(SDL_CONTROLLER_AXIS_TRIGGERRIGHT, value)))
+        {
+            EXPECT_EQ(press.button, Button::Right);
+            downs.push_back(press.down);
+        }
+    EXPECT_EQ(downs, (std::vector<bool>{true, false}));
+}
+
+TEST(PlayerControls, AStickNudgesAndHoldsTheRod)
+{
+    Controls controls;
+    EXPECT_EQ(press_of(controls, axis(SDL_CONTROLLER_AXIS_LEFTX, 0.9f))->button, Button::NudgeLeft);
+    const auto turned = controls.buttons_of(axis(SDL_CONTROLLER_AXIS_LEFTX, -0.9f));
+    ASSERT_EQ(turned.size(), 2u) << "one is let go, the other pushed";
+    EXPECT_EQ(press_of(controls, axis(SDL_CONTROLLER_AXIS_LEFTY, -0.9f))->button, Button::NudgeUp);
+    EXPECT_EQ(Controls::rod_of(axis(SDL_CONTROLLER_AXIS_LEFTY, 1)), 255);
+    EXPECT_EQ(Controls::rod_of(axis(SDL_CONTROLLER_AXIS_LEFTY, 0.1f)), 0);
+    EXPECT_FALSE(Controls::rod_of(axis(SDL_CONTROLLER_AXIS_LEFTX, 1)));
+    ButtonTimeline buttons;
+    buttons.hold_rod(5, 200);
+    EXPECT_EQ(buttons.advance_to(4).rod, 0);
+    EXPECT_EQ(buttons.advance_to(6).rod, 200);
+    buttons.release_all();
+    EXPECT_EQ(buttons.advance_to(7).rod, 0);
+}
+
+std::size_t action_named(std::string_view id)
+{
+    for (std::size_t i = 0; i < Controls::actions().size(); ++i)
+        if (Controls::actions()[i].id == id)
+            return i;
+    ADD_FAILURE() << id;
+    return 0;
+}
+
+TEST(PlayerControls, AKeyDoesWhatItIsBoundToAndNothingElse)
+{
+    Controls controls;
+    controls.bind(action_named("left"), {Control::Kind::Key, SDL_SCANCODE_P});
+    EXPECT_EQ(press_of(controls, key(SDL_SCANCODE_P, true))->button, Button::Left);
+    EXPECT_FALSE(controls.wish_of(key(SDL_SCANCODE_P, true)));
+    EXPECT_LE(controls.controls_of(action_named("left")).size(), 4u);
+    EXPECT_TRUE(controls.label(Wish::Pause).empty());
+}
+
+TEST(PlayerControls, AreKeptInAFile)
+{
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "carom_controls_test.json";
+    Controls controls;
+    controls.bind(action_named("plunger"), {Control::Kind::Key, SDL_SCANCODE_B});
+    controls.bind(action_named("pause"), {Control::Kind::Pad, SDL_CONTROLLER_BUTTON_Y});
+    EXPECT_EQ(controls.save(file), "");
+    Controls read;
+    EXPECT_EQ(read.load(file), "");
+    EXPECT_EQ(press_of(read, key(SDL_SCANCODE_B, true))->button, Button::Plunger);
+    EXPECT_EQ(read.key_lines().size(), controls.key_lines().size());
+    for (const char* bad : {"{\"left\": [\"key Nonsense\"]}", "{\"jump\": []}", "[1", "{\"left\": 5}"})
+    {
+        std::ofstream(file) << bad;
+        EXPECT_NE(read.load(file).find("was not read"), std::string::npos) << bad;
+        EXPECT_EQ(press_of(read, key(SDL_SCANCODE_B, true))->button, Button::Plunger) << "nothing was lost";
+    }
+    std::filesystem::remove(file);
+    EXPECT_EQ(read.load(file), "") << "no file, no change";
+    EXPECT_NE(controls.save("/no/such/folder/file").find("cannot be written"), std::string::npos);
 }
 
 TEST(PlayerClock, StepsKeepUpWithTime)
