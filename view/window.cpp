@@ -226,6 +226,13 @@ void Window::read_pixels(Image& image) const
 bool Window::wants_keyboard() const { return ImGui::GetIO().WantTextInput; }
 bool Window::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Window::has_focus() const { return (SDL_GetWindowFlags(m_native->window) & SDL_WINDOW_INPUT_FOCUS) != 0; }
+Vec2 Window::mouse() const
+{
+    int x = 0;
+    int y = 0;
+    SDL_GetMouseState(&x, &y);
+    return {static_cast<float>(x), static_cast<float>(y)};
+}
 bool Window::is_offscreen() const { return m_native->offscreen; }
 
 Vec2 Window::size() const

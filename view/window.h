@@ -58,6 +58,7 @@ public:
     [[nodiscard]] bool wants_mouse() const;    ///< the mouse is over a widget
     void request_quit() { m_quit = true; }
     [[nodiscard]] bool has_focus() const;
+    [[nodiscard]] Vec2 mouse() const; ///< points
 
     [[nodiscard]] Vec2 size() const;         ///< points
     [[nodiscard]] float pixel_scale() const; ///< real pixels per point

@@ -223,8 +223,8 @@ private:
         case Wish::Watch: watch(); break;
         case Wish::Slower: change_speed(0.5); break;
         case Wish::Faster: change_speed(2); break;
-        case Wish::Controls: m_controls.toggle(); break;
-        case Wish::Grid: m_stage.grid = !m_stage.grid; break;
+        case Wish::Controls: change_keys(); break;
+        case Wish::Grid: m_stage.workshop.open = !m_stage.workshop.open; break;
         case Wish::Fullscreen: m_window.toggle_fullscreen(); break;
         case Wish::Quit: quit(); break;
         default:
@@ -249,6 +249,13 @@ private:
             scrubber.select(scrubber.selected() + (wish == Wish::SubstepForth ? 1 : -1));
         if (wish == Wish::SingleStep)
             m_machine.look_into_step();
+    }
+
+    // The game waits meanwhile.
+    void change_keys()
+    {
+        m_paused = m_paused || is_in_game();
+        m_controls.toggle();
     }
 
     // One thing after the other: what was opened last is closed first.

@@ -65,6 +65,7 @@ void ControlsPanel::draw(view::Window& window, Controls& controls)
         return;
     const Vec2 size = window.size();
     const float width = std::min(520.0f, size.x - 20);
+    ImGui::SetNextWindowBgAlpha(0.98f);
     ImGui::SetNextWindowPos({(size.x - width) / 2, 10});
     ImGui::SetNextWindowSize({width, std::min(760.0f, size.y - 20)});
     if (ImGui::Begin("Keys", &m_open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNav))

@@ -237,6 +237,7 @@ void Machine::begin(Table table)
     keep_scores();
     const bool same = table.name == m_game.table().name;
     m_table_text = text_of(m_watch.file());
+    ++m_table_version;
     put(Game(std::move(table), {.seed = m_seed}));
     if (!same)
         load_scores();

@@ -46,6 +46,8 @@ public:
     /// Of what is being watched: over, and whether it came out as it was recorded.
     [[nodiscard]] bool has_watched() const { return m_playback && m_playback->is_over(); }
     [[nodiscard]] bool came_out_the_same() const { return m_came_out_the_same; }
+    /// Another one each time the table file is read.
+    [[nodiscard]] std::uint64_t table_version() const { return m_table_version; }
     /// A game that nobody has played or that is over.
     [[nodiscard]] bool is_idle() const { return m_game.phase() == Phase::Attract || m_game.phase() == Phase::GameOver; }
     /// From now on, or no longer, a program plays.
@@ -93,6 +95,7 @@ private:
 
     TableWatch m_watch;
     std::string m_table_text;
+    std::uint64_t m_table_version = 1;
     Random m_seeds;
     std::uint64_t m_seed;
     bool m_autoplay;

@@ -148,16 +148,43 @@ void draw_card(Canvas& screen, const Layout& layout, const Machine& machine, con
     fill({middle.x - half, top});
 }
 
-void draw_strip(Canvas& screen, const Layout& layout, const std::string& text)
+void draw_strip(Canvas& screen, const Layout& layout, const std::vector<std::string>& sentences)
 {
+    constexpr std::size_t most = 4;
     const float u = layout.unit;
     const TextStyle style{.size = 13 * u, .color = palette::text};
-    const std::vector<std::string> lines = wrap(screen, text, style, layout.table.size().x - 44 * u);
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < std::min(sentences.size(), most); ++i)
+        for (const std::string& line : wrap(screen, sentences[i], style, layout.table.size().x - 44 * u))
+            lines.push_back(line);
+    if (sentences.size() > most)
+        lines.push_back("and " + std::to_string(sentences.size() - most) + " more");
     const float height = (12 + 18 * static_cast<float>(lines.size())) * u;
     const float top = layout.table.max.y - height - 8 * u;
     draw_sheet(screen, {layout.table.min.x + 12 * u, top}, {layout.table.max.x - 12 * u, top + height});
     for (std::size_t i = 0; i < lines.size(); ++i)
         screen.text({layout.table.min.x + 22 * u, top + (6 + 18 * static_cast<float>(i)) * u}, lines[i], style);
+}
+
+void draw_notes(Canvas& screen, const Area& area, const char* title, const std::vector<std::string>& sentences, float unit)
+{
+    float y = heading(screen, area, title, unit);
+    const TextStyle style{.size = 13 * unit, .color = palette::text};
+    for (std::size_t i = 0; i < sentences.size(); ++i)
+    {
+        const auto lines = wrap(screen, sentences[i], style, area.size().x - 68 * unit);
+        if (y + (17 * static_cast<float>(lines.size()) + 20) * unit > area.max.y)
+        {
+            screen.text({area.min.x + 34 * unit, y}, "and " + std::to_string(sentences.size() - i) + " more", style);
+            return;
+        }
+        for (const std::string& line : lines)
+        {
+            screen.text({area.min.x + 34 * unit, y}, line, style);
+            y += 17 * unit;
+        }
+        y += 6 * unit;
+    }
 }
 
 void draw_table_errors(Canvas& screen, const Layout& layout, const Machine& machine)

@@ -8,6 +8,9 @@
 #include "pinball/player/score_panel.h"
 #include "view/canvas.h"
 
+#include <string>
+#include <vector>
+
 namespace carom::pinball {
 
 /// All draw from the top of the area and give the y below what they drew.
@@ -19,8 +22,10 @@ float draw_rules(view::Canvas& screen, const Area& area, const Machine& machine,
 
 /// The first screen of a portrait window, over the table; also while it is paused.
 void draw_card(view::Canvas& screen, const Layout& layout, const Machine& machine, const Status& status);
-/// A sentence at the lower edge of the table.
-void draw_strip(view::Canvas& screen, const Layout& layout, const std::string& text);
+/// Sentences at the lower edge of the table; of more than four the first ones.
+void draw_strip(view::Canvas& screen, const Layout& layout, const std::vector<std::string>& sentences);
+/// Sentences under a heading, as many as there is room for.
+void draw_notes(view::Canvas& screen, const Area& area, const char* title, const std::vector<std::string>& sentences, float unit);
 /// What is wrong with the table file that just changed.
 void draw_table_errors(view::Canvas& screen, const Layout& layout, const Machine& machine);
 /// A word across the table, and what to do about it.

@@ -58,11 +58,11 @@ void draw_what_happens(view::Canvas& screen, const Layout& layout, const Machine
     else if (machine.name_entry().active())
         draw_banner(screen, layout, "YOUR NAME", "type it, or turn letters with the flippers; Enter");
     if (machine.is_watching())
-        draw_strip(screen, layout, watching_text(machine, status));
+        draw_strip(screen, layout, {watching_text(machine, status)});
     else if (!status.trouble.empty() && machine.is_idle())
-        draw_strip(screen, layout, status.trouble);
+        draw_strip(screen, layout, {status.trouble});
     else if (status.paused && !frame.xray && !layout.landscape)
-        draw_strip(screen, layout, pause);
+        draw_strip(screen, layout, {pause});
 }
 
 } // namespace
@@ -89,11 +89,15 @@ void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Fram
                        .plain = frame.xray});
     if (frame.xray)
         stage.xray.draw(table, machine, frame.status.paused);
+    if (stage.workshop.open)
+        stage.workshop.draw_on(table, machine, window.mouse());
     table.pop_clip();
 
     draw_score(screen, layout, machine, frame.status);
     if (frame.xray)
         stage.xray.widgets(window, layout, machine, frame.status);
+    else if (stage.workshop.open)
+        stage.workshop.draw_list(screen, layout);
     else if (layout.landscape)
         draw_side(screen, layout, machine, frame.status);
     else if (waits_for_a_player(machine) || frame.status.paused)

@@ -6,6 +6,7 @@
 #include "pinball/player/machine.h"
 #include "pinball/player/score_panel.h"
 #include "pinball/player/table_camera.h"
+#include "pinball/player/workshop.h"
 #include "pinball/player/xray_panel.h"
 #include "view/window.h"
 
@@ -25,7 +26,7 @@ struct Stage
     TableCamera camera{};
     view::Camera seen{}; ///< through which the table was drawn last
     XrayPanel xray{};
-    bool grid = false; ///< for table makers
+    Workshop workshop{};
 };
 
 void draw_frame(view::Window& window, Machine& machine, Stage& stage, const Frame& frame);

@@ -176,7 +176,8 @@ void check_reachable(CheckContext& context)
     {
         const Element& element = context.table.elements[i];
         if (element.enabled && is_acted_on(element) && !is_touched(element, cells, context.ball_radius))
-            context.report(FindingKind::Unreachable, {i}, {}, "no ball can ever touch it");
+            context.report(FindingKind::Unreachable, {i}, std::visit(PlaceOf{}, element.part).value_or(Point{}),
+                           "no ball can ever touch it");
     }
 }
 
