@@ -44,7 +44,7 @@ void ControlsPanel::row(const Controls& controls, std::size_t action)
 {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(Controls::actions()[action].meaning);
+    ImGui::TextWrapped("%s", Controls::actions()[action].meaning);
     ImGui::TableNextColumn();
     std::string keys;
     for (const Control control : controls.controls_of(action))

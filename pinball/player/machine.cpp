@@ -225,6 +225,7 @@ void Machine::step_watched()
     if (m_playback->is_over())
         return;
     m_game.step(m_playback->next());
+    m_game.set_high_scores(m_own_game->high_scores()); // its score has been there once
     m_came_out_the_same = m_playback->is_over() && m_playback->came_out_the_same(m_game);
     m_effects.observe(m_game);
     impacts.observe(m_game.scene());

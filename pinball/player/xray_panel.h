@@ -23,6 +23,7 @@ private:
     void wide(view::Window& window, Machine& machine, const Status& status);
     void narrow(view::Window& window, Machine& machine, const Status& status);
     view::XrayOverlay m_overlay{};
+    float m_unit = 1; ///< size of letters, 1 being usual
 };
 
 } // namespace carom::pinball
