@@ -117,13 +117,15 @@ void draw_impact(Canvas& canvas, const ImpactRecord& record, float unit)
     const auto speed = [&](float v, float shift, Color color)
     {
         if (std::abs(v) * scale > 3 * pixel)
-            canvas.arrow(e.point + side * shift, e.point + side * shift + e.normal * (v * scale), {color, 2.5f * unit}, 10 * unit);
+            canvas.arrow(e.point + side * shift, e.point + side * shift + e.normal * (v * scale), {color, 2.5f * unit},
+                         10 * unit);
     };
     speed(e.speed_a, 12, party_a_color);
     speed(e.speed_b, 18, party_b_color);
     speed(dot(e.velocity_after_a, e.normal), -12, party_a_color);
     speed(dot(e.velocity_after_b, e.normal), -18, party_b_color);
-    const TextStyle small{.size = 11 * unit, .color = rgb(0xc6d0e0), .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};
+    const TextStyle small{
+        .size = 11 * unit, .color = rgb(0xc6d0e0), .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};
     for (const auto& [text, shift] : {std::pair("before", 32.0f), std::pair("after", -32.0f)})
         canvas.text(kept_in_view(canvas, e.point + side * shift, canvas.text_size(text, small)), text, small);
     const TextStyle style{.size = 13 * unit, .align_x = 0.5f, .align_y = 0.5f, .shadow = rgb(0x000000, 0.8f)};

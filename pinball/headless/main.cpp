@@ -1,6 +1,7 @@
 // The machine without a window: headless runs and the table checker.
 
 #include "pinball/headless/headless.h"
+#include "pinball/headless/new_command.h"
 #include "pinball/table/check_command.h"
 
 #include <iostream>
@@ -9,6 +10,8 @@
 int main(int argc, char** argv)
 {
     const std::string_view first = argc > 1 ? argv[1] : "";
+    if (first == "new")
+        return carom::pinball::new_command(argc, argv);
     if (first == "check" && argc == 3)
         return carom::pinball::check_command(argv[2], std::cout);
     return carom::pinball::headless_command(argc, argv);

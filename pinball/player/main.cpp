@@ -1,6 +1,7 @@
 // carom-pinball: the machine in a window; `--headless ...` runs it without one, `check FILE` looks over a table file.
 
 #include "pinball/headless/headless.h"
+#include "pinball/headless/new_command.h"
 #include "pinball/player/app.h"
 #include "pinball/player/autoplay_run.h"
 #include "pinball/player/options.h"
@@ -29,6 +30,8 @@ int main(int argc, char** argv)
 try
 {
     const std::string_view first = argc > 1 ? argv[1] : "";
+    if (first == "new")
+        return carom::pinball::new_command(argc, argv);
     if (first == "check" && argc == 3)
         return carom::pinball::check_command(argv[2], std::cout);
     if (std::any_of(argv + 1, argv + argc, [](std::string_view word) { return word == "--headless"; }))

@@ -130,22 +130,22 @@ void draw_card(Canvas& screen, const Layout& layout, const Machine& machine, con
     const Vec2 middle = (layout.table.min + layout.table.max) * 0.5f;
     const float half = std::min(165 * u, layout.table.size().x / 2 - 4);
     const bool rules = shows_rules(machine, status);
-    const auto fill = [&](Vec2 corner)
+    const auto draw_page = [&](Vec2 corner)
     {
-        const Area page{corner + Vec2{-14 * u, 60 * u}, corner + Vec2{2 * half + 14 * u, 10'000}};
+        const Area area{corner + Vec2{-14 * u, 60 * u}, corner + Vec2{2 * half + 14 * u, 10'000}};
         if (rules)
-            return draw_rules(screen, page, machine, u);
-        const float below = draw_keys(screen, page, machine, u);
-        return draw_high_scores(screen, {{page.min.x, below + 12 * u}, {page.max.x, below + 190 * u}}, machine, u);
+            return draw_rules(screen, area, machine, u);
+        const float below = draw_keys(screen, area, machine, u);
+        return draw_high_scores(screen, {{area.min.x, below + 12 * u}, {area.max.x, below + 190 * u}}, machine, u);
     };
     screen.push_clip({{0, 0}, {0, 0}});
-    const float height = fill({}) + 12 * u;
+    const float height = draw_page({}) + 12 * u;
     screen.pop_clip();
     const float top = std::max(layout.table.min.y + 8 * u, middle.y - height / 2);
     draw_sheet(screen, {middle.x - half, top}, {middle.x + half, top + height});
     screen.text({middle.x, top + 14 * u}, status.paused ? "paused" : machine.game().table().name,
                 {.size = 28 * u, .color = palette::gold, .face = Face::Bold, .align_x = 0.5f});
-    fill({middle.x - half, top});
+    draw_page({middle.x - half, top});
 }
 
 void draw_strip(Canvas& screen, const Layout& layout, const std::vector<std::string>& sentences)

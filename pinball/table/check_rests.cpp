@@ -157,6 +157,7 @@ private:
     [[nodiscard]] bool is_free(Point p) const;
     [[nodiscard]] std::vector<Support> supports_at(Point p) const;
     [[nodiscard]] bool is_held(const std::vector<Support>& supports) const;
+    [[nodiscard]] bool is_reached(Point p, const std::vector<Support>& supports) const;
     [[nodiscard]] bool close_enough(const Track& a, const Track& b) const;
     bool consider(Point p);
     void consider_level_piece(const Track& track);
@@ -202,6 +203,23 @@ bool RestSearch::is_held(const std::vector<Support>& supports) const
     return false;
 }
 
+/// The grid ends before the tip of a pointed pocket. The ball comes there along the middle of it, between what holds it.
+bool RestSearch::is_reached(Point p, const std::vector<Support>& supports) const
+{
+    Point out{};
+    for (const Support& support : supports)
+        out = out + support.normal;
+    const bool has_middle = length(out) > 1e-3;
+    for (Point q = p; length(q - p) < 4 * m_context.ball_radius; q = q + Reach::cell_size * unit(out))
+    {
+        if (m_context.reach.comes_within(q, 2 * Reach::cell_size))
+            return true;
+        if (!has_middle || !is_free(q))
+            return false;
+    }
+    return false;
+}
+
 /// True if a ball rests here.
 bool RestSearch::consider(Point p)
 {
@@ -209,7 +227,7 @@ bool RestSearch::consider(Point p)
     if (known || !contains(m_context.outline, p) || !is_free(p))
         return known;
     const std::vector<Support> supports = supports_at(p);
-    if (!is_held(supports) || is_taken_away(m_context, p) || !m_context.reach.comes_within(p, 2 * Reach::cell_size))
+    if (!is_held(supports) || is_taken_away(m_context, p) || !is_reached(p, supports))
         return false;
     std::vector<Index> elements;
     for (const Support& support : supports)

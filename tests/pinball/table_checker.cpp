@@ -187,5 +187,39 @@ TEST(TableChecker, CommandRefusesAFileThatIsNotThere)
     EXPECT_NE(out.str().find("there is no file"), std::string::npos) << out.str();
 }
 
+/// Two walls that open to the upper right: the lower one at this angle, the upper one further up by the other.
+std::string pocket(float lower_deg, float opening_deg)
+{
+    const auto end = [](float degrees)
+    {
+        const Rotation turn = Rotation::from_angle(degrees * pi / 180);
+        return std::to_string(0.1f + 0.16f * turn.c) + ", " + std::to_string(0.25f + 0.16f * turn.s);
+    };
+    return R"({"format": "pinball-table", "version": 1, "name": "pocket", "size": [0.4, 0.7], "outline": "outer",
+  "ball": {"radius": 0.0135, "mass": 0.08, "spawn": [0.3, 0.3], "material": "rubber"},
+  "physics": {"slope_deg": 6.5, "mu_playfield": 0.12},
+  "materials": {"rubber": {"restitution": 0.8, "friction": 0.3}},
+  "elements": [
+    {"id": "outer", "type": "wall", "material": "rubber", "path": [["M", 0.01, 0], ["L", 0.01, 0.5], ["A", 0.2, 0.5, 0.19, 180, 0], ["L", 0.39, 0]]},
+    {"id": "lower", "type": "wall", "material": "rubber", "radius": 0.002, "path": [["M", 0.1, 0.25], ["L", )" +
+           end(lower_deg) + R"(]]},
+    {"id": "upper", "type": "wall", "material": "rubber", "radius": 0.002, "path": [["M", 0.1, 0.25], ["L", )" +
+           end(lower_deg + opening_deg) + R"(]]},
+    {"id": "drain", "type": "sensor", "pos": [0.2, 0.03], "half": [0.19, 0.03], "kills": true}]})";
+}
+
+TEST(TableChecker, FindsPocketsHoweverPointed)
+{
+    for (const float lower : {15.0f, 35.0f, 55.0f})
+        for (const float opening : {13.0f, 18.0f, 25.0f, 35.0f, 60.0f, 90.0f})
+        {
+            const LoadResult result = load_table(pocket(lower, opening));
+            ASSERT_TRUE(result.table);
+            const std::vector<Finding> findings = check(*result.table);
+            EXPECT_TRUE(std::ranges::any_of(findings, [](const Finding& f) { return f.kind == FindingKind::RestingPlace; }))
+                << lower << ", " << opening;
+        }
+}
+
 } // namespace
 } // namespace carom::pinball
