@@ -150,8 +150,8 @@ void tell_bounce(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     const int percent = static_cast<int>(std::lround(100 * e.restitution));
     story.push_back({Kind::Step, "How bouncy is it?"});
-    story.push_back({Kind::Text, "e = " + number(e.restitution) + ": between the two alone, " + std::to_string(percent) +
-                                     " % of the approach speed comes back"});
+    story.push_back({Kind::Text, "e = " + number(e.restitution) + ": " + std::to_string(percent) +
+                                     " % of the approach speed comes back, where nobody else takes part"});
 }
 
 void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -200,7 +200,26 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const std::string way = is_alone ? v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
                                            number(impulse) + "/" + number(effective) + " = "
                                      : v + " from " + number(before) + " to ";
-    story.push_back({Kind::Formula, p.name + ": " + way + number(after) + " m/s"});
+    const bool turns = !p.held && !p.jointed && lever_arm(p, effective) > 0;
+    story.push_back({Kind::Formula, p.name + (turns ? ", where it is hit: " : ": ") + way + number(after) + " m/s"});
+    if (turns && is_alone)
+        story.push_back({Kind::Formula, p.name + ", its centre: only j/m = " + number(impulse) + "/" + number(p.mass) + " = " +
+                                            number(impulse / p.mass) + " m/s more or less; the rest is turning"});
+}
+
+// What acts along the surface, and whether it has stopped the sliding: by the speeds that they have afterwards.
+void tell_friction(std::vector<StoryLine>& story, const ImpactEvent& e)
+{
+    const float rubbed = std::abs(e.friction_impulse);
+    if (e.friction <= 0 || rubbed <= digits_tell * e.impulse)
+        return;
+    const float sliding = std::abs(cross(e.normal, e.velocity_after_b - e.velocity_after_a));
+    story.push_back({Kind::Step, "And along the surface?"});
+    story.push_back({Kind::Formula, "friction at most μ·j = " + number(e.friction) + "·" + number(e.impulse) + " = " +
+                                        number(e.friction * e.impulse) + " N·s"});
+    story.push_back({Kind::Text, "The engine gave " + number(rubbed) + " N·s along it: " +
+                                     (sliding <= 1e-3f * e.approach_speed ? "just what stops the sliding"
+                                                                          : "they slide on at " + number(sliding) + " m/s")});
 }
 
 // From the speeds that they had, not from what should have been.
@@ -299,7 +318,9 @@ std::vector<StoryLine> impact_story(const ImpactRecord& record)
 {
     const ImpactEvent& e = record.event;
     std::vector<StoryLine> story;
-    story.push_back({Kind::Title, record.a.name + " (1) hits " + record.b.name + " (2)"});
+    char time[32];
+    std::snprintf(time, sizeof time, "%.3f s", record.time);
+    story.push_back({Kind::Title, record.a.name + " (1) hits " + record.b.name + " (2) at " + time});
     story.push_back({Kind::Step, "How heavy does each feel where it is hit?"});
     story.push_back({Kind::Formula, "point mass = 1 / (1/m + r²/I)"});
     tell_mass(story, record.a, e.effective_mass_a, true);
@@ -308,6 +329,7 @@ std::vector<StoryLine> impact_story(const ImpactRecord& record)
     tell_bounce(story, e);
     tell_blow(story, record);
     tell_check(story, record);
+    tell_friction(story, e);
     tell_after(story, record);
     return story;
 }

@@ -218,6 +218,8 @@ inline std::string what_is_false(const view::ImpactRecord& record)
     const auto along = [&](Vec2 v) { return static_cast<double>(dot(v, e.normal)); };
     if (!says("The engine gave ", static_cast<double>(e.impulse)))
         return "impulse";
+    if (!says("they slide on at ", std::abs(static_cast<double>(cross(e.normal, e.velocity_after_b - e.velocity_after_a)))))
+        return "sliding";
     if (!says("They part at ", along(e.velocity_after_b - e.velocity_after_a)))
         return "parting speed";
     if (!says("still approach at ", -along(e.velocity_after_b - e.velocity_after_a)))
@@ -229,8 +231,11 @@ inline std::string what_is_false(const view::ImpactRecord& record)
     {
         for (const bool first : {true, false})
         {
-            const std::string head = (first ? record.a.name : record.b.name) + ": " + (first ? "v₁" : "v₂");
-            if (!line.text.starts_with(head) || (first ? e.effective_mass_a : e.effective_mass_b) <= 0)
+            const std::string& name = first ? record.a.name : record.b.name;
+            const std::string v = first ? "v₁" : "v₂";
+            const bool is_of_it =
+                line.text.starts_with(name + ": " + v) || line.text.starts_with(name + ", where it is hit: " + v);
+            if (!is_of_it || (first ? e.effective_mass_a : e.effective_mass_b) <= 0)
                 continue;
             const std::size_t equals = line.text.rfind(" = ");
             const std::size_t from = equals != std::string::npos ? equals + 3 : line.text.rfind(" to ") + 4;

@@ -65,14 +65,14 @@ TEST(ImpactStory, ShowsTheFormulaWithItsValuesAndAgreesWithTheEngine)
 TEST(ImpactStory, SpeedsAfterwardsFollowFromTheBlow)
 {
     EXPECT_TRUE(says(ball_on_rod(), "ball: v₁ − j/m₁ = 2.00 − 1.00/2.00 = 1.50 m/s"));
-    EXPECT_TRUE(says(ball_on_rod(), "rod: v₂ + j/m₂ = −1.00 + 1.00/0.250 = 3.00 m/s"));
+    EXPECT_TRUE(says(ball_on_rod(), "rod, where it is hit: v₂ + j/m₂ = −1.00 + 1.00/0.250 = 3.00 m/s"));
 }
 
 TEST(ImpactStory, WhatOthersDidAtThatMomentIsNotTakenForTheBlow)
 {
     ImpactRecord record = ball_on_rod();
     record.event.velocity_after_b = {0.5f, 0};
-    EXPECT_TRUE(says(record, "rod: v₂ from −1.00 to 0.500 m/s"));
+    EXPECT_TRUE(says(record, "rod, where it is hit: v₂ from −1.00 to 0.500 m/s"));
 }
 
 TEST(ImpactStory, AWallIsAnInfiniteMass)

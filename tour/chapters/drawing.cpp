@@ -55,7 +55,7 @@ void Curve::add(float value, std::size_t most)
         values.pop_front();
 }
 
-void draw_curves(view::Canvas& canvas, const Box& area, std::string_view title, std::span<const Curve* const> curves,
+void draw_curves(view::Canvas& canvas, const Box& area, std::string_view title, std::span<const Curve* const> curves, double seconds,
                  std::size_t most)
 {
     const float pixel = canvas.camera().meters(1);
@@ -99,6 +99,12 @@ void draw_curves(view::Canvas& canvas, const Box& area, std::string_view title, 
     const std::string most_value = view::number(high);
     if (name_at + canvas.text_size(most_value, style).x + 12 < canvas.points(static_cast<float>(width)))
         canvas.text({area.upper.x - static_cast<double>(6 * pixel), area.upper.y - static_cast<double>(3 * pixel)}, most_value, style);
+    view::TextStyle foot = style;
+    foot.align_y = 1;
+    if (low < -0.02f * high)
+        canvas.text({area.upper.x - static_cast<double>(6 * pixel), area.lower.y + static_cast<double>(2 * pixel)}, view::number(low), foot);
+    foot.align_x = 0.5f;
+    canvas.text({(area.lower.x + area.upper.x) / 2, area.lower.y + static_cast<double>(2 * pixel)}, "← " + view::number(static_cast<float>(seconds)) + " s →", foot);
 }
 
 } // namespace carom::tour

@@ -48,8 +48,9 @@ struct Curve
     void add(float value, std::size_t most = 240);
 };
 
-/// Curves with one scale, zero in sight. All of `most` values fit into the width.
-void draw_curves(view::Canvas& canvas, const Box& area, std::string_view title, std::span<const Curve* const> curves,
+/// Curves with one scale, zero in sight, over time: `most` values, `seconds` long, fit into the width. The greatest value stands at the upper
+/// right corner, the least one, where it is below zero, at the lower right one.
+void draw_curves(view::Canvas& canvas, const Box& area, std::string_view title, std::span<const Curve* const> curves, double seconds,
                  std::size_t most = 240);
 
 } // namespace carom::tour

@@ -37,7 +37,7 @@ public:
         case 1: add(HalfSpace{.normal = slope}, {0, -1}, 0), add(box(half.x, half.y), {0.3, 0.4}, control("turn")); break;
         case 2: add(Circle{.radius = 0.9f}, {-0.6, 0}, 0), add(Circle{.radius = radius}, {1.0, 0.7}, 0); break;
         case 3: add(box(half.x, half.y), {-0.6, 0}, control("turn")), add(Circle{.radius = radius}, {1.0, 0.6}, 0); break;
-        default: add(box(half.x, half.y), {-0.8, -0.1}, 0), add(box(0.8f, 0.8f), {1.0, 0.5}, control("turn")); break;
+        default: add(box(half.x, half.y), {-0.8, -0.1}, 0), add(box(0.8f, 0.8f), {0.8, 0.4}, control("turn")); break;
         }
     }
 
@@ -58,6 +58,8 @@ public:
     {
         Values values{{"pair", std::to_string(pair() + 1)},
                       {"name", word(pair_words[static_cast<std::size_t>(pair())])},
+                      {"hx", view::number(half.x)},
+                      {"hy", view::number(half.y)},
                       {"sum", ""},
                       {"result", ""}};
         const Found found = find();
@@ -76,10 +78,13 @@ public:
             canvas.line(from, to, {color, width});
         for (const auto& [at, name, color] : found.marks)
         {
-            if (pair() != pairs - 1)
-                canvas.fill_circle(at, canvas.camera().meters(3.5f), color);
+            canvas.fill_circle(at, canvas.camera().meters(3.5f), color);
             label(canvas, at + Vec2{0, canvas.camera().meters(14)}, name, color, 12);
         }
+        for (const auto& [at, name, color] : found.names)
+            label(canvas, at, name, color, 13);
+        for (const auto& [from, way, name] : found.arrows)
+            named_arrow(canvas, from, way, name, yellow);
         for (const ContactInfo& contact : scene().body(m_bodies[1]).touches_now())
         {
             for (int i = 0; i < contact.point_count; ++i)
@@ -108,12 +113,20 @@ private:
         std::string name;
         view::Color color;
     };
+    struct Arrow
+    {
+        Position from;
+        Vec2 way;
+        std::string name;
+    };
     struct Found
     {
         float gap = 0; ///< m; negative: they overlap
         std::vector<std::pair<std::string, float>> numbers{};
         std::vector<Line> lines{};
         std::vector<Mark> marks{};
+        std::vector<Mark> names{}; ///< without a dot
+        std::vector<Arrow> arrows{};
     };
     static constexpr Vec2 slope{-0.196116f, 0.980581f};
 
@@ -148,8 +161,19 @@ private:
         const float distance = school::above_plane(center, pose(0).position, slope);
         Found found{.gap = distance - radius, .numbers = {{"d", distance}, {"r", radius}, {"gap", distance - radius}}};
         const Position foot = center - slope * distance;
-        found.lines = {{foot, center, first_color}, {center, center + slope * radius, second_color}};
-        found.marks = {{center, "c", first_color}, {foot, word("foot"), second_color}, {center + slope * radius, "r", second_color}};
+        // Beside each other, so that their lengths can be compared.
+        const Vec2 beside = 0.12f * perp(slope);
+        found.lines = {{foot, center, first_color}, {center - beside, center - beside - slope * radius, second_color}};
+        found.marks = {{center + slope * 0.08f, "c", first_color}, {foot, word("foot"), ink}};
+        found.names = {{center - slope * (0.5f * distance) + beside * 1.6f, "d", first_color},
+                       {center - slope * (0.5f * radius) - beside * 2.6f, "r", second_color}};
+        if (distance > radius)
+        {
+            found.lines.push_back({center - beside - slope * radius, foot - beside, good_color});
+            found.names.push_back({foot + slope * (0.5f * (distance - radius)) - beside * 4, word("gap"), good_color});
+        }
+        const Position stands = foot + perp(slope) * 1.8f;
+        found.arrows = {{stands, slope, "n"}};
         return found;
     }
 
@@ -175,7 +199,14 @@ private:
         const float distance = length(b - a);
         Found found{.gap = distance - 0.9f - radius, .numbers = {{"d", distance}, {"r1", 0.9f}, {"r2", radius}, {"gap", distance - 0.9f - radius}}};
         found.lines = {{a, b, first_color}};
-        found.marks = {{a, "c₁", first_color}, {b, "c₂", second_color}};
+        const Vec2 way = normalize(b - a);
+        const Vec2 beside = 0.1f * perp(way);
+        found.lines.push_back({a - beside, a - beside + way * 0.9f, second_color});
+        found.lines.push_back({b - beside, b - beside - way * radius, second_color});
+        found.marks = {{a, "c₁", first_color}, {b, "c₂", first_color}};
+        found.names = {{a + 0.5f * (b - a) + beside * 2, "d", first_color},
+                       {a + way * 0.45f - beside * 2.4f, "r₁", second_color},
+                       {b - way * (0.5f * radius) - beside * 2.4f, "r₂", second_color}};
         return found;
     }
 
@@ -189,7 +220,12 @@ private:
         found.lines = {{closest, pose(1).position, first_color}};
         found.lines.push_back({pose(0).position, transform(pose(0), {half.x, 0}), second_color});
         found.lines.push_back({pose(0).position, transform(pose(0), {0, half.y}), second_color});
-        found.marks = {{pose(1).position, "c", first_color}, {closest, word("nearest"), second_color}};
+        found.marks = {{pose(1).position, "c", first_color}, {closest, "", second_color}};
+        const Vec2 away = normalize(pose(1).position - closest);
+        found.names = {{closest - away * 0.1f + perp(away) * 0.85f, word("nearest"), second_color},
+                       {transform(pose(0), {half.x * 0.55f, -0.14f}), "x", second_color},
+                       {transform(pose(0), {-0.14f, half.y * 0.6f}), "y", second_color},
+                       {closest + 0.5f * (pose(1).position - closest) - perp(away) * 0.15f, "d", first_color}};
         return found;
     }
 
@@ -212,27 +248,37 @@ private:
         }
         found.numbers.emplace_back("axis", static_cast<float>(best + 1));
         found.numbers.emplace_back("gap", found.gap);
+        add_outline(found, pose(0), half, first_color);
+        add_outline(found, pose(1), other, second_color);
         for (std::size_t i = 0; i < axes.size(); ++i)
             add_shadows(found, axes[i], i, other, i == best);
         return found;
     }
 
-    // Each on a line of its own, beside the boxes.
+    static void add_outline(Found& found, const Pose& pose, Vec2 half_size, view::Color color)
+    {
+        const auto corners = school::corners(pose, half_size);
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            found.lines.push_back({corners[i], corners[(i + 1) % corners.size()], color});
+    }
+
+    // Each pair of shadows on a side of its own: below, on the left, above, on the right. Where both lie, the line is red.
     void add_shadows(Found& found, Vec2 axis, std::size_t number, Vec2 other, bool is_best) const
     {
+        static constexpr std::array<float, 4> offsets{-2.5f, 3.1f, 2.35f, -2.95f};
         const Vec2 side = perp(axis);
-        const float off = number % 2 == 0 ? -2.3f - 0.35f * static_cast<float>(number / 2) : 2.9f + 0.35f * static_cast<float>(number / 2);
-        const Position origin = Position{0, 0} + side * off;
-        const auto shade = [&](std::size_t which, Vec2 half_size, view::Color color)
-        {
-            const auto [low, high] = school::shadow(axis, pose(which), half_size);
-            const Position beside = origin + side * (which == 0 ? 0.05f : -0.05f); // where they overlap both are seen
-            found.lines.push_back({beside + axis * low, beside + axis * high, is_best ? color : fade(color, 0.45f), 5});
-        };
-        shade(0, half, first_color);
-        shade(1, other, second_color);
-        const auto [low, high] = school::shadow(axis, pose(1), other);
-        found.marks.push_back({origin + axis * (high + 0.25f), std::to_string(number + 1), is_best ? yellow : faint});
+        const Position origin = Position{0, 0} + side * offsets[number];
+        const auto [low_a, high_a] = school::shadow(axis, pose(0), half);
+        const auto [low_b, high_b] = school::shadow(axis, pose(1), other);
+        const float strength = is_best ? 1 : 0.55f;
+        found.lines.push_back({origin + axis * low_a, origin + axis * high_a, fade(first_color, strength), 5});
+        found.lines.push_back({origin + axis * low_b, origin + axis * high_b, fade(second_color, strength), 5});
+        const float low = std::max(low_a, low_b);
+        const float high = std::min(high_a, high_b);
+        if (low < high)
+            found.lines.push_back({origin + axis * low, origin + axis * high, bad_color, is_best ? 9.0f : 6.0f});
+        found.names.push_back({origin + axis * (0.5f * (low + high)) + side * (number % 2 == 0 ? 0.24f : 0.34f),
+                               std::to_string(number + 1) + ": " + fixed(low - high, 2), is_best ? yellow : faint});
     }
 
     std::array<BodyId, 2> m_bodies{};

@@ -24,7 +24,7 @@ class OneStep : public Chapter
 public:
     OneStep()
         : Chapter("01-one-step", {{.name = "steps", .value = 60, .low = 5, .high = 240, .format = "%.0f", .is_whole = true, .restarts = true, .logarithmic = true},
-                                  {.name = "stage", .value = 2, .low = 1, .high = stages, .format = "%.0f", .is_whole = true}})
+                                  {.name = "stage", .value = 1, .low = 1, .high = stages, .format = "%.0f", .is_whole = true}})
     {}
 
     void build() override
@@ -88,7 +88,7 @@ public:
         view::draw_scene(canvas, scene(), alpha);
         const float dot = canvas.camera().meters(2.2f);
         for (const Position p : m_trail)
-            canvas.fill_circle(p, dot, first_color);
+            canvas.fill_circle(p, dot, ink);
         draw_stage(canvas);
         draw_row(canvas);
     }

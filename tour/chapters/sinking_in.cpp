@@ -89,13 +89,13 @@ public:
             view::draw_ghost(canvas, scene(), m_pair[i], {m_start[i], {}}, {faint, 1.2f});
             named_arrow(canvas, {m_start[i].x, middle_y + 1.0}, {static_cast<float>(now.x - m_start[i].x), 0}, "",
                         i == 0 ? first_color : second_color);
-            label(canvas, now, view::number(control(i == 0 ? "mass 1" : "mass 2")) + " kg", view::rgb(0x10141c), 12);
+            label(canvas, now, std::to_string(i + 1) + ": " + view::number(control(i == 0 ? "mass 1" : "mass 2")) + " kg", view::rgb(0x10141c), 12);
         }
         const std::array<const Curve*, 1> overlaps{&m_overlap};
-        draw_curves(canvas, {{-4.4, 4.6}, {-0.4, 6.4}}, word("overlap"), overlaps, window_steps);
+        draw_curves(canvas, {{-4.4, 4.6}, {-0.4, 6.4}}, word("overlap"), overlaps, window_steps * static_cast<double>(h()), window_steps);
         const std::array<const Curve*, 1> sags{&m_sag};
-        draw_curves(canvas, {{-4.4, -0.2}, {-0.4, 1.5}}, word("sag"), sags, window_steps);
-        label(canvas, {2.3, 7.75}, word("pile"), faint, 12);
+        draw_curves(canvas, {{-4.4, -0.2}, {-0.4, 1.5}}, word("sag"), sags, window_steps * static_cast<double>(h()), window_steps);
+        label(canvas, {2.3, 7.5}, word("pile"), faint, 12);
     }
 
     [[nodiscard]] TableView table_view() const override { return {.contacts = true}; }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace carom::tour {
 namespace {
@@ -22,6 +23,8 @@ class Springs : public Chapter
     static constexpr float ball_mass = 1;
     static constexpr float rod_stiffness = 60;
     static constexpr std::size_t window_steps = 480;
+    static constexpr double window_seconds = 4;
+    static constexpr float burst_at = 20; ///< m: nobody needs to see the simple engine's mass any more
 
 public:
     Springs()
@@ -45,6 +48,8 @@ public:
         for (Curve* curve : {&m_force, &m_kinetic, &m_potential, &m_sum})
             curve->values.clear();
         m_launch = 0;
+        m_simple_x = control("stretch");
+        m_simple_v = 0;
     }
 
     [[nodiscard]] float h() const override { return 1.0f / 120; }
@@ -55,6 +60,7 @@ public:
         def.stiffness = control("k");
         def.damping = control("c");
         scene().joint(m_spring).set_def(def);
+        step_simple();
         Chapter::step();
         const float x = stretch();
         const float v = velocity();
@@ -82,6 +88,7 @@ public:
                 {"v", fixed(velocity())},
                 {"force", fixed(-k * stretch() - control("c") * velocity(), 2)},
                 {"period", view::number(2 * pi * std::sqrt(m / k))},
+                {"limit", view::number(control("c") / h())},
                 {"critical", view::number(critical)},
                 {"damped", word(control("c") < 0.98f * critical ? "under" : control("c") > 1.02f * critical ? "over" : "just")},
                 {"pull", view::number(s)},
@@ -101,15 +108,16 @@ public:
         const std::array<Position, 2> mark{Position{rest_x, 0.5}, Position{rest_x, 2.3}};
         canvas.dashed(mark, {faint, 1.5f});
         label(canvas, {rest_x, 2.45}, word("rest"), faint, 12);
+        draw_simple(canvas);
         view::draw_scene(canvas, scene(), alpha);
         const Position at = scene().body(m_mass).interpolated_pose(alpha).position;
-        named_arrow(canvas, at + Vec2{0, 0.85f}, {-0.04f * control("k") * stretch(), 0}, word("spring force"), second_color);
-        named_arrow(canvas, at + Vec2{0, 0.6f}, {-0.04f * control("c") * velocity(), 0}, word("damping force"), bad_color);
-        named_arrow(canvas, at + Vec2{0, -0.7f}, {0.2f * velocity(), 0}, word("velocity"), good_color);
+        arrow_above(canvas, at + Vec2{0, 0.92f}, {-0.04f * control("k") * stretch(), 0}, word("spring force"), second_color);
+        arrow_above(canvas, at + Vec2{0, 0.55f}, {-0.04f * control("c") * velocity(), 0}, word("damping force"), bad_color);
+        arrow_above(canvas, at + Vec2{0, -0.75f}, {0.2f * velocity(), 0}, word("velocity"), good_color);
         const std::array<const Curve*, 1> force{&m_force};
-        draw_curves(canvas, {{-4.1, -3.5}, {-0.1, -1.7}}, word("force"), force, window_steps);
+        draw_curves(canvas, {{-4.1, -3.5}, {-0.1, -1.7}}, word("force"), force, window_seconds, window_steps);
         const std::array<const Curve*, 3> energies{&m_sum, &m_kinetic, &m_potential};
-        draw_curves(canvas, {{0.1, -3.5}, {4.1, -1.7}}, word("energy"), energies, window_steps);
+        draw_curves(canvas, {{0.1, -3.5}, {4.1, -1.7}}, word("energy"), energies, window_seconds, window_steps);
     }
 
     [[nodiscard]] TableView table_view() const override { return {.joints = true}; }
@@ -119,6 +127,35 @@ private:
     {
         return static_cast<float>(scene().body(m_mass).position().x - wall_x) - rest_length;
     }
+    // The simplest engine: force and velocity of the start of a step hold for all of it.
+    void step_simple()
+    {
+        if (std::abs(m_simple_x) > burst_at)
+            return;
+        const float force = -control("k") * m_simple_x - control("c") * m_simple_v;
+        m_simple_x += h() * m_simple_v;
+        m_simple_v += h() * force / control("mass");
+    }
+
+    void draw_simple(view::Canvas& canvas) const
+    {
+        const Position at{wall_x + static_cast<double>(rest_length + m_simple_x), rail_y};
+        if (at.x < wall_x || at.x > 4.2)
+            return label(canvas, {2.6, 2.45}, word("burst"), bad_color, 12);
+        canvas.stroke_box({{at.x - 0.35, at.y - 0.35}, {at.x + 0.35, at.y + 0.35}}, {faint, 1.5f});
+        if (std::abs(m_simple_x - stretch()) > 0.25f)
+            label(canvas, at, word("simple"), faint, 11);
+    }
+
+    // Its name stands over its middle, where no head is in the way.
+    static void arrow_above(view::Canvas& canvas, Position from, Vec2 way, std::string_view name, view::Color color)
+    {
+        named_arrow(canvas, from, way, "", color);
+        const float pixel = canvas.camera().meters(1);
+        if (length(way) > 4 * pixel)
+            label(canvas, from + 0.5f * way + Vec2{0, 11 * pixel}, name, color, 12);
+    }
+
     [[nodiscard]] float velocity() const { return scene().body(m_mass).velocity().x; }
 
     [[nodiscard]] bool is_turning() const
@@ -147,6 +184,8 @@ private:
     JointId m_spring{};
     JointId m_rod_spring{};
     float m_launch = 0;
+    float m_simple_x = 0; ///< stretch of the simple engine's spring
+    float m_simple_v = 0;
     Curve m_force{second_color};
     Curve m_kinetic{good_color, word("kinetic")};
     Curve m_potential{second_color, word("potential")};

@@ -24,6 +24,7 @@ public:
                                   {.name = "mass 2", .value = 2, .low = 0.2f, .high = 10, .format = "%.1f kg", .logarithmic = true},
                                   {.name = "height", .value = 0.6f, .low = -0.95f, .high = 0.95f, .format = "%.2f m"},
                                   {.name = "friction", .value = 0},
+                                  {.name = "spin", .value = 0, .low = -40, .high = 40, .format = "%.0f rad/s"},
                                   {.name = "pivot", .is_switch = true}}),
           m_watch([this](const Scene& scene, ShapeId shape)
                   { return scene.shape(shape).body() == m_ball ? word("ball") : word("box"); })
@@ -42,7 +43,7 @@ public:
         ShapeDef of_box = material;
         of_box.density = control("mass 2") / (4 * half_box.x * half_box.y);
         m_ball = scene().create_body(
-            {.type = BodyType::Dynamic, .position = {-3, static_cast<double>(control("height"))}, .velocity = {4, 0}});
+            {.type = BodyType::Dynamic, .position = {-3, static_cast<double>(control("height"))}, .velocity = {4, 0}, .angular_velocity = control("spin")});
         scene().create_shape(m_ball, Circle{.radius = ball_radius}, of_ball);
         m_box = scene().create_body({.type = BodyType::Dynamic, .position = {0, 0}});
         scene().create_shape(m_box, box(half_box.x, half_box.y), of_box);

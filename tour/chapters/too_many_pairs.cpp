@@ -6,6 +6,7 @@
 #include "view/xray.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -58,10 +59,11 @@ public:
     [[nodiscard]] Values values() const override
     {
         const int n = balls();
-        const int found = scene().report().pairs;
+        const auto found = static_cast<std::ptrdiff_t>(scene().contacts().size());
         return {{"n", std::to_string(n)},
                 {"all", std::to_string(n * (n - 1) / 2)},
                 {"found", std::to_string(found)},
+                {"walls", std::to_string(found - ball_pairs())},
                 {"touching", std::to_string(scene().report().touching)}};
     }
 
@@ -81,8 +83,7 @@ public:
         {
             const ConstBody a = scene().body(scene().shape(contact.shape_a).body());
             const ConstBody b = scene().body(scene().shape(contact.shape_b).body());
-            if (a.type() == BodyType::Dynamic && b.type() == BodyType::Dynamic)
-                canvas.line(a.position(), b.position(), {yellow, 3});
+            canvas.line(end_of(a, b), end_of(b, a), {yellow, 3});
         }
     }
 
@@ -90,6 +91,25 @@ public:
 
 private:
     [[nodiscard]] int balls() const { return static_cast<int>(control("balls")); }
+
+    [[nodiscard]] std::ptrdiff_t ball_pairs() const
+    {
+        const auto moves = [this](ShapeId shape) { return scene().body(scene().shape(shape).body()).type() == BodyType::Dynamic; };
+        const std::vector<ContactInfo> contacts = scene().contacts();
+        return std::ranges::count_if(contacts, [&](const ContactInfo& c) { return moves(c.shape_a) && moves(c.shape_b); });
+    }
+
+    // A ball's middle; of the walls, the place that is nearest to the other one.
+    static Position end_of(const ConstBody& body, const ConstBody& other)
+    {
+        if (body.type() == BodyType::Dynamic)
+            return body.position();
+        const Position at = other.position();
+        const double half = half_room;
+        const double to_side = half - std::abs(at.x);
+        const double to_end = half - std::abs(at.y);
+        return to_side < to_end ? Position{std::copysign(half, at.x), at.y} : Position{at.x, std::copysign(half, at.y)};
+    }
 
     void draw_all(view::Canvas& canvas) const
     {
@@ -105,7 +125,7 @@ private:
         }
     }
 
-    // As a tree of this kind may look: halves of halves, along the longer side, down to groups of three. The engine's own puts eight boxes into one.
+    // The first levels of a tree of this kind: halves of halves, along the longer side. The engine's own puts eight boxes into one.
     void draw_tree(view::Canvas& canvas) const
     {
         std::vector<Box> boxes;
@@ -128,11 +148,12 @@ private:
             all.lower = {std::min(all.lower.x, box.lower.x), std::min(all.lower.y, box.lower.y)};
             all.upper = {std::max(all.upper.x, box.upper.x), std::max(all.upper.y, box.upper.y)};
         }
-        const double more = static_cast<double>(canvas.camera().meters(5));
-        const float light = std::max(0.25f, 0.9f - 0.15f * static_cast<float>(depth));
+        static constexpr std::array<view::Color, 3> colors{second_color, view::rgb(0xc9a0ff), ink};
+        const auto level = static_cast<std::size_t>(depth);
+        const double more = static_cast<double>(canvas.camera().meters(9 - 3 * static_cast<float>(depth)));
         canvas.stroke_box({{all.lower.x - more, all.lower.y - more}, {all.upper.x + more, all.upper.y + more}},
-                          {fade(second_color, light), depth < 2 ? 2.0f : 1.2f}, canvas.camera().meters(4));
-        if (boxes.size() <= 3)
+                          {fade(colors[level], 0.8f), 1.8f}, canvas.camera().meters(4));
+        if (level + 1 == colors.size() || boxes.size() <= 3)
             return;
         const bool wide = all.upper.x - all.lower.x > all.upper.y - all.lower.y;
         const auto middle = boxes.begin() + static_cast<std::ptrdiff_t>(boxes.size() / 2);
