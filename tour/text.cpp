@@ -144,36 +144,4 @@ ChapterText load_text(const std::string& name, const std::string& language)
     return parse_text(markdown, file);
 }
 
-std::string filled(std::string_view text, const Values& values)
-{
-    std::string result;
-    while (!text.empty())
-    {
-        const std::size_t open = text.find('{');
-        const std::size_t close = open == std::string_view::npos ? open : text.find('}', open);
-        if (close == std::string_view::npos)
-            break;
-        result += text.substr(0, open);
-        const std::string_view name = text.substr(open + 1, close - open - 1);
-        const auto value = values.find(name);
-        result += value != values.end() ? std::string_view(value->second) : text.substr(open, close - open + 1);
-        text = text.substr(close + 1);
-    }
-    result += text;
-    return result;
-}
-
-std::vector<std::string> placeholders(std::string_view text)
-{
-    std::vector<std::string> names;
-    for (std::size_t open = text.find('{'); open != std::string_view::npos; open = text.find('{', open + 1))
-    {
-        const std::size_t close = text.find('}', open);
-        if (close == std::string_view::npos)
-            break;
-        names.emplace_back(text.substr(open + 1, close - open - 1));
-    }
-    return names;
-}
-
 } // namespace carom::tour

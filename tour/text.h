@@ -23,6 +23,8 @@
 ///     ## On the table
 ///     What to look at there.
 
+#include "view/words.h"
+
 #include <map>
 #include <span>
 #include <string>
@@ -31,8 +33,9 @@
 
 namespace carom::tour {
 
-/// Numbers and names for {placeholders}.
-using Values = std::map<std::string, std::string, std::less<>>;
+using view::filled;
+using view::placeholders;
+using view::Values;
 
 struct Block
 {
@@ -61,11 +64,5 @@ struct ChapterText
 
 /// Of the folder that comes with the program. Throws std::runtime_error where there is no such file.
 [[nodiscard]] ChapterText load_text(const std::string& name, const std::string& language = "en");
-
-/// The text with its placeholders filled in; one without a value stays as it is.
-[[nodiscard]] std::string filled(std::string_view text, const Values& values);
-
-/// The names between braces.
-[[nodiscard]] std::vector<std::string> placeholders(std::string_view text);
 
 } // namespace carom::tour

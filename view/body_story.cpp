@@ -1,5 +1,7 @@
 #include "view/body_story.h"
 
+#include "view/words.h"
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -55,45 +57,44 @@ std::string direction(Vec2 force)
 {
     const float across = std::abs(force.x);
     const float upright = std::abs(force.y);
-    const std::string vertical = force.y > 0 ? "up" : "down";
-    const std::string sideways = force.x > 0 ? "right" : "left";
+    const std::string vertical = say(force.y > 0 ? "up" : "down");
+    const std::string sideways = say(force.x > 0 ? "right" : "left");
     if (across < 0.25f * upright)
         return vertical;
     if (upright < 0.25f * across)
-        return "to the " + sideways;
-    return vertical + " and to the " + sideways;
+        return sideways;
+    return say("and", {{"first", vertical}, {"second", sideways}});
 }
 
 void tell_push(std::vector<StoryLine>& story, const Scene& scene, const Push& push)
 {
-    story.push_back({Kind::Text, push.by + " pushes " + direction(push.force) + " with " + number(push.normal) + " N"});
+    story.push_back(
+        {Kind::Text, say("push", {{"name", push.by}, {"direction", direction(push.force)}, {"force", number(push.normal)}})});
     if (push.along < 1e-3f * push.normal)
         return;
-    std::string line = "friction: " + number(push.along) + " N";
-    if (scene.def().friction_rule == MixRule::GeometricMean)
-        line += " of at most μ·N = " + number(push.mu) + "·" + number(push.normal) + " = " + number(push.mu * push.normal) + " N";
-    story.push_back({Kind::Formula, line});
+    const bool is_limit_known = scene.def().friction_rule == MixRule::GeometricMean;
+    story.push_back({Kind::Formula, say(is_limit_known ? "rubs at most" : "rubs", {{"force", number(push.along)},
+                                                                                   {"mu", number(push.mu)},
+                                                                                   {"normal", number(push.normal)},
+                                                                                   {"most", number(push.mu * push.normal)}})});
 }
 
 void tell_state(std::vector<StoryLine>& story, const ConstBody& body)
 {
     switch (body.type())
     {
-    case BodyType::Static: story.push_back({Kind::Text, "It is static: it never moves, whoever pushes it."}); return;
+    case BodyType::Static: story.push_back({Kind::Text, say("static")}); return;
     case BodyType::Kinematic:
-        story.push_back({Kind::Text, "It is kinematic: it moves as it is told, at " + number(length(body.velocity())) +
-                                         " m/s, and cannot be pushed."});
+        story.push_back({Kind::Text, say("kinematic", {{"speed", number(length(body.velocity()))}})});
         return;
     case BodyType::Dynamic: break;
     }
-    story.push_back({Kind::Formula, "m = " + number(body.mass()) + " kg, speed = " + number(length(body.velocity())) + " m/s"});
+    story.push_back(
+        {Kind::Formula, say("mass and speed", {{"mass", number(body.mass())}, {"speed", number(length(body.velocity()))}})});
     if (!body.is_enabled())
-        story.push_back({Kind::Text, "It is disabled: it takes part in nothing."});
+        story.push_back({Kind::Text, say("disabled")});
     else if (!body.is_awake())
-        story.push_back(
-            {Kind::Text,
-             "It sleeps: it has stayed in its place for half a second and is left out of the calculation until something "
-             "touches or pushes it. What pushed it when it fell asleep pushes it still:"});
+        story.push_back({Kind::Text, say("sleeps")});
 }
 
 void tell_sum(std::vector<StoryLine>& story, const ConstBody& body, Vec2 sum, float weight)
@@ -102,15 +103,15 @@ void tell_sum(std::vector<StoryLine>& story, const ConstBody& body, Vec2 sum, fl
     const bool rests = size <= 0.03f * std::max(weight, 1e-6f);
     const bool stands = length(body.velocity()) < 0.02f;
     if (rests && stands)
-        story.push_back({Kind::Result, "All of them cancel out: it stays where it is."});
+        story.push_back({Kind::Result, say("cancel and stays")});
     else if (rests)
-        story.push_back({Kind::Result, "All of them cancel out: it goes on evenly."});
+        story.push_back({Kind::Result, say("cancel and goes on")});
     else
-        story.push_back({Kind::Result, "Together " + number(size) + " N " + direction(sum) +
-                                           "; by themselves they would change its velocity by F/m = " +
-                                           number(size / body.mass()) + " m/s in each second"});
+        story.push_back(
+            {Kind::Result,
+             say("together", {{"force", number(size)}, {"direction", direction(sum)}, {"change", number(size / body.mass())}})});
     if (!rests && stands)
-        story.push_back({Kind::Text, "And yet it hardly moves: a lock, a damper, or a force that is not in this list."});
+        story.push_back({Kind::Text, say("hardly moves")});
 }
 
 void tell_triggers(std::vector<StoryLine>& story, const Scene& scene, const ConstBody& body, const ShapeNamer& namer)
@@ -123,13 +124,12 @@ void tell_triggers(std::vector<StoryLine>& story, const Scene& scene, const Cons
         std::string who;
         for (const ShapeId visitor : inside)
             who += (who.empty() ? "" : ", ") + namer(scene, visitor);
-        story.push_back(
-            {Kind::Text, "A trigger: it stops nobody and reports who is inside. Now: " + (who.empty() ? "nobody" : who)});
+        story.push_back({Kind::Text, say("trigger", {{"who", who.empty() ? say("nobody") : who}})});
         const Field field = scene.shape(shape).def().field;
         if (field != Field{})
-            story.push_back({Kind::Text, "A field acts on what is inside: acceleration " + number(length(field.acceleration)) +
-                                             " m/s², force " + number(length(field.force)) + " N, drag " + number(field.drag) +
-                                             " /s"});
+            story.push_back({Kind::Text, say("field", {{"acceleration", number(length(field.acceleration))},
+                                                       {"force", number(length(field.force))},
+                                                       {"drag", number(field.drag)}})});
     }
 }
 
@@ -142,8 +142,8 @@ struct JointTeller
     {
         const float length = joint.coordinate();
         const float force = def.stiffness * (def.length - length) - def.damping * joint.speed();
-        story.push_back({Kind::Text, std::string("A spring ") + (length > def.length ? "that is stretched" : "that is pressed")});
-        story.push_back({Kind::Formula, "F = k·(rest − length) − c·v"});
+        story.push_back({Kind::Text, say(length > def.length ? "spring stretched" : "spring pressed")});
+        story.push_back({Kind::Formula, say("spring law")});
         story.push_back({Kind::Formula, number(def.stiffness) + "·(" + number(def.length) + " − " + number(length) + ") − " +
                                             number(def.damping) + "·" + signed_number(joint.speed()) + " ≈ " + number(force) +
                                             " N"});
@@ -152,36 +152,34 @@ struct JointTeller
     {
         const bool rod = def.min_length == def.max_length;
         const bool taut = joint.coordinate() >= def.max_length * 0.999f;
-        story.push_back({Kind::Text, (rod ? "A rod of " : "A rope of at most ") + number(def.max_length) + " m, now " +
-                                         number(joint.coordinate()) +
-                                         (rod    ? " m"
-                                          : taut ? " m: taut"
-                                                 : " m: slack, it does not pull")});
-        story.push_back({Kind::Formula, "it pulls with " + number(length(joint.force())) + " N"});
+        story.push_back({Kind::Text, say(rod    ? "rod"
+                                         : taut ? "rope taut"
+                                                : "rope slack",
+                                         {{"most", number(def.max_length)}, {"length", number(joint.coordinate())}})});
+        story.push_back({Kind::Formula, say("pulls", {{"force", number(length(joint.force()))}})});
     }
     void operator()(const RevoluteDef& def) const
     {
-        story.push_back(
-            {Kind::Text, "A hinge, turned by " + number(joint.coordinate()) + " rad at " + number(joint.speed()) + " rad/s"});
+        story.push_back({Kind::Text, say("hinge", {{"angle", number(joint.coordinate())}, {"speed", number(joint.speed())}})});
         if (def.enable_limit)
-            story.push_back({Kind::Text, "limits: " + number(def.lower_angle) + " to " + number(def.upper_angle) + " rad"});
+            story.push_back(
+                {Kind::Text, say("hinge limits", {{"low", number(def.lower_angle)}, {"high", number(def.upper_angle)}})});
         if (def.enable_motor)
-            story.push_back({Kind::Text, "a motor wants " + number(def.motor_speed) + " rad/s and may use " +
-                                             number(def.max_motor_torque) + " N·m"});
+            story.push_back(
+                {Kind::Text, say("hinge motor", {{"speed", number(def.motor_speed)}, {"torque", number(def.max_motor_torque)}})});
         story.push_back(
-            {Kind::Formula, "it bears " + number(length(joint.force())) + " N, torque " + number(joint.torque()) + " N·m"});
+            {Kind::Formula, say("hinge bears", {{"force", number(length(joint.force()))}, {"torque", number(joint.torque())}})});
     }
     void operator()(const PrismaticDef& def) const
     {
-        story.push_back(
-            {Kind::Text, "A slider, moved by " + number(joint.coordinate()) + " m at " + number(joint.speed()) + " m/s"});
+        story.push_back({Kind::Text, say("slider", {{"way", number(joint.coordinate())}, {"speed", number(joint.speed())}})});
         if (def.enable_limit)
-            story.push_back(
-                {Kind::Text, "limits: " + number(def.lower_translation) + " to " + number(def.upper_translation) + " m"});
+            story.push_back({Kind::Text, say("slider limits",
+                                             {{"low", number(def.lower_translation)}, {"high", number(def.upper_translation)}})});
         if (def.enable_motor)
-            story.push_back({Kind::Text, "a motor wants " + number(def.motor_speed) + " m/s and may use " +
-                                             number(def.max_motor_force) + " N"});
-        story.push_back({Kind::Formula, "it bears " + number(length(joint.force())) + " N"});
+            story.push_back(
+                {Kind::Text, say("slider motor", {{"speed", number(def.motor_speed)}, {"force", number(def.max_motor_force)}})});
+        story.push_back({Kind::Formula, say("slider bears", {{"force", number(length(joint.force()))}})});
     }
 
     static std::string signed_number(float value) { return value < 0 ? "(" + number(value) + ")" : number(value); }
@@ -202,19 +200,20 @@ std::vector<StoryLine> body_story(const Scene& scene, BodyId id, float h, const 
     std::vector<StoryLine> story;
     const ConstBody body = scene.body(id);
     const std::vector<ShapeId> shapes = body.shapes();
-    story.push_back({Kind::Title, shapes.empty() ? "a body without shapes" : namer(scene, shapes.front())});
+    story.push_back({Kind::Title, shapes.empty() ? say("no shapes") : namer(scene, shapes.front())});
     tell_state(story, body);
     tell_triggers(story, scene, body, namer);
     if (body.type() != BodyType::Dynamic || !body.is_enabled())
         return story;
 
-    story.push_back({Kind::Step, "Who pushes it?"});
+    story.push_back({Kind::Step, say("who pushes")});
     const Vec2 gravity = body.mass() * body.gravity_scale() * scene.gravity();
     Vec2 sum = gravity;
     if (gravity != Vec2{})
-        story.push_back({Kind::Formula, "weight: m·g = " + number(body.mass()) + "·" +
-                                            number(length(body.gravity_scale() * scene.gravity())) + " = " +
-                                            number(length(gravity)) + " N " + direction(gravity)});
+        story.push_back({Kind::Formula, say("weight", {{"mass", number(body.mass())},
+                                                       {"g", number(length(body.gravity_scale() * scene.gravity()))},
+                                                       {"weight", number(length(gravity))},
+                                                       {"direction", direction(gravity)}})});
     for (const Push& push : pushes_on(scene, id, h, namer))
     {
         tell_push(story, scene, push);

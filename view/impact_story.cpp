@@ -1,5 +1,7 @@
 #include "view/impact_story.h"
 
+#include "view/words.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -69,15 +71,14 @@ std::string with_index(const char* symbol, bool first) { return std::string(symb
 
 void tell_fixed(std::vector<StoryLine>& story, const ImpactParty& p, bool first)
 {
-    const char* why =
-        p.type == BodyType::Kinematic ? " moves as it is told and cannot be pushed: " : " is fixed and cannot be pushed: ";
-    story.push_back({Kind::Text, p.name + why + with_index("m", first) + " = ∞"});
+    const char* sentence = p.type == BodyType::Kinematic ? "is told" : "is fixed";
+    story.push_back({Kind::Text, say(sentence, {{"name", p.name}, {"m", with_index("m", first)}})});
 }
 
 void tell_held(std::vector<StoryLine>& story, const ImpactParty& p, float effective, bool first)
 {
     const std::string r = number(lever_arm(p, effective));
-    story.push_back({Kind::Text, p.name + " turns about a fixed pivot, hit " + r + " m from it: only I/r² counts"});
+    story.push_back({Kind::Text, say("is held", {{"name", p.name}, {"r", r}})});
     story.push_back({Kind::Formula, with_index("m", first) + " = " + number(p.inertia) + " / " +
                                         squared(lever_arm(p, effective)) + " = " + number(effective) + " kg"});
 }
@@ -88,11 +89,11 @@ void tell_free(std::vector<StoryLine>& story, const ImpactParty& p, float effect
     const std::string m = with_index("m", first);
     if (r <= 0)
     {
-        story.push_back({Kind::Text, p.name + " is hit straight towards its centre (r = 0): all of its mass counts"});
+        story.push_back({Kind::Text, say("is central", {{"name", p.name}})});
         story.push_back({Kind::Formula, m + " = " + number(effective) + " kg"});
         return;
     }
-    story.push_back({Kind::Text, p.name + " is hit " + number(r) + " m beside its centre and can turn away: it feels lighter"});
+    story.push_back({Kind::Text, say("is beside", {{"name", p.name}, {"r", number(r)}})});
     story.push_back({Kind::Formula, m + " = 1 / (1/" + number(p.mass) + " + " + squared(r) + "/" + number(p.inertia) +
                                         ") = " + number(effective) + " kg"});
 }
@@ -104,13 +105,12 @@ void tell_jointed(std::vector<StoryLine>& story, const ImpactParty& p, float eff
     const std::string m = with_index("m", first);
     if (std::abs(of_pivot - effective) > 0.01f * effective)
     {
-        story.push_back({Kind::Text, p.name + " is held by joints: what hangs on them is pushed along. Here it feels like"});
+        story.push_back({Kind::Text, say("is jointed", {{"name", p.name}})});
         story.push_back({Kind::Formula, m + " = " + number(effective) + " kg"});
         return;
     }
     const std::string r = number(p.pivot_arm);
-    story.push_back({Kind::Text, p.name + " hangs on a pivot and is hit " + r +
-                                     " m beside it: it can only turn, and I/r² counts, I about the pivot"});
+    story.push_back({Kind::Text, say("is on pivot", {{"name", p.name}, {"r", r}})});
     story.push_back(
         {Kind::Formula, m + " = " + number(p.pivot_inertia) + " / " + squared(p.pivot_arm) + " = " + number(effective) + " kg"});
 }
@@ -140,8 +140,8 @@ std::string bracketed(float value)
 
 void tell_speed(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
-    story.push_back({Kind::Step, "How fast do they approach?"});
-    story.push_back({Kind::Text, "Speeds along the line of the hit, positive from the first towards the second:"});
+    story.push_back({Kind::Step, say("how fast")});
+    story.push_back({Kind::Text, say("speeds")});
     story.push_back({Kind::Formula, "v₁ − v₂ = " + number(e.speed_a) + " − " + bracketed(e.speed_b) + " = " +
                                         number(e.approach_speed) + " m/s"});
 }
@@ -149,9 +149,8 @@ void tell_speed(std::vector<StoryLine>& story, const ImpactEvent& e)
 void tell_bounce(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     const int percent = static_cast<int>(std::lround(100 * e.restitution));
-    story.push_back({Kind::Step, "How bouncy is it?"});
-    story.push_back({Kind::Text, "e = " + number(e.restitution) + ": " + std::to_string(percent) +
-                                     " % of the approach speed comes back, where nobody else takes part"});
+    story.push_back({Kind::Step, say("how bouncy")});
+    story.push_back({Kind::Text, say("bounciness", {{"e", number(e.restitution)}, {"percent", std::to_string(percent)}})});
 }
 
 void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -162,17 +161,17 @@ void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
     const std::string m1 = number(e.effective_mass_a);
     const std::string m2 = number(e.effective_mass_b);
     const bool both = e.effective_mass_a > 0 && e.effective_mass_b > 0;
-    story.push_back({Kind::Step, "So the blow is"});
-    story.push_back({Kind::Formula, "j = (1+e)·m₁·m₂/(m₁+m₂)·(v₁−v₂)"});
+    story.push_back({Kind::Step, say("so the blow is")});
+    story.push_back({Kind::Formula, say("blow")});
     if (!both)
-        story.push_back({Kind::Text, "Against an infinite mass, m₁·m₂/(m₁+m₂) is just the other mass:"});
+        story.push_back({Kind::Text, say("infinite mass")});
     const std::string masses = both ? m1 + "·" + m2 + "/(" + m1 + "+" + m2 + ")" : e.effective_mass_a > 0 ? m1 : m2;
     const float mass = reduced_mass(e.effective_mass_a, e.effective_mass_b);
     story.push_back({Kind::Formula,
                      "j = " + bounce + masses + speed + " = " + number((1 + e.restitution) * mass * e.approach_speed) + " N·s"});
     if (e.kick_speed > 0)
         story.push_back(
-            {Kind::Formula, "plus the kick of " + number(e.kick_speed) + " m/s: " + number(mass * e.kick_speed) + " N·s"});
+            {Kind::Formula, say("kick", {{"speed", number(e.kick_speed)}, {"impulse", number(mass * e.kick_speed)}})});
 }
 
 void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
@@ -180,9 +179,9 @@ void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
     const float formula = impulse_by_formula(record);
     const float engine = record.event.impulse;
     const bool same = std::abs(formula - engine) <= digits_tell * std::max(formula, engine) || number(formula) == number(engine);
-    story.push_back({Kind::Result, "The engine gave " + number(engine) + " N·s" + (same ? ": the same" : "")});
+    story.push_back({Kind::Result, say(same ? "engine same" : "engine differs", {{"impulse", number(engine)}})});
     if (!same)
-        story.push_back({Kind::Text, "They differ: friction or another contact took part in the same blow."});
+        story.push_back({Kind::Text, say("why it differs")});
 }
 
 // By the impulse over the mass, where nothing else moved it at that moment.
@@ -199,12 +198,15 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const bool is_alone = std::abs(by_formula - after) <= 0.2f * digits_tell * scale;
     const std::string way = is_alone ? v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
                                            number(impulse) + "/" + number(effective) + " = "
-                                     : v + " from " + number(before) + " to ";
+                                     : say("from to", {{"v", v}, {"before", number(before)}});
     const bool turns = !p.held && !p.jointed && lever_arm(p, effective) > 0;
-    story.push_back({Kind::Formula, p.name + (turns ? ", where it is hit: " : ": ") + way + number(after) + " m/s"});
+    story.push_back(
+        {Kind::Formula, say(turns ? "change of spot" : "change", {{"name", p.name}, {"way", way}, {"after", number(after)}})});
     if (turns && is_alone)
-        story.push_back({Kind::Formula, p.name + ", its centre: only j/m = " + number(impulse) + "/" + number(p.mass) + " = " +
-                                            number(impulse / p.mass) + " m/s more or less; the rest is turning"});
+        story.push_back({Kind::Formula, say("centre", {{"name", p.name},
+                                                       {"impulse", number(impulse)},
+                                                       {"mass", number(p.mass)},
+                                                       {"change", number(impulse / p.mass)}})});
 }
 
 // What acts along the surface, and whether it has stopped the sliding: by the speeds that they have afterwards.
@@ -214,12 +216,13 @@ void tell_friction(std::vector<StoryLine>& story, const ImpactEvent& e)
     if (e.friction <= 0 || rubbed <= digits_tell * e.impulse)
         return;
     const float sliding = std::abs(cross(e.normal, e.velocity_after_b - e.velocity_after_a));
-    story.push_back({Kind::Step, "And along the surface?"});
-    story.push_back({Kind::Formula, "friction at most μ·j = " + number(e.friction) + "·" + number(e.impulse) + " = " +
-                                        number(e.friction * e.impulse) + " N·s"});
-    story.push_back({Kind::Text, "The engine gave " + number(rubbed) + " N·s along it: " +
-                                     (sliding <= 1e-3f * e.approach_speed ? "just what stops the sliding"
-                                                                          : "they slide on at " + number(sliding) + " m/s")});
+    story.push_back({Kind::Step, say("along the surface")});
+    story.push_back({Kind::Formula, say("most friction", {{"mu", number(e.friction)},
+                                                          {"impulse", number(e.impulse)},
+                                                          {"most", number(e.friction * e.impulse)}})});
+    const bool stops = sliding <= 1e-3f * e.approach_speed;
+    story.push_back({Kind::Text, say(stops ? "friction stops" : "friction slides",
+                                     {{"friction", number(rubbed)}, {"speed", number(sliding)}})});
 }
 
 // From the speeds that they had, not from what should have been.
@@ -227,31 +230,28 @@ void tell_parting(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     const float parting = dot(e.velocity_after_b - e.velocity_after_a, e.normal);
     const float by_formula = e.restitution * e.approach_speed + e.kick_speed;
-    const std::string formula = "e·(v₁−v₂)" + std::string(e.kick_speed > 0 ? " + kick" : "") + " = " + number(e.restitution) +
-                                "·" + number(e.approach_speed) + (e.kick_speed > 0 ? " + " + number(e.kick_speed) : "") + " = " +
-                                number(by_formula) + " m/s";
+    const std::string formula = "e·(v₁−v₂)" + (e.kick_speed > 0 ? say("kick sum") : std::string()) + " = " +
+                                number(e.restitution) + "·" + number(e.approach_speed) +
+                                (e.kick_speed > 0 ? " + " + number(e.kick_speed) : "") + " = " + number(by_formula) + " m/s";
     if (std::abs(parting - by_formula) <= 2 * digits_tell * std::max(e.approach_speed, std::abs(by_formula)))
     {
-        story.push_back({Kind::Formula, "they part at " + formula});
+        story.push_back({Kind::Formula, say("part as told", {{"formula", formula}})});
         return;
     }
-    const std::string how = std::abs(parting) <= 1e-4f * e.approach_speed
-                                ? "stay together"
-                                : (parting > 0 ? "part at " : "still approach at ") + number(std::abs(parting)) + " m/s";
-    story.push_back({Kind::Text, "They " + how + ". Between the two alone they would part at"});
+    const char* how = std::abs(parting) <= 1e-4f * e.approach_speed ? "stay together" : parting > 0 ? "part" : "still approach";
+    story.push_back({Kind::Text, say(how, {{"speed", number(std::abs(parting))}})});
     story.push_back({Kind::Formula, formula});
-    story.push_back({Kind::Text, "Others struck or held them at the same moment, or friction turned them."});
+    story.push_back({Kind::Text, say("others")});
 }
 
 void tell_after(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
     const ImpactEvent& e = record.event;
-    story.push_back({Kind::Step, "And afterwards, along the same line"});
+    story.push_back({Kind::Step, say("afterwards")});
     tell_parting(story, e);
     tell_change(story, record.a, e.effective_mass_a, e.speed_a, dot(e.velocity_after_a, e.normal), e.impulse, true);
     tell_change(story, record.b, e.effective_mass_b, e.speed_b, dot(e.velocity_after_b, e.normal), e.impulse, false);
-    story.push_back({Kind::Text, e.energy_lost >= 0 ? "Energy turned into heat and sound: " + number(e.energy_lost) + " J"
-                                                    : "Energy that the kick added: " + number(-e.energy_lost) + " J"});
+    story.push_back({Kind::Text, say(e.energy_lost >= 0 ? "lost" : "won", {{"energy", number(std::abs(e.energy_lost))}})});
 }
 
 std::string superscript(int value)
@@ -319,10 +319,10 @@ std::vector<StoryLine> impact_story(const ImpactRecord& record)
     const ImpactEvent& e = record.event;
     std::vector<StoryLine> story;
     char time[32];
-    std::snprintf(time, sizeof time, "%.3f s", record.time);
-    story.push_back({Kind::Title, record.a.name + " (1) hits " + record.b.name + " (2) at " + time});
-    story.push_back({Kind::Step, "How heavy does each feel where it is hit?"});
-    story.push_back({Kind::Formula, "point mass = 1 / (1/m + r²/I)"});
+    std::snprintf(time, sizeof time, "%.3f", record.time);
+    story.push_back({Kind::Title, say("title", {{"a", record.a.name}, {"b", record.b.name}, {"time", time}})});
+    story.push_back({Kind::Step, say("how heavy")});
+    story.push_back({Kind::Formula, say("point mass")});
     tell_mass(story, record.a, e.effective_mass_a, true);
     tell_mass(story, record.b, e.effective_mass_b, false);
     tell_speed(story, e);

@@ -206,6 +206,9 @@ inline std::optional<Range> number_after(const std::vector<view::StoryLine>& sto
 inline std::string what_is_false(const view::ImpactRecord& record)
 {
     const std::vector<view::StoryLine> story = view::impact_story(record);
+    for (const view::StoryLine& line : story)
+        if (line.text.find('{') != std::string::npos)
+            return "a word that is missing: " + line.text;
     if (const std::string formula = false_formula(story); !formula.empty())
         return formula;
     const ImpactEvent& e = record.event;
