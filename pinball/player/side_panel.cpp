@@ -135,8 +135,8 @@ void draw_card(Canvas& screen, const Layout& layout, const Machine& machine, con
         const Area area{corner + Vec2{-14 * u, 60 * u}, corner + Vec2{2 * half + 14 * u, 10'000}};
         if (rules)
             return draw_rules(screen, area, machine, u);
-        const float below = draw_keys(screen, area, machine, u);
-        return draw_high_scores(screen, {{area.min.x, below + 12 * u}, {area.max.x, below + 190 * u}}, machine, u);
+        const float keys_end = draw_keys(screen, area, machine, u);
+        return draw_high_scores(screen, {{area.min.x, keys_end + 12 * u}, {area.max.x, keys_end + 190 * u}}, machine, u);
     };
     screen.push_clip({{0, 0}, {0, 0}});
     const float height = draw_page({}) + 12 * u;
