@@ -11,6 +11,7 @@
 #include <cctype>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -160,9 +161,9 @@ void selected_panel(view::Window& window, Run& run, LabState& state)
         ImGui::TextWrapped("Click a thing: it tells who pushes it, and why it moves or does not.");
         return;
     }
-    view::story_widgets(window.fonts(), view::body_story(run.scene(), state.selected, run.entry().h));
-    ImGui::Separator();
     selected_controls(run.scene(), state.selected);
+    ImGui::Separator();
+    view::story_widgets(window.fonts(), view::body_story(run.scene(), state.selected, run.entry().h));
 }
 
 void number_row(const char* name, const std::string& value)
@@ -202,16 +203,35 @@ void xray_panel(Run& run, LabState& state)
         ImGui::TextDisabled("pause to look into it");
 }
 
+// `flags` are ImGuiTabItemFlags.
+void tab(const char* name, const auto& content, int flags = 0)
+{
+    if (!ImGui::BeginTabItem(name, nullptr, flags))
+        return;
+    ImGui::BeginChild(name);
+    content();
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+}
+
+// What was just clicked comes to the front.
+void story_tabs(view::Window& window, Run& run, LabState& state)
+{
+    const bool is_new = state.selected != std::exchange(state.told, state.selected) && run.scene().is_valid(state.selected);
+    tab("Impact", [&] { view::impact_widgets(window.fonts(), run.impacts.last()); });
+    tab("Selected", [&] { selected_panel(window, run, state); }, is_new ? ImGuiTabItemFlags_SetSelected : 0);
+    tab("X-ray", [&] { xray_panel(run, state); });
+}
+
 void knowledge_panel(view::Window& window, Run& run, LabState& state)
 {
     const Vec2 size = window.size();
     begin_at("knowledge", {size.x - story_width, 0}, {story_width, size.y});
-    if (ImGui::CollapsingHeader("X-ray", ImGuiTreeNodeFlags_DefaultOpen))
-        xray_panel(run, state);
-    if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen))
-        selected_panel(window, run, state);
-    if (ImGui::CollapsingHeader("Last impact", ImGuiTreeNodeFlags_DefaultOpen))
-        view::impact_widgets(window.fonts(), run.impacts.last());
+    if (ImGui::BeginTabBar("stories"))
+    {
+        story_tabs(window, run, state);
+        ImGui::EndTabBar();
+    }
     ImGui::End();
 }
 
@@ -220,26 +240,17 @@ void wide_panels(view::Window& window, Run& run, LabState& state)
     const Vec2 size = window.size();
     begin_at("control", {0, 0}, {side_width, size.y});
     time_controls(run, state);
-    if (ImGui::CollapsingHeader("Scenes", ImGuiTreeNodeFlags_DefaultOpen))
-        scene_list(run, state);
-    if (ImGui::CollapsingHeader("World"))
-        world_controls(state);
-    if (ImGui::CollapsingHeader("Numbers", ImGuiTreeNodeFlags_DefaultOpen))
-        numbers(run);
+    if (ImGui::BeginTabBar("tabs"))
+    {
+        tab("Scenes", [&] { scene_list(run, state); });
+        tab("Numbers", [&] { numbers(run); });
+        tab("World", [&] { world_controls(state); });
+        ImGui::EndTabBar();
+    }
     ImGui::End();
 
     if (state.xray)
         knowledge_panel(window, run, state);
-}
-
-void tab(const char* name, const auto& content)
-{
-    if (!ImGui::BeginTabItem(name))
-        return;
-    ImGui::BeginChild(name);
-    content();
-    ImGui::EndChild();
-    ImGui::EndTabItem();
 }
 
 void narrow_panels(view::Window& window, Run& run, LabState& state)
@@ -251,10 +262,8 @@ void narrow_panels(view::Window& window, Run& run, LabState& state)
     if (ImGui::BeginTabBar("tabs"))
     {
         tab("Scenes", [&] { scene_list(run, state); });
-        tab("X-ray", [&] { xray_panel(run, state); });
+        story_tabs(window, run, state);
         tab("Numbers", [&] { numbers(run); });
-        tab("Selected", [&] { selected_panel(window, run, state); });
-        tab("Impact", [&] { view::impact_widgets(window.fonts(), run.impacts.last()); });
         tab("World", [&] { world_controls(state); });
         ImGui::EndTabBar();
     }

@@ -18,6 +18,7 @@ struct LabState
     SceneDef base{};                            ///< for the next start
     bool xray = false;
     BodyId selected{};    ///< whose story is told
+    BodyId told{};        ///< whose story was told in the last frame
     std::string search{}; ///< in the names of scenes
     view::XrayOverlay overlay;
 };
