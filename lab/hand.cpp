@@ -1,5 +1,6 @@
 #include "lab/hand.h"
 
+#include "view/hand_spring.h"
 #include "view/impact_story.h"
 
 #include <algorithm>
@@ -77,25 +78,13 @@ std::optional<BodyId> Hand::find(const Scene& scene, Position at, float reach) c
 
 void Hand::grab(Scene& scene, BodyId body, Position at)
 {
-    const ConstBody grabbed = scene.body(body);
-    // 3 Hz and 0.7 of critical damping: follows the hand and does not swing about it, whatever the mass.
-    const float rate = 2 * pi * 3;
-    const float mass = grabbed.mass();
-    m_spring = scene.create_joint(SpringDef{.body_b = body,
-                                            .anchor_a = to_vec2(at),
-                                            .anchor_b = grabbed.local_point(at),
-                                            .stiffness = mass * rate * rate,
-                                            .damping = 2 * 0.7f * mass * rate,
-                                            .length = 0});
+    m_spring = view::pull_by_hand(scene, body, scene.body(body).local_point(at), at);
 }
 
 void Hand::follow(Scene& scene, const view::Camera& camera)
 {
-    if (!m_spring || !scene.is_valid(m_spring))
-        return;
-    auto def = std::get<SpringDef>(scene.joint(m_spring).def());
-    def.anchor_a = to_vec2(camera.to_world(m_mouse));
-    scene.joint(m_spring).set_def(def);
+    if (m_spring && scene.is_valid(m_spring))
+        view::move_hand(scene, m_spring, camera.to_world(m_mouse));
 }
 
 void Hand::draw(view::Canvas& canvas, const Scene& scene) const

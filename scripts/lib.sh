@@ -7,7 +7,7 @@ start=$SECONDS
 say() { printf '[%2d:%02d] %s\n' $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) "$*"; }
 
 # The last line of a log that is worth showing, cut to the width of a terminal.
-log_tail() { tr '\r' '\n' <"$1" | grep -v '^[[:space:]]*$' | tail -n 1 | cut -c 1-100; }
+log_tail() { tr '\r' '\n' <"$1" | grep -av '^[[:space:]]*$' | tail -n 1 | cut -c 1-100; }
 
 # progress <label> <log> <pid>: shows how far a running command is: in place on a terminal, after 5 s and then every 30 s elsewhere.
 progress()

@@ -1,5 +1,7 @@
 #include "tour/lesson.h"
 
+#include "view/hand_spring.h"
+
 #include <algorithm>
 
 namespace carom::tour {
@@ -161,7 +163,6 @@ void Lesson::put()
     m_chapter->moved();
 }
 
-// 3 Hz and 0.7 of critical damping: follows the hand and does not swing about it, whatever the mass.
 void Lesson::pull(const std::optional<Grip>& grip)
 {
     Scene& scene = m_chapter->scene();
@@ -171,23 +172,11 @@ void Lesson::pull(const std::optional<Grip>& grip)
         if (holds)
             scene.destroy(m_spring);
         m_spring = {};
-        return;
     }
-    if (!holds)
-    {
-        const float rate = 2 * pi * 3;
-        const float mass = scene.body(grip->body).mass();
-        m_spring = scene.create_joint(SpringDef{.body_b = grip->body,
-                                                .anchor_a = to_vec2(grip->at),
-                                                .anchor_b = grip->anchor,
-                                                .stiffness = mass * rate * rate,
-                                                .damping = 2 * 0.7f * mass * rate,
-                                                .length = 0});
-        return;
-    }
-    auto def = std::get<SpringDef>(scene.joint(m_spring).def());
-    def.anchor_a = to_vec2(grip->at);
-    scene.joint(m_spring).set_def(def);
+    else if (holds)
+        view::move_hand(scene, m_spring, grip->at);
+    else
+        m_spring = view::pull_by_hand(scene, grip->body, grip->anchor, grip->at);
 }
 
 } // namespace carom::tour

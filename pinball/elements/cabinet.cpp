@@ -15,6 +15,9 @@ constexpr float longest_slice = 0.00025f; // s
 constexpr float still_speed = 2e-4f;  // m/s
 constexpr float still_offset = 5e-6f; // m
 
+// A hand that has pushed must be drawn back before it can push again.
+constexpr double hand_back = 0.15; // s
+
 constexpr float gravity = 9.81f;    // m/s²
 constexpr float bob_damping = 0.8f; // 1/s
 constexpr float ring_restitution = 0.8f;
@@ -72,7 +75,13 @@ void TiltBob::add_to(Hash& hash) const
 
 Cabinet::Cabinet(const CabinetDef& def) : m_def(def), m_bob(def) {}
 
-void Cabinet::push(Vec2 direction, double time) { m_pushes.push_back({direction, -time}); }
+bool Cabinet::push(Vec2 direction, double time)
+{
+    if (std::ranges::any_of(m_pushes, [direction](const Push& push) { return push.direction == direction; }))
+        return false;
+    m_pushes.push_back({direction, -time});
+    return true;
+}
 
 // The speed it gives, spread over the time of the push: 30 x² (1 - x)² rises and falls smoothly and has the area 1.
 Vec2 Cabinet::force_at(double time) const
@@ -82,7 +91,8 @@ Vec2 Cabinet::force_at(double time) const
     {
         const float x = static_cast<float>(push.age + time) / m_def.push_time;
         if (x > 0 && x < 1)
-            sum += (30 * x * x * (1 - x) * (1 - x) * m_def.nudge_speed / m_def.push_time) * push.direction;
+            sum += (30 * x * x * (1 - x) * (1 - x) / m_def.push_time) *
+                   Vec2{m_def.nudge_speed.x * push.direction.x, m_def.nudge_speed.y * push.direction.y};
     }
     return sum;
 }
@@ -121,7 +131,8 @@ bool Cabinet::step(float h)
     }
     for (Push& push : m_pushes)
         push.age += static_cast<double>(h);
-    std::erase_if(m_pushes, [this](const Push& push) { return push.age >= static_cast<double>(m_def.push_time); });
+    const double kept = std::max(static_cast<double>(m_def.push_time), hand_back);
+    std::erase_if(m_pushes, [kept](const Push& push) { return push.age >= kept; });
     m_acceleration = (1 / h) * (m_velocity - before);
     come_to_rest();
     return touched;

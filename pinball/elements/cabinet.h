@@ -42,8 +42,8 @@ class Cabinet
 public:
     explicit Cabinet(const CabinetDef& def);
 
-    /// A hand pushes this way (unit length), from a time within the next step on, s.
-    void push(Vec2 direction, double time);
+    /// A hand pushes this way (unit length), from a time within the next step on, s. False where the hand is not yet back from its last push.
+    bool push(Vec2 direction, double time);
     /// Moves on by one step; true when the bob touched its ring.
     bool step(float h);
 

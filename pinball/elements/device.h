@@ -25,7 +25,7 @@ enum class Command : std::uint8_t
     Eject,   ///< saucer: throw the ball out now
     Enable,  ///< flipper, bumper, slingshot, kicker: the coil works
     Disable, ///< the coil is dead
-    Pulse,   ///< every coil but a flipper's: fire once, whatever is there; a drop target comes up
+    Pulse,   ///< bumper, slingshot, kicker, saucer: fire once, whatever is there
 };
 
 /// A ball struck an element.

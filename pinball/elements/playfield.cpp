@@ -70,6 +70,9 @@ PlungerLane::PlungerLane(const Table& table)
         m_axis = plunger->axis;
         m_half_width = std::abs(half.x * m_axis.y) + std::abs(half.y * m_axis.x) + 0.002f;
         m_behind = plunger->stroke;
+        const Sensor& sensor = std::get<Sensor>(table.elements[plunger->lane].part);
+        m_reach =
+            dot(m_axis, sensor.pos - m_origin) + std::abs(half.x * m_axis.x) + std::abs(half.y * m_axis.y) + table.ball.radius;
         return;
     }
 }
@@ -79,6 +82,8 @@ bool PlungerLane::contains(Position p) const
     const Vec2 d = p - Position(m_origin);
     return std::abs(cross(m_axis, d)) < m_half_width && dot(m_axis, d) > -m_behind;
 }
+
+bool PlungerLane::is_before_rod(Position p) const { return contains(p) && dot(m_axis, p - Position(m_origin)) < m_reach; }
 
 Playfield::Playfield(const Table& table, std::uint64_t seed)
     : m_table(table), m_scene(scene_def(table)), m_random(seed), m_lane(table), m_cabinet(table.cabinet),
@@ -123,11 +128,12 @@ void Playfield::shake()
         for (std::size_t i = 1; i < m_changes.size(); ++i)
             if (m_changes[i].buttons.*button && !(m_changes[i - 1].buttons.*button))
             {
-                m_cabinet.push(direction, m_changes[i].time);
+                if (!m_cabinet.push(direction, m_changes[i].time))
+                    continue;
                 emit({.kind = EventKind::Nudged,
                       .point = Position(0.5f * m_table.size),
                       .normal = direction,
-                      .speed = m_table.cabinet.nudge_speed});
+                      .speed = std::abs(dot(m_table.cabinet.nudge_speed, direction))});
             }
     };
     hand(&Buttons::nudge_left, {1, 0});
@@ -166,6 +172,7 @@ void Playfield::step_through(std::span<const ButtonChange> changes)
     for (auto& device : m_devices)
         device->after_step(*this);
     watch_lane();
+    count_vain_plunges();
     remove_drained();
 }
 
@@ -362,6 +369,18 @@ std::optional<GameEvent> Playfield::serve()
     return GameEvent{.kind = EventKind::Served, .point = spawn, .ball = ball.state.serial};
 }
 
+// A hard plunge takes the ball away from the rod. One that lies there at the next hard one has not moved.
+void Playfield::count_vain_plunges()
+{
+    constexpr float hard = 0.5f; // of the stroke
+    if (std::ranges::none_of(m_balls,
+                             [this](const Ball& b) { return b.state.is_free() && m_lane.is_before_rod(b.state.position); }))
+        m_vain_plunges = 0;
+    for (const GameEvent& event : m_events)
+        if (event.kind == EventKind::PlungerReleased)
+            m_vain_plunges += event.speed > hard * std::get<Plunger>(m_table.elements[event.element].part).stroke ? 1 : 0;
+}
+
 void Playfield::remove_drained()
 {
     for (const Ball& ball : m_balls)
@@ -404,28 +423,31 @@ void Playfield::throw_ball(Ball& ball, Vec2 velocity)
     ball.state.velocity = velocity;
 }
 
-namespace {
-
-bool is_lost(const Ball& ball, const PlungerLane& lane) { return ball.state.is_free() && !lane.contains(ball.state.position); }
-
-} // namespace
+// Before the rod it lies where it belongs, unless the rod cannot move it.
+bool Playfield::is_lost(const Ball& ball) const
+{
+    constexpr int most_vain_plunges = 3;
+    const bool waits = m_lane.is_before_rod(ball.state.position) && m_vain_plunges < most_vain_plunges;
+    return ball.state.is_free() && !waits;
+}
 
 int Playfield::take_lost_balls()
 {
     int lost = 0;
     for (Ball& ball : m_balls)
-        if (is_lost(ball, m_lane))
+        if (is_lost(ball))
         {
             ball.drained = true;
             ++lost;
         }
     remove_drained();
+    m_vain_plunges = 0;
     return lost;
 }
 
 bool Playfield::knows_all_balls() const
 {
-    return std::ranges::none_of(m_balls, [this](const Ball& ball) { return is_lost(ball, m_lane); });
+    return std::ranges::none_of(m_balls, [this](const Ball& ball) { return is_lost(ball); });
 }
 
 // --- For the elements ----------------------------------------------------------------------------------------------
@@ -469,6 +491,7 @@ void Playfield::add_to(Hash& hash) const
     hash.add(m_scene.state_hash());
     hash.add(m_random.state());
     hash.add(m_step);
+    hash.add(m_vain_plunges);
     m_cabinet.add_to(hash);
     for (const Ball& ball : m_balls)
     {

@@ -55,12 +55,15 @@ class PlungerLane
 public:
     explicit PlungerLane(const Table& table);
     [[nodiscard]] bool contains(Position p) const;
+    /// A ball that lies there is before the rod: over the lane's sensor.
+    [[nodiscard]] bool is_before_rod(Position p) const;
 
 private:
     Vec2 m_origin{};
     Vec2 m_axis{0, 1};
     float m_half_width = 0; ///< 0: there is no plunger
     float m_behind = 0;
+    float m_reach = 0; ///< from the rod to the far end of the sensor, with half a ball
 };
 
 class Playfield
@@ -139,6 +142,8 @@ private:
     void strike(Ball& ball, Index element, const ImpactEvent& impact, Vec2 normal);
     void strike_balls(Ball& a, Ball& b, const ImpactEvent& impact);
     void watch_lane();
+    void count_vain_plunges();
+    [[nodiscard]] bool is_lost(const Ball& ball) const;
     void remove_drained();
 
     const Table& m_table;
@@ -155,6 +160,7 @@ private:
     std::int64_t m_step = 0;
     int m_next_serial = 0;
     int m_served = 0;
+    int m_vain_plunges = 0; ///< hard ones after which a ball still lay before the rod
 };
 
 } // namespace carom::pinball

@@ -87,10 +87,12 @@ private:
     {
         const auto& plunger = *static_cast<PlungerDevice*>(user);
         const Buttons& buttons = plunger.m_field.buttons_at(motion.time);
-        if (buttons.rod > 0)
-            return {.force = plunger.hold(motion, buttons.rod) * plunger.m_def.axis};
         const float held = plunger.share_held(motion.time, static_cast<double>(motion.h));
-        const float force = held > 0 ? held * plunger.pull(motion) : plunger.scatter(motion);
+        float force = held > 0 ? held * plunger.pull(motion) : 0;
+        if (buttons.rod > 0) // two hands: the stronger one counts
+            force = std::min(force, plunger.hold(motion, buttons.rod));
+        else if (held <= 0)
+            force = plunger.scatter(motion);
         return {.force = force * plunger.m_def.axis};
     }
 

@@ -58,7 +58,7 @@ public:
     {
         if (command == Command::Drop)
             drop(field);
-        if (command == Command::Raise || command == Command::Pulse)
+        if (command == Command::Raise)
             m_wants_up = state.down;
     }
 

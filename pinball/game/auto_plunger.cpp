@@ -24,8 +24,7 @@ bool AutoPlunger::step(bool ready, int pull_steps)
     if (++m_pulled <= pull_steps)
         return true;
     m_pulled = 0;
-    m_pause = 0;
-    --m_balls;
+    m_pause = 0; // one that falls back is launched again
     return false;
 }
 

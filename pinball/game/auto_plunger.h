@@ -15,6 +15,10 @@ public:
 
     /// Another ball to launch.
     void launch() { ++m_balls; }
+    /// One has left the lane, whoever launched it.
+    void launched() { m_balls = m_balls > 0 ? m_balls - 1 : 0; }
+    /// No ball is waited for any more.
+    void forget() { m_balls = 0; }
     /// Whether to hold the plunger in this step. `ready`: a ball lies before it. `pull_steps`: how long a full pull takes.
     [[nodiscard]] bool step(bool ready, int pull_steps);
     void add_to(Hash& hash) const;

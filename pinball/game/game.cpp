@@ -42,6 +42,7 @@ struct Session
     AutoPlunger auto_plunger;
     Input held{};
     std::vector<GameEvent> events{};
+    std::vector<GameEvent> late{}; ///< for the next step
     std::vector<BallState> balls{};
     std::vector<int> last_ranks{};
 };
@@ -90,6 +91,7 @@ void Game::step_through(std::span<const InputChange> changes)
 
 void Game::restart()
 {
+    m_state->options.credits = credits();
     m_state->session = std::make_unique<Session>(m_state->table, m_state->options);
     m_state->note_balls();
 }
@@ -117,13 +119,21 @@ void Game::State::step(std::span<const InputChange> changes)
     s.field.step_through(button_changes);
     const Presses presses = press(changes);
     const auto told = s.field.events();
-    s.events.assign(told.begin(), told.end());
+    s.events = std::exchange(s.late, {});
+    s.events.insert(s.events.end(), told.begin(), told.end());
+    const std::size_t heard = told.size();
+    if (std::ranges::any_of(told, [](const GameEvent& e) { return e.kind == EventKind::Launched; }))
+        s.auto_plunger.launched();
     s.rules.step(s.field.step_count(), presses, s.events,
                  {.balls_in_play = s.field.balls_in_play(),
                   .all_known = s.field.knows_all_balls(),
                   .flipper_is_held = s.held.left || s.held.right});
     s.events.insert(s.events.end(), s.rules.announced().begin(), s.rules.announced().end());
     obey();
+    // What the table tells when it obeys is heard in the next step.
+    s.late.assign(s.field.events().begin() + static_cast<std::ptrdiff_t>(heard), s.field.events().end());
+    if (std::ranges::any_of(s.events, [](const GameEvent& e) { return e.kind == EventKind::BallEnded; }))
+        s.auto_plunger.forget();
     note_score();
     note_balls();
 }
@@ -250,7 +260,7 @@ int Game::extra_balls() const { return m_state->session->rules.desk().player.ext
 
 int Game::credits() const { return m_state->session->rules.desk().credits; }
 
-int Game::bonus() const { return m_state->session->rules.desk().player.bonus; }
+std::int64_t Game::bonus() const { return m_state->session->rules.desk().player.bonus; }
 
 int Game::bonus_multiplier() const { return m_state->session->rules.desk().player.multiplier; }
 

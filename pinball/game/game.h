@@ -65,7 +65,7 @@ public:
     /// One step in which the buttons change; up to the first change they stay as they were. For tables with long steps: flippers
     /// and plunger feel every millisecond. Refuses times (carom::Error) that go back or lie outside of the step.
     void step_through(std::span<const InputChange> changes);
-    /// Back to the first step, with the same seed; high scores stay.
+    /// Back to the first step, with the same seed; high scores and games won stay.
     void restart();
 
     [[nodiscard]] const Table& table() const;
@@ -77,11 +77,11 @@ public:
     [[nodiscard]] int balls_served() const;   ///< since the first step, saved ones included
     [[nodiscard]] std::int64_t score() const; ///< of whose turn it is, or was last
     [[nodiscard]] std::int64_t score(int player) const;
-    [[nodiscard]] int players() const;     ///< in this game, 1 to 4
-    [[nodiscard]] int player_up() const;   ///< whose turn it is, from 0
-    [[nodiscard]] int extra_balls() const; ///< that wait for this player
-    [[nodiscard]] int credits() const;     ///< games won and not yet played
-    [[nodiscard]] int bonus() const;       ///< not yet multiplied
+    [[nodiscard]] int players() const;        ///< in this game, 1 to 4
+    [[nodiscard]] int player_up() const;      ///< whose turn it is, from 0
+    [[nodiscard]] int extra_balls() const;    ///< that wait for this player
+    [[nodiscard]] int credits() const;        ///< games won and not yet played
+    [[nodiscard]] std::int64_t bonus() const; ///< not yet multiplied
     [[nodiscard]] int bonus_multiplier() const;
     [[nodiscard]] int letters() const;         ///< lit ones of the bank rule's word
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out

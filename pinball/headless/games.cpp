@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <system_error>
 #include <unistd.h>
 
 namespace carom::pinball {
@@ -31,19 +33,25 @@ void show_progress(const Game& game)
                      static_cast<long long>(game.score()));
 }
 
-void report(const Recording& recording, const Game& game)
+void report(const Game& game)
 {
-    const double seconds = static_cast<double>(recording.steps) * static_cast<double>(game.table().physics.step);
+    const double seconds = static_cast<double>(game.step_count()) * static_cast<double>(game.table().physics.step);
     std::printf("%s: %.1f s, score", game.table().name.c_str(), seconds);
-    for (const std::int64_t score : recording.scores)
+    for (const std::int64_t score : scores_of(game))
         std::printf(" %lld", static_cast<long long>(score));
-    std::printf(", hash %016llx\n", static_cast<unsigned long long>(recording.hash));
+    std::printf(", hash %016llx\n", static_cast<unsigned long long>(game.state_hash()));
 }
 
 } // namespace
 
 int record_game(const std::string& table_file, std::uint64_t seed, const std::string& file)
 {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(table_file, file, ignored))
+    {
+        std::cerr << file << " is the table itself\n";
+        return 1;
+    }
     std::ifstream in(table_file, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     LoadResult result = load_table(text);
@@ -51,6 +59,11 @@ int record_game(const std::string& table_file, std::uint64_t seed, const std::st
         std::cerr << table_file << ":" << to_string(error) << '\n';
     if (!result.table)
         return 1;
+    if (!std::ofstream(file, std::ios::app)) // better now than after the game
+    {
+        std::cerr << file << ": cannot be written\n";
+        return 1;
+    }
     const Options options{.seed = seed};
     Game game(*result.table, options);
     ReflexPlayer player(*result.table, seed);
@@ -68,7 +81,7 @@ int record_game(const std::string& table_file, std::uint64_t seed, const std::st
         std::cerr << trouble << '\n';
         return 1;
     }
-    report(recording, game);
+    report(game);
     return 0;
 }
 
@@ -87,7 +100,7 @@ int watch_game(const std::string& file)
         game.step(playback.next());
         show_progress(game);
     }
-    report(playback.recording(), game);
+    report(game);
     const bool same = playback.came_out_the_same(game);
     std::puts(same ? "the same game to the last bit" : "it came out differently: this is another version of the machine");
     return same ? 0 : 1;

@@ -73,7 +73,7 @@ Verdict Judge::look(const BallState& ball, std::int64_t step)
     const auto [entry, is_new] = m_watched.try_emplace(ball.serial, Watch{ball.position, step, step});
     Watch& watch = entry->second;
     const bool moved = length(ball.position - watch.from) >= m_diameter;
-    if (moved || ball.held || m_lane.contains(ball.position))
+    if (moved || ball.held || m_lane.is_before_rod(ball.position))
     {
         watch.from = ball.position;
         watch.since = step;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace carom::pinball {
@@ -24,7 +25,8 @@ std::string list_of_templates()
 int write(const std::string& file, const std::string& text)
 {
     // A table is work: what is there stays.
-    if (std::filesystem::exists(file))
+    std::error_code error;
+    if (std::filesystem::exists(file, error))
     {
         std::cerr << file << " is there already; give another name\n";
         return 1;

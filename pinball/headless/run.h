@@ -16,6 +16,7 @@ class HeadlessRun
 public:
     /// The table must outlive the run.
     HeadlessRun(const Table& table, std::uint64_t seed, int balls_at_once = 1);
+    HeadlessRun(Table&&, std::uint64_t, int = 1) = delete;
 
     /// One step of the game.
     void step();

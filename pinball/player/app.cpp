@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -27,17 +28,21 @@ constexpr double slowest_watched = 1.0 / 16;
 constexpr double fastest_watched = 16;
 constexpr double table_poll_ms = 400;
 
-class App
+std::uint64_t seed_of_now() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+
+} // namespace
+
+struct App::State
 {
-public:
-    explicit App(const PlayerOptions& options)
-        : m_options(options), m_machine(options.table_file(), options.seed.value_or(seed_of_now()), options.autoplay, true),
+    State(const PlayerOptions& options, Clock clock)
+        : m_now(std::move(clock)), m_options(options),
+          m_machine(options.table_file(), options.seed.value_or(seed_of_now()), options.autoplay, true),
           m_window({.title = title(),
                     .width = options.width,
                     .height = options.height,
                     .fullscreen = options.fullscreen,
                     .background = palette::room}),
-          m_clock(static_cast<double>(m_machine.game().table().physics.step) * 1000)
+          m_clock(step_ms())
     {
         m_sounds.sink().set_muted(options.mute);
         set_xray(options.xray);
@@ -49,27 +54,17 @@ public:
             begin_tour();
     }
 
-    int run()
+    bool frame(view::Image* capture)
     {
-        const double start = now_ms();
-        const bool pictured = !m_options.screenshot.empty();
-        const auto ends = [&] { return m_options.seconds > 0 && now_ms() - start >= m_options.seconds * 1000; };
-        while (!ends() && m_window.begin_frame())
-        {
-            m_tour&& m_touring ? tour_frame() : machine_frame();
-            m_window.end_frame(pictured ? &m_image : nullptr);
-        }
-        return pictured ? save_picture() : 0;
+        if (!m_window.begin_frame())
+            return false;
+        m_tour&& m_touring ? tour_frame() : machine_frame();
+        m_window.end_frame(capture);
+        return true;
     }
 
-private:
-    static std::uint64_t seed_of_now()
-    {
-        return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-    }
-
-    // SDL stamps events with the same clock, in whole milliseconds.
-    static double now_ms() { return static_cast<double>(SDL_GetTicks64()); }
+    [[nodiscard]] double now_ms() const { return m_now(); }
+    [[nodiscard]] double step_ms() const { return static_cast<double>(m_machine.game().table().physics.step) * 1000; }
 
     void machine_frame()
     {
@@ -322,6 +317,7 @@ private:
     {
         if (m_paused)
             return m_clock.skip_to(now_ms());
+        m_clock.set_step(step_ms()); // another table may have another one
         m_clock.begin_frame(now_ms(), m_speed);
         bool stepped = false;
         while (m_clock.take_step())
@@ -353,16 +349,9 @@ private:
         m_controls.draw(m_window, m_machine.controls);
     }
 
-    [[nodiscard]] int save_picture() const
-    {
-        if (m_image.width > 0 && view::save_png(m_image, m_options.screenshot))
-            return 0;
-        std::fprintf(stderr, "carom-pinball: cannot write %s\n", m_options.screenshot.c_str());
-        return 1;
-    }
-
     static constexpr int restart_source = 31;
 
+    Clock m_now;
     PlayerOptions m_options;
     Machine m_machine;
     view::Window m_window;
@@ -370,7 +359,6 @@ private:
     StepClock m_clock;
     ButtonTimeline m_buttons{};
     Stage m_stage{};
-    view::Image m_image{}; ///< the last frame, where a picture is wanted
     bool m_xray = false;
     bool m_paused = false;
     bool m_was_paused = false;
@@ -384,6 +372,44 @@ private:
     double m_tour_ms = 0;
 };
 
+namespace {
+
+// SDL stamps events with the same clock, in whole milliseconds.
+double ticks() { return static_cast<double>(SDL_GetTicks64()); }
+
+} // namespace
+
+App::App(const PlayerOptions& options, Clock clock)
+    : m_state(std::make_unique<State>(options, clock ? std::move(clock) : Clock(ticks)))
+{}
+
+App::~App() = default;
+
+bool App::frame(view::Image* capture) { return m_state->frame(capture); }
+
+const Machine& App::machine() const { return m_state->m_machine; }
+
+bool App::is_paused() const { return m_state->m_paused; }
+
+std::optional<Wish> App::asks() const { return m_state->m_asking; }
+
+namespace {
+
+int run_window(const PlayerOptions& options)
+{
+    App app(options);
+    view::Image image;
+    const bool pictured = !options.screenshot.empty();
+    const double end = options.seconds > 0 ? ticks() + options.seconds * 1000 : std::numeric_limits<double>::infinity();
+    while (ticks() < end && app.frame(pictured ? &image : nullptr))
+    {
+    }
+    if (!pictured || (image.width > 0 && view::save_png(image, options.screenshot)))
+        return 0;
+    std::fprintf(stderr, "carom-pinball: cannot write %s\n", options.screenshot.c_str());
+    return 1;
+}
+
 int write_tour_pictures(const PlayerOptions& options)
 {
     setenv("SDL_VIDEODRIVER", "offscreen", 0); // a picture needs no display
@@ -393,6 +419,9 @@ int write_tour_pictures(const PlayerOptions& options)
 
 } // namespace
 
-int run_app(const PlayerOptions& options) { return options.pictures.empty() ? App(options).run() : write_tour_pictures(options); }
+int run_app(const PlayerOptions& options)
+{
+    return options.pictures.empty() ? run_window(options) : write_tour_pictures(options);
+}
 
 } // namespace carom::pinball

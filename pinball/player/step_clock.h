@@ -15,6 +15,7 @@ public:
 
     explicit StepClock(double step_ms = 1) : m_step(step_ms) {}
 
+    void set_step(double step_ms) { m_step = step_ms; }
     /// Begins a frame at this time. speed: game time over real time.
     void begin_frame(double now_ms, double speed)
     {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +20,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr int newest_version = 1;
 constexpr std::int64_t most_steps = 100'000'000;
+constexpr int most_credits = 1000;
+constexpr int most_balls = 8; // at once
 
 constexpr bool Input::* buttons[] = {&Input::left,       &Input::right,       &Input::plunger, &Input::start,
                                      &Input::nudge_left, &Input::nudge_right, &Input::nudge_up};
@@ -62,43 +65,85 @@ Json of(const Options& options)
             {"ball_search", options.ball_search}, {"credits", options.credits},     {"balls_at_once", options.balls_at_once}};
 }
 
+// The whole number of this name, within bounds: another one is no recording of ours.
+std::int64_t whole(const Json& value, const std::string& name, std::int64_t least, std::int64_t most)
+{
+    const bool fits = value.is_number_integer() && value >= least && value <= most;
+    if (!fits)
+        throw std::runtime_error("\"" + name + "\" must be a whole number from " + std::to_string(least) + " to " +
+                                 std::to_string(most));
+    return value.get<std::int64_t>();
+}
+
+const Json& member(const Json& json, const char* name)
+{
+    if (!json.is_object() || !json.contains(name))
+        throw std::runtime_error(std::string("there is no \"") + name + "\"");
+    return json[name];
+}
+
+std::string text_of(const Json& json, const char* name)
+{
+    const Json& value = member(json, name);
+    if (!value.is_string())
+        throw std::runtime_error(std::string("\"") + name + "\" must be a text");
+    return value.get<std::string>();
+}
+
+bool flag_of(const Json& json, const char* name)
+{
+    const Json& value = member(json, name);
+    if (!value.is_boolean())
+        throw std::runtime_error(std::string("\"") + name + "\" must be true or false");
+    return value.get<bool>();
+}
+
+int small(const Json& json, const char* name, int least, int most)
+{
+    return static_cast<int>(whole(member(json, name), name, least, most));
+}
+
 Options options_of(const Json& json)
 {
-    return {.seed = number_of(json.at("seed").get<std::string>()),
-            .ball_save = json.at("ball_save").get<bool>(),
-            .kickback = json.at("kickback").get<bool>(),
-            .ball_search = json.at("ball_search").get<bool>(),
-            .credits = json.at("credits").get<int>(),
-            .balls_at_once = json.at("balls_at_once").get<int>()};
+    return {.seed = number_of(text_of(json, "seed")),
+            .ball_save = flag_of(json, "ball_save"),
+            .kickback = flag_of(json, "kickback"),
+            .ball_search = flag_of(json, "ball_search"),
+            .credits = small(json, "credits", 0, most_credits),
+            .balls_at_once = small(json, "balls_at_once", 1, most_balls)};
+}
+
+Recording::Change change_of(const Json& json, std::int64_t last, std::int64_t steps)
+{
+    if (!json.is_array() || json.size() < 2 || json.size() > 3)
+        throw std::runtime_error("each of \"changes\" must be [step, buttons] or [step, buttons, rod]");
+    const std::int64_t step = whole(json[0], "step", last + 1, steps - 1);
+    Input input = input_of(static_cast<int>(whole(json[1], "buttons", 0, (1 << std::size(buttons)) - 1)));
+    if (json.size() > 2)
+        input.rod = static_cast<std::uint8_t>(whole(json[2], "rod", 0, 255));
+    return {step, input};
 }
 
 Recording recording_of(const Json& json)
 {
-    if (json.value("format", "") != "pinball-game")
+    if (text_of(json, "format") != "pinball-game")
         throw std::runtime_error("its \"format\" is not \"pinball-game\"");
-    if (const int version = json.at("version").get<int>(); version > newest_version)
-        throw std::runtime_error("its version is " + std::to_string(version) + ", and this program reads version " +
+    if (const Json& version = member(json, "version"); version != newest_version)
+        throw std::runtime_error("its version is " + version.dump() + ", and this program reads version " +
                                  std::to_string(newest_version));
-    Recording recording{.table_text = json.at("table").get<std::string>(),
-                        .options = options_of(json.at("options")),
-                        .steps = json.at("steps").get<std::int64_t>(),
-                        .scores = json.at("scores").get<std::vector<std::int64_t>>(),
-                        .hash = number_of(json.at("hash").get<std::string>())};
-    if (recording.steps < 0 || recording.steps > most_steps)
-        throw std::runtime_error("\"steps\" must be between 0 and " + std::to_string(most_steps));
-    std::int64_t last = -1;
-    for (const Json& change : json.at("changes"))
-    {
-        const auto step = change.at(0).get<std::int64_t>();
-        if (step <= last || step >= recording.steps)
-            throw std::runtime_error("\"changes\" must ascend and lie within the steps, but one is at step " +
-                                     std::to_string(step));
-        Input input = input_of(change.at(1).get<int>());
-        if (change.size() > 2)
-            input.rod = change.at(2).get<std::uint8_t>();
-        recording.changes.push_back({step, input});
-        last = step;
-    }
+    Recording recording{.table_text = text_of(json, "table"),
+                        .options = options_of(member(json, "options")),
+                        .steps = whole(member(json, "steps"), "steps", 0, most_steps),
+                        .hash = number_of(text_of(json, "hash"))};
+    const Json& scores = member(json, "scores");
+    const Json& changes = member(json, "changes");
+    if (!scores.is_array() || !changes.is_array())
+        throw std::runtime_error("\"scores\" and \"changes\" must be lists");
+    for (const Json& score : scores)
+        recording.scores.push_back(whole(score, "scores", 0, std::numeric_limits<std::int64_t>::max()));
+    for (const Json& change : changes)
+        recording.changes.push_back(
+            change_of(change, recording.changes.empty() ? -1 : recording.changes.back().step, recording.steps));
     return recording;
 }
 
@@ -128,7 +173,8 @@ std::string Recording::to_json() const
         list.push_back(std::move(entry));
     }
     json["table"] = table_text;
-    return json.dump() + "\n";
+    // A table may hold any bytes in its comments.
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string Recording::save(const std::filesystem::path& file) const
@@ -144,6 +190,10 @@ LoadedRecording read_recording(std::string_view json)
     try
     {
         return {.recording = recording_of(Json::parse(json))};
+    }
+    catch (const Json::parse_error& error)
+    {
+        return {.trouble = "not a recorded game: no JSON at byte " + std::to_string(error.byte)};
     }
     catch (const std::exception& error)
     {
@@ -163,6 +213,14 @@ LoadedRecording load_recording(const std::filesystem::path& file)
     return loaded;
 }
 
+std::vector<std::int64_t> scores_of(const Game& game)
+{
+    std::vector<std::int64_t> scores;
+    for (int player = 0; player < game.players(); ++player)
+        scores.push_back(game.score(player));
+    return scores;
+}
+
 // --- Recorder --------------------------------------------------------------------------------------------------------
 
 Recorder::Recorder(std::string table_text, const Options& options)
@@ -179,14 +237,18 @@ void Recorder::note(const Input& input)
 
 Recording Recorder::recording(const Game& game) const
 {
-    Recording whole = m_recording;
-    for (int player = 0; player < game.players(); ++player)
-        whole.scores.push_back(game.score(player));
-    whole.hash = game.state_hash();
-    return whole;
+    Recording all = m_recording;
+    all.scores = scores_of(game);
+    all.hash = game.state_hash();
+    return all;
 }
 
 // --- Playback --------------------------------------------------------------------------------------------------------
+
+bool Playback::came_out_the_same(const Game& game) const
+{
+    return game.state_hash() == m_recording.hash && scores_of(game) == m_recording.scores;
+}
 
 Playback::Playback(Recording recording) : m_recording(std::move(recording)), m_table(table_of(m_recording)) {}
 

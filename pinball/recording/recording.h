@@ -45,6 +45,9 @@ struct LoadedRecording
 [[nodiscard]] LoadedRecording read_recording(std::string_view json);
 [[nodiscard]] LoadedRecording load_recording(const std::filesystem::path& file);
 
+/// By player.
+[[nodiscard]] std::vector<std::int64_t> scores_of(const Game& game);
+
 /// Writes down a game as it is played, from its first step on.
 class Recorder
 {
@@ -75,7 +78,7 @@ public:
     /// The buttons of the next step.
     [[nodiscard]] Input next();
     /// Whether the game, played to its end, came out as it was recorded.
-    [[nodiscard]] bool came_out_the_same(const Game& game) const { return game.state_hash() == m_recording.hash; }
+    [[nodiscard]] bool came_out_the_same(const Game& game) const;
 
 private:
     Recording m_recording;

@@ -12,12 +12,11 @@ constexpr float pause = 4;     // s between two rounds
 constexpr float recovery = 10; // s that a ball must keep moving after a round to count as found
 constexpr int rounds = 3;
 
-// Whatever tells that a ball moves.
-bool is_sign_of_life(const GameEvent& event)
+// Whatever tells that a ball moves on the playfield. The plunger's lane does not count: there it may hop up and down for ever.
+bool is_sign_of_life(const Table& table, const GameEvent& event)
 {
     using enum EventKind;
-    return is_made(event) || event.kind == Passed || event.kind == Spun || event.kind == Served || event.kind == Launched ||
-           event.kind == Ejected || event.kind == Left;
+    return is_playfield_switch(table, event) || event.kind == Served || event.kind == Launched || event.kind == Ejected;
 }
 
 class BallSearch final : public Rule
@@ -25,11 +24,12 @@ class BallSearch final : public Rule
 public:
     explicit BallSearch(float time) : m_time(time) {}
 
+    [[nodiscard]] bool works_tilted() const override { return true; }
     void start_ball(Desk& desk) override { begin(desk); }
 
     void on_event(Desk& desk, const GameEvent& event) override
     {
-        if (!is_sign_of_life(event))
+        if (!is_sign_of_life(desk.table(), event))
             return;
         m_since = desk.now();
         if (m_since - m_searched_at > desk.steps(recovery))
@@ -42,7 +42,7 @@ public:
         if (!plays || desk.knows_all_balls || desk.to_serve > 0)
             return begin(desk);
         if (desk.flipper_is_held)
-            m_since = desk.now();
+            ++m_since; // time stands still
         if (desk.now() - m_since < desk.steps(m_round == 0 ? m_time : pause))
             return;
         ++m_round;
@@ -67,7 +67,8 @@ private:
     {
         m_since = m_searched_at = desk.now();
         for (Index i = 0; i < desk.table().elements.size(); ++i)
-            desk.order(i, Command::Pulse);
+            if (desk.table().elements[i].enabled)
+                desk.order(i, Command::Pulse);
         desk.say("BALL SEARCH", 7, 2);
         desk.announce({.kind = EventKind::BallSearch, .value = m_round});
     }

@@ -60,9 +60,10 @@ std::vector<Order> Desk::take_orders() { return std::exchange(m_orders, {}); }
 
 void Player::add_to(Hash& hash) const
 {
-    for (const int value : {ball, bonus, multiplier, extra_balls, letters, bumper_level})
+    for (const int value : {ball, multiplier, extra_balls, letters, bumper_level})
         hash.add(value);
     hash.add(score);
+    hash.add(bonus);
     hash.add(extra_ball_is_lit);
     hash.add(lock_is_lit);
     for (const LampState lamp : lamps)

@@ -23,10 +23,10 @@ struct Order
 struct Player
 {
     std::int64_t score = 0;
-    int ball = 0;        ///< from 1; 0 before the first
-    int bonus = 0;       ///< of the present ball
-    int multiplier = 1;  ///< of that
-    int extra_balls = 0; ///< won and not yet played
+    int ball = 0;           ///< from 1; 0 before the first
+    std::int64_t bonus = 0; ///< of the present ball
+    int multiplier = 1;     ///< of that
+    int extra_balls = 0;    ///< won and not yet played
     int letters = 0;
     int bumper_level = 0;
     bool extra_ball_is_lit = false;

@@ -3,6 +3,8 @@
 #include "pinball/rules/rule.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace carom::pinball {
 
@@ -19,6 +21,10 @@ class Groups final : public Rule
 public:
     explicit Groups(const Table& table)
     {
+        for (Index i = 0; i < table.elements.size(); ++i)
+            if (std::holds_alternative<DropTarget>(table.elements[i].part) && table.elements[i].group == none &&
+                table.elements[i].enabled)
+                m_loose.emplace_back(i, false);
         for (const Group& group : table.groups)
             m_states.push_back({std::vector<bool>(group.members.size())});
     }
@@ -27,6 +33,11 @@ public:
     {
         for (std::size_t g = 0; g < m_states.size(); ++g)
             reset(desk, g);
+        for (auto& [target, is_down] : m_loose)
+        {
+            is_down = false;
+            desk.order(target, Command::Raise);
+        }
     }
 
     void begin_turn(Desk& desk) override
@@ -34,6 +45,8 @@ public:
         for (std::size_t g = 0; g < m_states.size(); ++g)
             for (std::size_t i = 0; i < m_states[g].made.size(); ++i)
                 desk.order(desk.table().groups[g].members[i], m_states[g].made[i] ? Command::Drop : Command::Raise);
+        for (const auto& [target, is_down] : m_loose)
+            desk.order(target, is_down ? Command::Drop : Command::Raise);
     }
 
     void start_ball(Desk& desk) override
@@ -47,6 +60,8 @@ public:
     {
         if (!is_made(event) || event.element == none)
             return;
+        for (auto& [target, is_down] : m_loose)
+            is_down |= target == event.element && event.kind == EventKind::Fell;
         const Index g = desk.table().elements[event.element].group;
         if (g == none)
             return;
@@ -87,6 +102,8 @@ public:
             for (const bool made : state.made)
                 hash.add(made);
         }
+        for (const auto& loose : m_loose)
+            hash.add(loose.second);
     }
 
 private:
@@ -129,6 +146,7 @@ private:
     }
 
     std::vector<GroupState> m_states{};
+    std::vector<std::pair<Index, bool>> m_loose{}; ///< drop targets of no group, and whether each lies
 };
 
 } // namespace

@@ -17,6 +17,8 @@ public:
     Rule(const Rule&) = delete;
     Rule& operator=(const Rule&) = delete;
 
+    /// Whether it goes on when the machine has tilted; the others hear and do nothing until the ball is over.
+    [[nodiscard]] virtual bool works_tilted() const { return false; }
     virtual void start_game(Desk&) {}
     /// Another player's turn begins, in a game of several: the table must stand as this one left it.
     virtual void begin_turn(Desk&) {}

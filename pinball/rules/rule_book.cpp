@@ -66,7 +66,8 @@ void RuleBook::step(std::int64_t step, const Presses& presses, std::span<const G
     for (const GameEvent& event : events)
         hear(event);
     for (auto& rule : seat().rules)
-        rule->on_step(m_desk);
+        if (!m_desk.tilted || rule->works_tilted())
+            rule->on_step(m_desk);
     if (m_desk.tilted && is_playing() && m_desk.balls_out() == 0)
         end_ball();
     if (m_desk.phase == Phase::Bonus)
@@ -100,8 +101,8 @@ void RuleBook::hear(const GameEvent& event)
     if (!is_playing())
         return;
     m_desk.ball_was_saved = false;
-    if (!m_desk.tilted)
-        for (auto& rule : seat().rules)
+    for (auto& rule : seat().rules)
+        if (!m_desk.tilted || rule->works_tilted())
             rule->on_event(m_desk, event);
     if (event.kind == EventKind::Drained)
     {
@@ -195,7 +196,7 @@ void RuleBook::end_ball()
     m_desk.phase = Phase::Bonus;
     m_desk.saved_until = 0;
     m_desk.flashing = none;
-    m_bonus_left = std::int64_t{m_desk.player.bonus} * m_desk.player.multiplier;
+    m_bonus_left = m_desk.player.bonus * m_desk.player.multiplier;
     m_bonus_piece = (m_bonus_left / count_pieces / 10 + 1) * 10;
     m_next_count = std::max(m_desk.now() + m_desk.steps(4 * count_interval), m_desk.shaken_until);
     if (!m_desk.tilted)

@@ -15,6 +15,8 @@ class Tilt final : public Rule
 public:
     explicit Tilt(int warnings) : m_most(warnings) {}
 
+    [[nodiscard]] bool works_tilted() const override { return true; }
+
     void start_ball(Desk&) override
     {
         m_warnings = 0;

@@ -95,10 +95,11 @@ Physics read_physics(FieldReader in)
 CabinetDef read_cabinet(FieldReader in)
 {
     const CabinetDef usual;
-    CabinetDef cabinet{.nudge_speed = in.number("nudge_mps", {0, 1, "m/s"}, usual.nudge_speed),
-                       .push_time = in.number("push_time", {0.005, 0.2, "s"}, usual.push_time),
+    CabinetDef cabinet{.push_time = in.number("push_time", {0.005, 0.2, "s"}, usual.push_time),
                        .tilt = in.degrees("tilt_deg", {0.1, 30, "degrees"}, usual.tilt),
                        .bob_length = in.number("bob_length", {0.02, 0.5, "m"}, usual.bob_length)};
+    if (in.has("nudge_mps"))
+        cabinet.nudge_speed = in.vec2("nudge_mps", {0, 1, "m/s"});
     if (in.has("frequency_hz"))
         cabinet.frequency = in.vec2("frequency_hz", {1, 40, "Hz"});
     if (in.has("damping"))

@@ -87,16 +87,22 @@ std::vector<Template> templates()
 std::string new_table(std::string_view name, const std::vector<std::string>& with)
 {
     const std::vector<Template> known = templates();
+    if (name.empty() || name.size() > 200)
+        throw std::runtime_error("the name of a table must have 1 to 200 bytes");
     std::vector<std::string> texts;
-    for (const std::string& wanted : with)
+    for (std::size_t i = 0; i < with.size(); ++i)
     {
+        const std::string& wanted = with[i];
+        if (std::find(with.begin(), with.begin() + static_cast<std::ptrdiff_t>(i), wanted) !=
+            with.begin() + static_cast<std::ptrdiff_t>(i))
+            continue; // once is enough
         const auto found = std::ranges::find(known, wanted, &Template::name);
         if (found == known.end())
             throw std::runtime_error("there is no template \"" + wanted + "\"");
         texts.push_back(read(found->file));
     }
     std::string table = read(fs::path(CAROM_TEMPLATES_DIR) / "base.table.json");
-    const std::string quoted = nlohmann::json(name).dump();
+    const std::string quoted = nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     replace(table, "\"@name\"", quoted);
     for (const std::string_view section : sections)
     {

@@ -418,12 +418,12 @@ struct Physics
 /// The cabinet on its legs, what a nudge does to it, and the bob that hangs in it. x is sideways, y along the table.
 struct CabinetDef
 {
-    float nudge_speed = 0.2f;     ///< that a push would give a cabinet without legs, m/s
-    float push_time = 0.025f;     ///< s
-    Vec2 frequency{9.3f, 5.8f};   ///< of the cabinet on its legs, Hz
-    Vec2 damping{0.052f, 0.055f}; ///< share of the critical damping
-    float tilt = 3.5f * pi / 180; ///< of the bob when it touches its ring, rad
-    float bob_length = 0.1f;      ///< m
+    Vec2 nudge_speed{0.28f, 0.165f}; ///< that a push would give a cabinet without legs, m/s
+    float push_time = 0.025f;        ///< s
+    Vec2 frequency{9.3f, 5.8f};      ///< of the cabinet on its legs, Hz
+    Vec2 damping{0.052f, 0.055f};    ///< share of the critical damping
+    float tilt = 3.0f * pi / 180;    ///< of the bob when it touches its ring, rad
+    float bob_length = 0.1f;         ///< m
 };
 
 /// A line of the rules card: what something is called and what it is for.

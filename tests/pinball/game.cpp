@@ -429,5 +429,79 @@ TEST(Game, ABallThatFallsBackAgainAndAgainIsReplaced)
     EXPECT_EQ(seen.ball, 1);
 }
 
+TEST(Game, WonGamesOutlastARestart)
+{
+    Game game(momentum(), {.credits = 2});
+    game.restart();
+    EXPECT_EQ(game.credits(), 2);
+    game.step({.start = true});
+    EXPECT_EQ(game.credits(), 1);
+    game.restart();
+    EXPECT_EQ(game.credits(), 1) << "the game was begun";
+}
+
+/// Momentum with something that holds a ball in the plunger's lane.
+Game with_lane_blocked(const std::vector<Part>& parts)
+{
+    Table table = momentum();
+    table.rules.ball_search = 3;
+    for (const Part& part : parts)
+        table.elements.push_back({.id = "block", .part = part, .material = 0});
+    return Game(std::move(table));
+}
+
+Wall across_the_lane(float y) { return {Chain{.start = {0.46f, y}, .pieces = {{{0.5f, y}}}}}; }
+
+int missing_within(Game& game, double seconds)
+{
+    int missing = 0;
+    game.step({.start = true});
+    const auto steps = static_cast<int>(seconds * 1000);
+    for (int i = 0; i < steps && missing == 0; ++i)
+    {
+        game.step({.plunger = i % 3000 > 2000});
+        for (const GameEvent& event : game.events())
+            missing += event.kind == EventKind::BallMissing ? event.value : 0;
+    }
+    return missing;
+}
+
+TEST(Game, ABallThatSticksInThePlungersLaneIsReplaced)
+{
+    // A flap that lets it by on its way up and holds it on its way down, and a wall just before the rod.
+    Game high = with_lane_blocked(
+        {Gate{.a = {0.462f, 0.5f}, .b = {0.5f, 0.505f}, .radius = 0.001f, .open_dir = {0, 1}}, across_the_lane(0.7f)});
+    EXPECT_EQ(missing_within(high, 60), 1);
+    Game low = with_lane_blocked({across_the_lane(0.11f)});
+    EXPECT_EQ(missing_within(low, 90), 1);
+}
+
+TEST(Game, OnlyWhatWasOrderedIsLaunchedByItself)
+{
+    // A ball that the machine should launch and the player did: the next one waits for the player.
+    Table table = momentum();
+    table.rules.ball_search = 1;
+    table.rules.ball_save.reset();
+    table.elements.push_back(
+        {.id = "ledge", .part = Wall{Chain{.start = {0.1f, 0.5f}, .pieces = {{{0.4f, 0.5f}}}}}, .material = 0});
+    Game game(std::move(table));
+    game.step({.start = true});
+    int launched_alone = 0;
+    int since_touch = 0;
+    for (int i = 0; i < 200'000 && game.ball_number() < 3; ++i)
+    {
+        const bool pulls = i % 1500 < 700 && game.ball_number() == 1;
+        since_touch = pulls ? 0 : since_touch + 1;
+        // Shaken until the ball is over, so that no other ball of this turn comes.
+        game.step({.plunger = pulls, .nudge_up = i > 40'000 && i % 350 < 20});
+        for (const GameEvent& event : game.events())
+            launched_alone +=
+                event.kind == EventKind::Launched && game.ball_number() == 2 && since_touch > 3000 && game.phase() == Phase::Ready
+                    ? 1
+                    : 0;
+    }
+    EXPECT_EQ(launched_alone, 0);
+}
+
 } // namespace
 } // namespace carom::pinball::test

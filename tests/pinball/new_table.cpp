@@ -6,6 +6,7 @@
 #include "pinball/table/checker.h"
 #include "pinball/table/loader.h"
 
+#include <bit>
 #include <gtest/gtest.h>
 
 namespace carom::pinball::test {
@@ -32,8 +33,12 @@ std::string text_of(const std::vector<std::string>& names)
 TEST(NewTable, EverySetOfTemplatesPassesTheChecker)
 {
     ASSERT_GE(templates().size(), 5u);
+    // Alone, in pairs, and all together: what does not fit meets in a pair.
     for (std::size_t bits = 0; bits < std::size_t{1} << templates().size(); ++bits)
     {
+        const int count = std::popcount(bits);
+        if (count > 2 && bits + 1 != std::size_t{1} << templates().size())
+            continue;
         SCOPED_TRACE(text_of(set_of(bits)));
         const LoadResult result = load_table(new_table("Test", set_of(bits)));
         for (const LoadError& error : result.errors)
@@ -70,6 +75,10 @@ TEST(NewTable, SaysWhatItDoesNotKnow)
     {
         EXPECT_NE(std::string(error.what()).find("\"loop\""), std::string::npos);
     }
+    EXPECT_TRUE(load_table(new_table("twice", {"bank", "bank"})).table);
+    EXPECT_THROW((void)new_table("", {}), std::runtime_error);
+    EXPECT_THROW((void)new_table(std::string(201, 'x'), {}), std::runtime_error);
+    EXPECT_TRUE(load_table(new_table("a\xff", {})).table);
     EXPECT_EQ(load_table(new_table("a \"quoted\" name", {})).table->name, "a \"quoted\" name");
 }
 

@@ -71,7 +71,7 @@ struct Machine
 
     void step(const std::vector<GameEvent>& events, int in_play = 1, const Presses& presses = {})
     {
-        book.step(++now, presses, events, {.balls_in_play = in_play, .all_known = all_known});
+        book.step(++now, presses, events, {.balls_in_play = in_play, .all_known = all_known, .flipper_is_held = flipper_is_held});
         for (const Order& order : book.desk().take_orders())
             orders.push_back(order);
         while (book.desk().to_serve > 0)
@@ -115,6 +115,7 @@ struct Machine
     std::vector<Order> orders{};
     std::int64_t now = 0;
     bool all_known = false; ///< where the balls are
+    bool flipper_is_held = false;
     int served = 0;
 };
 
@@ -782,6 +783,95 @@ TEST(Match, DrawsANumberAndGivesAGameToWhoEndsInIt)
     }
     EXPECT_GE(drawn.size(), 8u);
     EXPECT_GE(won, 1);
+}
+
+TEST(Tilt, LetsTheBobSettleBeforeTheNextBall)
+{
+    Machine m;
+    m.start();
+    m.use_up_save();
+    for (int i = 0; i < 3; ++i)
+    {
+        m.step({{.kind = EventKind::BobTouched}});
+        m.wait(1);
+    }
+    ASSERT_TRUE(m.desk().tilted);
+    m.step({{.kind = EventKind::BobTouched}}); // still shaking
+    m.drain_ball();
+    m.wait(1.4f, 0);
+    EXPECT_EQ(m.served, 1);
+    m.wait(1, 0);
+    EXPECT_EQ(m.served, 2);
+}
+
+TEST(Tilt, EndsABallThatMoreBallsWouldReplace)
+{
+    WithoutSave m;
+    m.rebuild({.balls_at_once = 2});
+    m.start();
+    m.tell(EventKind::Entered, m.orbit);
+    for (int i = 0; i < 3; ++i)
+    {
+        m.step({{.kind = EventKind::BobTouched}}, 2);
+        m.wait(1, 2);
+    }
+    ASSERT_TRUE(m.desk().tilted);
+    m.drain_ball(1);
+    m.drain_ball(0);
+    EXPECT_EQ(m.desk().phase, Phase::Bonus);
+}
+
+TEST(BallSearch, IsHeldUpByAHeldFlipperAndNotByTaps)
+{
+    Machine m;
+    m.start();
+    m.all_known = true;
+    m.use_up_save();
+    m.all_known = false;
+    m.orders.clear();
+    m.flipper_is_held = true;
+    m.wait(20);
+    EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse)) << "a cradled ball";
+    for (int i = 0; i < 10; ++i)
+    {
+        m.flipper_is_held = false;
+        m.wait(0.9f);
+        m.flipper_is_held = true;
+        m.wait(0.1f);
+    }
+    EXPECT_TRUE(m.ordered(m.bumper, Command::Pulse));
+}
+
+TEST(BallSearch, LeavesAloneWhatIsNotInTheGame)
+{
+    Machine m;
+    m.table.elements[m.bumper].enabled = false;
+    m.book = RuleBook(m.table);
+    m.start();
+    m.wait(30);
+    EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse));
+    EXPECT_TRUE(m.ordered(m.saucer, Command::Pulse));
+}
+
+TEST(Players, FindDropTargetsOfNoGroupAsTheyLeftThem)
+{
+    WithoutSave m;
+    m.table.groups.pop_back();
+    for (const Index target : m.bank)
+        m.table.elements[target].group = none;
+    m.table.rules.bank.reset();
+    m.rebuild({});
+    m.start();
+    press_start(m);
+    EXPECT_TRUE(m.ordered(m.bank[0], Command::Raise)) << "a game begins with them up";
+    m.tell(EventKind::Fell, m.bank[0]);
+    m.orders.clear();
+    play_ball(m, 0);
+    EXPECT_TRUE(m.ordered(m.bank[0], Command::Raise));
+    m.orders.clear();
+    play_ball(m, 0);
+    EXPECT_TRUE(m.ordered(m.bank[0], Command::Drop));
+    EXPECT_TRUE(m.ordered(m.bank[1], Command::Raise));
 }
 
 } // namespace

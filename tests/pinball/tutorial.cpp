@@ -67,7 +67,8 @@ TEST(Tutorial, EndsWithATableThatPlays)
     author.put_into("rules", blocks[5]);
     author.put_into("card", blocks[6]);
     EXPECT_TRUE(author.findings().empty());
-    HeadlessRun run(*load_table(author.file).table, 3);
+    const Table table = *load_table(author.file).table;
+    HeadlessRun run(table, 3);
     while (run.stats().balls() < 20)
         run.step();
     EXPECT_EQ(run.stats().escaped() + run.stats().stuck(), 0);
