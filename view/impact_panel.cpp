@@ -134,7 +134,7 @@ void draw_impact(Canvas& canvas, const ImpactRecord& record, float unit)
         TextStyle own = style;
         own.color = color;
         const std::string text = p.name + index;
-        canvas.text(kept_in_view(canvas, e.point + e.normal * (direction * 104 * pixel), canvas.text_size(text, own)), text, own);
+        canvas.text(kept_in_view(canvas, e.point + e.normal * (direction * 122 * pixel), canvas.text_size(text, own)), text, own);
     };
     label(record.a, " (1)", -1, party_a_color);
     label(record.b, " (2)", 1, party_b_color);

@@ -174,11 +174,18 @@ void tell_blow(std::vector<StoryLine>& story, const ImpactRecord& record)
             {Kind::Formula, say("kick", {{"speed", number(e.kick_speed)}, {"impulse", number(mass * e.kick_speed)}})});
 }
 
-void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
+// Nobody else took part in the blow.
+bool is_as_by_formula(const ImpactRecord& record)
 {
     const float formula = impulse_by_formula(record);
     const float engine = record.event.impulse;
-    const bool same = std::abs(formula - engine) <= digits_tell * std::max(formula, engine) || number(formula) == number(engine);
+    return std::abs(formula - engine) <= digits_tell * std::max(formula, engine) || number(formula) == number(engine);
+}
+
+void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
+{
+    const float engine = record.event.impulse;
+    const bool same = is_as_by_formula(record);
     story.push_back({Kind::Result, say(same ? "engine same" : "engine differs", {{"impulse", number(engine)}})});
     if (!same)
         story.push_back({Kind::Text, say("why it differs")});
@@ -186,7 +193,7 @@ void tell_check(std::vector<StoryLine>& story, const ImpactRecord& record)
 
 // By the impulse over the mass, where nothing else moved it at that moment.
 void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effective, float before, float after, float impulse,
-                 bool first)
+                 bool first, bool undisturbed)
 {
     if (effective <= 0)
         return;
@@ -202,7 +209,7 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const bool turns = !p.held && !p.jointed && lever_arm(p, effective) > 0;
     story.push_back(
         {Kind::Formula, say(turns ? "change of spot" : "change", {{"name", p.name}, {"way", way}, {"after", number(after)}})});
-    if (turns && is_alone)
+    if (turns && undisturbed)
         story.push_back({Kind::Formula, say("centre", {{"name", p.name},
                                                        {"impulse", number(impulse)},
                                                        {"mass", number(p.mass)},
@@ -226,8 +233,9 @@ void tell_friction(std::vector<StoryLine>& story, const ImpactEvent& e)
 }
 
 // From the speeds that they had, not from what should have been.
-void tell_parting(std::vector<StoryLine>& story, const ImpactEvent& e)
+void tell_parting(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
+    const ImpactEvent& e = record.event;
     const float parting = dot(e.velocity_after_b - e.velocity_after_a, e.normal);
     const float by_formula = e.restitution * e.approach_speed + e.kick_speed;
     const std::string formula = "e·(v₁−v₂)" + (e.kick_speed > 0 ? say("kick sum") : std::string()) + " = " +
@@ -241,16 +249,18 @@ void tell_parting(std::vector<StoryLine>& story, const ImpactEvent& e)
     const char* how = std::abs(parting) <= 1e-4f * e.approach_speed ? "stay together" : parting > 0 ? "part" : "still approach";
     story.push_back({Kind::Text, say(how, {{"speed", number(std::abs(parting))}})});
     story.push_back({Kind::Formula, formula});
-    story.push_back({Kind::Text, say("others")});
+    const bool rubbed = std::abs(e.friction_impulse) > digits_tell * e.impulse;
+    story.push_back({Kind::Text, say(rubbed && is_as_by_formula(record) ? "friction turned" : "others")});
 }
 
 void tell_after(std::vector<StoryLine>& story, const ImpactRecord& record)
 {
     const ImpactEvent& e = record.event;
+    const bool undisturbed = is_as_by_formula(record);
     story.push_back({Kind::Step, say("afterwards")});
-    tell_parting(story, e);
-    tell_change(story, record.a, e.effective_mass_a, e.speed_a, dot(e.velocity_after_a, e.normal), e.impulse, true);
-    tell_change(story, record.b, e.effective_mass_b, e.speed_b, dot(e.velocity_after_b, e.normal), e.impulse, false);
+    tell_parting(story, record);
+    tell_change(story, record.a, e.effective_mass_a, e.speed_a, dot(e.velocity_after_a, e.normal), e.impulse, true, undisturbed);
+    tell_change(story, record.b, e.effective_mass_b, e.speed_b, dot(e.velocity_after_b, e.normal), e.impulse, false, undisturbed);
     story.push_back({Kind::Text, say(e.energy_lost >= 0 ? "lost" : "won", {{"energy", number(std::abs(e.energy_lost))}})});
 }
 

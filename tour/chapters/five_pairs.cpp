@@ -60,12 +60,15 @@ public:
                       {"name", word(pair_words[static_cast<std::size_t>(pair())])},
                       {"hx", view::number(half.x)},
                       {"hy", view::number(half.y)},
+                      {"here", ""},
                       {"sum", ""},
                       {"result", ""}};
         const Found found = find();
         for (const auto& [name, value] : found.numbers)
             values[name] = name == "axis" ? whole(value) : fixed(value);
         values["sum"] = filled(word(pair_sums[static_cast<std::size_t>(pair())]), values);
+        if (pair() == 3)
+            values["here"] = filled(word("here"), values);
         values["result"] = filled(word(found.gap > 0 ? "apart" : "overlap"), {{"gap", fixed(std::abs(found.gap))}});
         return values;
     }
@@ -164,8 +167,9 @@ private:
         // Beside each other, so that their lengths can be compared.
         const Vec2 beside = 0.12f * perp(slope);
         found.lines = {{foot, center, first_color}, {center - beside, center - beside - slope * radius, second_color}};
-        found.marks = {{center + slope * 0.08f, "c", first_color}, {foot, word("foot"), ink}};
-        found.names = {{center - slope * (0.5f * distance) + beside * 1.6f, "d", first_color},
+        found.marks = {{center, "c", first_color}, {foot, "", ink}};
+        found.names = {{foot - slope * 0.22f, word("foot"), ink},
+                       {center - slope * (0.5f * distance) + beside * 1.6f, "d", first_color},
                        {center - slope * (0.5f * radius) - beside * 2.6f, "r", second_color}};
         if (distance > radius)
         {
@@ -222,10 +226,10 @@ private:
         found.lines.push_back({pose(0).position, transform(pose(0), {0, half.y}), second_color});
         found.marks = {{pose(1).position, "c", first_color}, {closest, "", second_color}};
         const Vec2 away = normalize(pose(1).position - closest);
-        found.names = {{closest - away * 0.1f + perp(away) * 0.85f, word("nearest"), second_color},
-                       {transform(pose(0), {half.x * 0.55f, -0.14f}), "x", second_color},
-                       {transform(pose(0), {-0.14f, half.y * 0.6f}), "y", second_color},
-                       {closest + 0.5f * (pose(1).position - closest) - perp(away) * 0.15f, "d", first_color}};
+        found.names = {{closest - perp(away) * 0.4f + away * 0.35f, word("nearest"), second_color},
+                       {transform(pose(0), {half.x * 0.5f, 0.14f}), view::number(half.x), second_color},
+                       {transform(pose(0), {-0.3f, half.y * 0.6f}), view::number(half.y), second_color},
+                       {closest + 0.5f * (pose(1).position - closest) + perp(away) * 0.15f, "d", first_color}};
         return found;
     }
 

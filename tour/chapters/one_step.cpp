@@ -66,7 +66,7 @@ public:
     }
 
     [[nodiscard]] bool is_over() const override { return scene().time() > static_cast<double>(seconds); }
-    [[nodiscard]] int picture_steps() const override { return static_cast<int>(1.3f / h()); }
+    [[nodiscard]] int picture_steps() const override { return static_cast<int>(0.9f / h()); }
     [[nodiscard]] Box view() const override { return {{-4.4, -0.6}, {4.4, 4.6}}; }
 
     [[nodiscard]] Values values() const override

@@ -47,6 +47,7 @@ public:
         m_overlap.values.clear();
         m_sag.values.clear();
         m_overlap.add(control("overlap"), window_steps);
+        m_sag.add(0, window_steps);
     }
 
     void step() override

@@ -28,8 +28,8 @@ class Springs : public Chapter
 
 public:
     Springs()
-        : Chapter("07-springs", {{.name = "k", .value = 20, .low = 1, .high = 2000, .format = "%.0f N/m", .logarithmic = true},
-                                 {.name = "c", .value = 0.6f, .low = 0, .high = 40, .format = "%.2f N·s/m"},
+        : Chapter("07-springs", {{.name = "k", .value = 100, .low = 1, .high = 2000, .format = "%.0f N/m", .logarithmic = true},
+                                 {.name = "c", .value = 0.3f, .low = 0, .high = 40, .format = "%.2f N·s/m"},
                                  {.name = "mass", .value = 1, .low = 0.2f, .high = 5, .format = "%.1f kg", .restarts = true, .logarithmic = true},
                                  {.name = "stretch", .value = 1, .low = -1, .high = 1.2f, .format = "%.2f m", .restarts = true},
                                  {.name = "pull", .value = 0.7f, .low = 0.1f, .high = 1, .format = "%.2f m", .restarts = true}})
@@ -107,12 +107,12 @@ public:
         const double rest_x = wall_x + static_cast<double>(rest_length);
         const std::array<Position, 2> mark{Position{rest_x, 0.5}, Position{rest_x, 2.3}};
         canvas.dashed(mark, {faint, 1.5f});
-        label(canvas, {rest_x, 2.45}, word("rest"), faint, 12);
-        draw_simple(canvas);
+        label(canvas, {rest_x, 2.68}, word("rest"), faint, 12);
         view::draw_scene(canvas, scene(), alpha);
+        draw_simple(canvas);
         const Position at = scene().body(m_mass).interpolated_pose(alpha).position;
-        arrow_above(canvas, at + Vec2{0, 0.92f}, {-0.04f * control("k") * stretch(), 0}, word("spring force"), second_color);
-        arrow_above(canvas, at + Vec2{0, 0.55f}, {-0.04f * control("c") * velocity(), 0}, word("damping force"), bad_color);
+        arrow_above(canvas, at + Vec2{0, 0.92f}, {-0.012f * control("k") * stretch(), 0}, word("spring force"), second_color);
+        arrow_above(canvas, at + Vec2{0, 0.55f}, {-0.15f * control("c") * velocity(), 0}, word("damping force"), bad_color);
         arrow_above(canvas, at + Vec2{0, -0.75f}, {0.2f * velocity(), 0}, word("velocity"), good_color);
         const std::array<const Curve*, 1> force{&m_force};
         draw_curves(canvas, {{-4.1, -3.5}, {-0.1, -1.7}}, word("force"), force, window_seconds, window_steps);
@@ -141,10 +141,10 @@ private:
     {
         const Position at{wall_x + static_cast<double>(rest_length + m_simple_x), rail_y};
         if (at.x < wall_x || at.x > 4.2)
-            return label(canvas, {2.6, 2.45}, word("burst"), bad_color, 12);
-        canvas.stroke_box({{at.x - 0.35, at.y - 0.35}, {at.x + 0.35, at.y + 0.35}}, {faint, 1.5f});
+            return label(canvas, {2.6, 2.68}, word("burst"), bad_color, 12);
+        canvas.stroke_box({{at.x - 0.35, at.y - 0.35}, {at.x + 0.35, at.y + 0.35}}, {ink, 2});
         if (std::abs(m_simple_x - stretch()) > 0.25f)
-            label(canvas, at, word("simple"), faint, 11);
+            label(canvas, at + Vec2{0, -0.5f}, word("simple"), faint, 11);
     }
 
     // Its name stands over its middle, where no head is in the way.

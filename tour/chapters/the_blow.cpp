@@ -61,7 +61,7 @@ public:
     }
 
     [[nodiscard]] bool is_over() const override { return m_steps >= most_steps; }
-    [[nodiscard]] int picture_steps() const override { return 37; }
+    [[nodiscard]] int picture_steps() const override { return 36; }
     [[nodiscard]] Box view() const override { return {{-3.4, -2.3}, {3.4, 2.3}}; }
 
     void draw(view::Canvas& canvas, float alpha) const override
