@@ -72,6 +72,7 @@ public:
         hash.add(m_enabled);
         hash.add(m_at_stop);
         hash.add(m_luck);
+        hash.add(m_seen_speed);
     }
 
 private:

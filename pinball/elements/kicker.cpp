@@ -38,7 +38,11 @@ public:
             m_enabled = command == Command::Enable;
     }
 
-    void add_to(Hash& hash) const override { hash.add(m_enabled); }
+    void add_to(Hash& hash) const override
+    {
+        Zone::add_to(hash);
+        hash.add(m_enabled);
+    }
 
 private:
     void fire(Playfield& field, Ball& ball)

@@ -17,6 +17,9 @@ constexpr std::uint64_t ball_tag = std::uint64_t{1} << 63;
 // Softer touches than this are rolling and leaning, not hits: a ball at rest sinks and rises by less.
 constexpr float quietest_impact = 0.02f; // m/s
 
+// A free ball on the round end of a guide begins to roll off at a few micrometres a second: it must not fall asleep meanwhile.
+constexpr float sleep_speed = 2e-5f; // m/s
+
 // Sub-steps of at most a quarter of a millisecond, however long the step is, and where that can be, such that one begins at every whole
 // millisecond: there buttons change and coils look at them. 4 in 1 ms, 25 in 1/240 s, 50 in 1/120 s.
 int substeps_of(float step)
@@ -65,12 +68,12 @@ PlungerLane::PlungerLane(const Table& table)
         const auto* plunger = std::get_if<Plunger>(&element.part);
         if (!plunger || plunger->lane == none)
             continue;
-        const Vec2 half = std::get<Sensor>(table.elements[plunger->lane].part).half;
+        const Sensor& sensor = std::get<Sensor>(table.elements[plunger->lane].part);
+        const Vec2 half = sensor.radius > 0 ? Vec2{sensor.radius, sensor.radius} : sensor.half;
         m_origin = plunger->pos;
         m_axis = plunger->axis;
         m_half_width = std::abs(half.x * m_axis.y) + std::abs(half.y * m_axis.x) + 0.002f;
         m_behind = plunger->stroke;
-        const Sensor& sensor = std::get<Sensor>(table.elements[plunger->lane].part);
         m_reach =
             dot(m_axis, sensor.pos - m_origin) + std::abs(half.x * m_axis.x) + std::abs(half.y * m_axis.y) + table.ball.radius;
         return;
@@ -335,7 +338,10 @@ void Playfield::watch_lane()
 Ball& Playfield::add_ball(Vec2 position, Index captive_element)
 {
     const BallDef& def = m_table.ball;
-    const BodyId body = m_scene.create_body({.type = BodyType::Dynamic, .position = position, .user_data = ball_tag});
+    const BodyId body = m_scene.create_body({.type = BodyType::Dynamic,
+                                             .position = position,
+                                             .sleep_speed = captive_element == none ? sleep_speed : 0,
+                                             .user_data = ball_tag});
     ShapeDef shape;
     if (def.material != none)
     {
@@ -492,6 +498,7 @@ void Playfield::add_to(Hash& hash) const
     hash.add(m_random.state());
     hash.add(m_step);
     hash.add(m_vain_plunges);
+    hash.add(m_next_serial);
     m_cabinet.add_to(hash);
     for (const Ball& ball : m_balls)
     {

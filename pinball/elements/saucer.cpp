@@ -46,6 +46,7 @@ public:
 
     void add_to(Hash& hash) const override
     {
+        Zone::add_to(hash);
         hash.add(m_steps_left);
         hash.add(m_keep);
         hash.add(m_held.slot);

@@ -27,6 +27,12 @@ public:
         state.occupied = !m_inside.empty();
     }
 
+    void add_to(Hash& hash) const override
+    {
+        for (const BodyId body : m_inside)
+            hash.add(body.slot);
+    }
+
 protected:
     [[nodiscard]] const std::vector<BodyId>& inside() const { return m_inside; }
 

@@ -333,6 +333,12 @@ std::uint64_t Game::state_hash() const
     s.field.add_to(hash);
     s.rules.add_to(hash);
     s.auto_plunger.add_to(hash);
+    for (const GameEvent& event : s.late)
+    {
+        hash.add(static_cast<int>(event.kind));
+        hash.add(event.element);
+        hash.add(event.ball);
+    }
     for (const bool held :
          {s.held.left, s.held.right, s.held.plunger, s.held.start, s.held.nudge_left, s.held.nudge_right, s.held.nudge_up})
         hash.add(held);

@@ -85,7 +85,7 @@ public:
     [[nodiscard]] int bonus_multiplier() const;
     [[nodiscard]] int letters() const;         ///< lit ones of the bank rule's word
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
-    [[nodiscard]] bool tilted() const;         ///< until the ball has drained
+    [[nodiscard]] bool tilted() const;         ///< until the bonus of that ball would have been counted
 
     /// Of any element: a Light shows its state; every other one what a light on it would show.
     [[nodiscard]] LampState lamp(Index element) const;

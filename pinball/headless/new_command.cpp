@@ -61,7 +61,7 @@ try
 }
 catch (const std::exception& error)
 {
-    std::cerr << "carom-pinball new: " << error.what() << '\n' << list_of_templates();
+    std::cerr << "carom-pinball new: " << error.what() << "; --help lists the templates\n";
     return 1;
 }
 

@@ -103,6 +103,7 @@ struct App::State
     // A game that plays by itself, slowed down, with what the chapter was about.
     void show(const tour::TableView& what)
     {
+        stop_watching();
         set_xray(true);
         m_paused = false;
         m_speed = 0.25;
@@ -113,8 +114,11 @@ struct App::State
         toggles.boxes = what.boxes;
         toggles.islands = what.islands;
         toggles.velocities = what.velocities;
-        if (m_machine.game().phase() == Phase::Attract || m_machine.game().phase() == Phase::GameOver)
+        if (m_machine.is_idle() && !m_options.autoplay)
+        {
+            m_shows_itself = true;
             m_machine.play_by_itself(true);
+        }
     }
 
     void handle(const SDL_Event& event)
@@ -126,13 +130,13 @@ struct App::State
         if (m_xray)
             select(event);
         if (m_controls.handle(event, m_machine.controls))
-            return;
+            return m_buttons.release_all();
         if (m_machine.name_entry().active() && write_name(event))
             return;
-        press(event);
         const auto wish = m_machine.controls.wish_of(event);
         if (m_asking && Controls::pressed(event))
             return answer(wish);
+        press(event);
         if (wish && !m_window.wants_keyboard())
             obey(*wish);
     }
@@ -143,11 +147,30 @@ struct App::State
         for (const ButtonPress& press : m_machine.controls.buttons_of(event))
         {
             m_buttons.push(time, press.button, press.down, press.source);
-            if (press.button == Button::Start && press.down && m_machine.is_watching())
-                m_machine.stop_watching();
+            if (press.button == Button::Start && press.down)
+                take_over();
         }
         if (const auto rod = Controls::rod_of(event))
             m_buttons.hold_rod(time, *rod);
+    }
+
+    // Whoever presses start wants to play.
+    void take_over()
+    {
+        stop_watching();
+        if (!std::exchange(m_shows_itself, false))
+            return;
+        m_machine.play_by_itself(false);
+        m_machine.restart();
+        m_speed = 1;
+    }
+
+    void stop_watching()
+    {
+        if (!m_machine.is_watching())
+            return;
+        m_machine.stop_watching();
+        m_speed = 1;
     }
 
     [[nodiscard]] bool is_in_game() const { return !m_machine.is_idle() && !m_options.autoplay && !m_machine.is_watching(); }
@@ -188,14 +211,12 @@ struct App::State
     // Letters are letters while a name is written.
     bool write_name(const SDL_Event& event)
     {
-        if (event.type != SDL_KEYDOWN && event.type != SDL_KEYUP)
-            return false;
+        if (event.type != SDL_KEYDOWN)
+            return false;                             // what goes up may have gone down before
         const SDL_Keycode key = event.key.keysym.sym; // as printed on the key
         const bool is_letter = (key >= SDLK_a && key <= SDLK_z) || (key >= SDLK_0 && key <= SDLK_9);
         if (!is_letter && key != SDLK_BACKSPACE)
             return false;
-        if (event.type == SDL_KEYUP)
-            return true;
         if (is_letter)
             m_machine.name_entry().type(static_cast<char>(key));
         else
@@ -263,13 +284,14 @@ struct App::State
 
     void watch()
     {
-        m_speed = 1;
+        if (is_in_game())
+            return;
         m_paused = false;
         m_trouble.clear();
         if (m_machine.is_watching())
-            m_machine.stop_watching();
-        else if (!is_in_game())
-            m_trouble = m_machine.watch_last();
+            return stop_watching();
+        m_speed = 1;
+        m_trouble = m_machine.watch_last();
     }
 
     void change_speed(double factor)
@@ -280,6 +302,7 @@ struct App::State
 
     void restart()
     {
+        stop_watching();
         m_machine.restart();
         m_sounds.sink().stop_all();
         m_paused = false;
@@ -301,8 +324,12 @@ struct App::State
         if (now_ms() < m_next_poll)
             return;
         m_next_poll = now_ms() + table_poll_ms;
-        if (m_machine.poll_table())
-            m_window.set_title(title());
+        const bool watched = m_machine.is_watching();
+        if (!m_machine.poll_table())
+            return;
+        m_window.set_title(title());
+        if (watched) // that is over
+            m_speed = 1;
     }
 
     [[nodiscard]] std::string title() const { return "Carom: " + m_machine.game().table().name; }
@@ -313,14 +340,16 @@ struct App::State
         m_sounds.hear(m_machine.game());
     }
 
+    [[nodiscard]] bool stands_still() const { return m_paused || m_machine.has_watched(); }
+
     void advance()
     {
-        if (m_paused)
+        if (stands_still())
             return m_clock.skip_to(now_ms());
         m_clock.set_step(step_ms()); // another table may have another one
         m_clock.begin_frame(now_ms(), m_speed);
         bool stepped = false;
-        while (m_clock.take_step())
+        while (m_clock.take_step() && !m_machine.has_watched())
         {
             step(m_buttons.advance_to(m_clock.step_end_ms()));
             stepped = true;
@@ -332,9 +361,9 @@ struct App::State
     void draw()
     {
         const view::SoundSink& sink = m_sounds.sink();
-        m_sounds.frame(m_machine.game(), !m_paused);
+        m_sounds.frame(m_machine.game(), !stands_still());
         draw_frame(m_window, m_machine, m_stage,
-                   {.alpha = m_paused ? 1 : m_clock.alpha(),
+                   {.alpha = stands_still() ? 1 : m_clock.alpha(),
                     .xray = m_xray,
                     .question = !m_asking                 ? nullptr
                                 : *m_asking == Wish::Quit ? "LEAVE THE GAME?"
@@ -361,6 +390,7 @@ struct App::State
     Stage m_stage{};
     bool m_xray = false;
     bool m_paused = false;
+    bool m_shows_itself = false; ///< plays because the tour sent the reader here
     bool m_was_paused = false;
     std::optional<Wish> m_asking{};
     double m_speed = 1;

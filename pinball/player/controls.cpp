@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 namespace carom::pinball {
 
@@ -179,22 +181,27 @@ std::string Controls::load(const std::filesystem::path& file)
     {
         const nlohmann::json json = nlohmann::json::parse(in);
         Controls read = *this;
+        std::vector<std::pair<std::size_t, std::vector<std::string>>> named;
         for (const auto& [id, names] : json.items())
         {
             const auto action = std::ranges::find(all_actions, id, &Action::id);
             if (action == std::end(all_actions))
                 throw std::runtime_error("\"" + id + "\" is no action");
-            auto& controls = read.m_controls[static_cast<std::size_t>(action - std::begin(all_actions))];
-            controls.clear();
-            for (const auto& name : names)
-                controls.push_back(control_in_file(name.get<std::string>()));
+            named.emplace_back(static_cast<std::size_t>(action - std::begin(all_actions)), names.get<std::vector<std::string>>());
         }
+        for (const auto& [action, names] : named)
+            read.m_controls[action].clear();
+        for (const auto& [action, names] : named)
+            for (const std::string& name : names)
+                read.bind(action, control_in_file(name));
         *this = read;
         return {};
     }
     catch (const std::exception& error)
     {
-        return file.string() + " was not read: " + error.what();
+        std::error_code ignored;
+        std::filesystem::rename(file, file.string() + ".broken", ignored); // the next change would write over it
+        return file.string() + " was not read and put aside: " + error.what();
     }
 }
 
@@ -261,7 +268,9 @@ bool is_repeat(const SDL_Event& event) { return event.type == SDL_KEYDOWN && eve
 
 std::optional<Control> Controls::pressed(const SDL_Event& event)
 {
-    return goes_down(event) && !is_repeat(event) ? control_of(event) : std::nullopt;
+    const auto control = goes_down(event) && !is_repeat(event) ? control_of(event) : std::nullopt;
+    const bool has_name = control && name_in_file(*control).size() > 4; // else it could not be kept
+    return has_name ? control : std::nullopt;
 }
 
 void Controls::turn(std::vector<ButtonPress>& presses, std::size_t side, float value, Button button)
@@ -338,7 +347,12 @@ std::string Controls::labels(Effect effect, std::size_t most) const
     return text;
 }
 
-std::string Controls::label(Effect effect) const { return labels(effect, 1); }
+std::string Controls::label(Effect effect) const
+{
+    const auto& controls = m_controls[*place_of(effect)];
+    const std::string key = labels(effect, 1);
+    return key.empty() && !controls.empty() ? label_of(controls.front()) : key;
+}
 
 std::vector<KeyLine> Controls::key_lines() const
 {

@@ -88,7 +88,7 @@ public:
     /// The file in the user's data directory; empty where there is none.
     [[nodiscard]] static std::filesystem::path file_of_user();
     /// Takes what the file says; what it does not name stays as it is. No file: nothing happens. A sentence where the file is bad: then all
-    /// stays as it is.
+    /// stays as it is, and the file is put aside.
     [[nodiscard]] std::string load(const std::filesystem::path& file);
     /// A sentence where that cannot be done.
     [[nodiscard]] std::string save(const std::filesystem::path& file) const;
@@ -106,7 +106,8 @@ public:
     /// What was pressed, for whoever waits for a control to bind.
     [[nodiscard]] static std::optional<Control> pressed(const SDL_Event& event);
 
-    [[nodiscard]] std::string label(Effect effect) const; ///< of its first control; empty where it has none
+    [[nodiscard]] std::string label(
+        Effect effect) const; ///< of its first key, or else of its gamepad button; empty where it has none
     /// For the first screen, and for the x-ray.
     [[nodiscard]] std::vector<KeyLine> key_lines() const;
     [[nodiscard]] std::vector<KeyLine> xray_key_lines() const;

@@ -33,7 +33,7 @@ bool ControlsPanel::handle(const SDL_Event& event, Controls& controls)
         return false;
     }
     if (!pressed)
-        return event.type == SDL_KEYUP || event.type == SDL_CONTROLLERBUTTONUP;
+        return false;
     controls.bind(*m_waiting, *pressed);
     m_waiting.reset();
     keep(controls);

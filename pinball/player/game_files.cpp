@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* extension = ".game.json";
 
-// Names sort by time; two games of one second are told apart by a number.
+// Names sort by time; two games of one second are told apart by a letter.
 std::string name_of_now()
 {
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -33,9 +33,9 @@ std::vector<fs::path> files_in(const fs::path& folder)
 {
     std::vector<fs::path> files;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().string().ends_with(extension))
-            files.push_back(entry.path());
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (entry->path().string().ends_with(extension))
+            files.push_back(entry->path());
     std::ranges::sort(files);
     return files;
 }

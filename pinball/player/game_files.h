@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// The recorded games of this user: a file each, named by time and score. The newest hundred are kept.
+/// The recorded games of this user: a file each, named by its time. The newest hundred are kept.
 
 #include "pinball/recording/recording.h"
 

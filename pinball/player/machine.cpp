@@ -3,6 +3,8 @@
 #include "pinball/table/loader.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -12,15 +14,15 @@ namespace carom::pinball {
 
 namespace {
 
-Table load_or_throw(const std::string& file)
+Table table_of(const std::string& file, const std::string& text)
 {
-    LoadResult result = load_table_file(file);
+    LoadResult result = load_table(text);
     if (result.table)
         return std::move(*result.table);
-    std::string text = file + " is no table:";
+    std::string trouble = file + " is not a table:";
     for (const LoadError& error : result.errors)
-        text += "\n  " + to_string(error);
-    throw std::runtime_error(text);
+        trouble += "\n  " + to_string(error);
+    throw std::runtime_error(trouble);
 }
 
 std::string text_of(const std::filesystem::path& file)
@@ -29,7 +31,7 @@ std::string text_of(const std::filesystem::path& file)
     return {(std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>()};
 }
 
-// Shorter ones are none that anybody wants to see again.
+// A shorter game is not worth keeping.
 constexpr double shortest_kept_game = 5; // s
 
 // Shapes carry the index of their element plus one, balls the highest bit (Playfield).
@@ -47,9 +49,8 @@ std::string name_of(const Table& table, std::uint64_t tag)
 } // namespace
 
 Machine::Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores)
-    : impacts([this](const Scene& scene, ShapeId shape) { return name_of(m_game.table(), scene.shape(shape).user_data()); }),
-      m_watch(file), m_table_text(text_of(file)), m_seeds(seed), m_seed(seed), m_autoplay(autoplay),
-      m_game(load_or_throw(file), {.seed = seed}), m_effects(m_game.table()), m_art(m_game.table())
+    : impacts(namer()), m_watch(file), m_table_text(text_of(file)), m_seeds(seed), m_seed(seed), m_autoplay(autoplay),
+      m_game(table_of(file, m_table_text), {.seed = seed}), m_effects(m_game.table()), m_art(m_game.table())
 {
     if (keep_scores)
     {
@@ -75,8 +76,15 @@ void Machine::load_scores()
 
 Machine::~Machine()
 {
-    end_game();
-    keep_scores();
+    try
+    {
+        end_game();
+        keep_scores();
+    }
+    catch (const std::exception& error)
+    {
+        std::fprintf(stderr, "carom-pinball: %s\n", error.what());
+    }
 }
 
 void Machine::keep_score(int rank)
@@ -142,13 +150,19 @@ void Machine::step(Input input)
     impacts.observe(m_game.scene());
 }
 
-void Machine::put(Game game)
+Game Machine::put(Game game)
 {
-    HighScores scores = m_game.high_scores();
-    m_game = std::move(game);
-    m_game.set_high_scores(std::move(scores));
-    m_effects = Effects(m_game.table());
+    game.set_high_scores(m_game.high_scores());
+    Game old = std::exchange(m_game, std::move(game));
     m_art = TableArt(m_game.table());
+    ++m_table_version;
+    forget_what_was_seen();
+    return old;
+}
+
+void Machine::forget_what_was_seen()
+{
+    m_effects = Effects(m_game.table());
     impacts.clear();
     scrubber.clear();
     selected = {};
@@ -162,7 +176,9 @@ void Machine::begin_game()
     Options options{.seed = m_seed, .credits = m_game.credits()};
     m_seed = m_seeds.bits();
     m_recorder.emplace(m_table_text, options);
+    const std::uint64_t version = m_table_version;
     put(Game(m_game.table(), options));
+    m_table_version = version; // the same table
 }
 
 void Machine::end_game()
@@ -179,28 +195,25 @@ void Machine::end_game()
 std::string Machine::watch(const std::filesystem::path& file)
 {
     LoadedRecording loaded = load_recording(file);
-    if (!loaded.recording)
-        return loaded.trouble;
-    m_last_game = std::move(loaded.recording);
-    return watch_last();
+    return loaded.recording ? watch(std::move(*loaded.recording)) : loaded.trouble;
 }
 
 std::string Machine::watch_last()
+{
+    if (m_last_game)
+        return watch(*m_last_game);
+    const auto file = m_game_files ? m_game_files->newest() : std::nullopt;
+    return file ? watch(*file) : "no game has been recorded yet";
+}
+
+std::string Machine::watch(Recording recording)
 try
 {
-    if (!m_last_game)
-    {
-        const auto file = m_game_files ? m_game_files->newest() : std::nullopt;
-        return file ? watch(*file) : "no game has been recorded yet";
-    }
-    Playback playback(*m_last_game);
+    Playback playback(std::move(recording));
     stop_watching();
     end_game();
     keep_scores();
-    HighScores scores = m_game.high_scores();
-    m_own_game = std::exchange(m_game, playback.new_game());
-    m_game.set_high_scores(std::move(scores));
-    put(playback.new_game());
+    m_own_game = put(playback.new_game());
     m_playback = std::move(playback);
     return {};
 }
@@ -214,10 +227,8 @@ void Machine::stop_watching()
     if (!m_playback)
         return;
     m_playback.reset();
-    const HighScores scores = m_own_game->high_scores();
     put(std::move(*m_own_game));
     m_own_game.reset();
-    m_game.set_high_scores(scores);
 }
 
 void Machine::step_watched()
@@ -231,15 +242,14 @@ void Machine::step_watched()
     impacts.observe(m_game.scene());
 }
 
-void Machine::begin(Table table)
+void Machine::begin(Table table, std::string text)
 {
     stop_watching();
     m_recorder.reset(); // half of it was another table
     keep_scores();
     const bool same = table.name == m_game.table().name;
-    m_table_text = text_of(m_watch.file());
-    ++m_table_version;
-    put(Game(std::move(table), {.seed = m_seed}));
+    m_table_text = std::move(text);
+    put(Game(std::move(table), {.seed = m_seed, .credits = m_game.credits()}));
     if (!same)
         load_scores();
     if (m_autoplay)
@@ -254,11 +264,7 @@ void Machine::restart()
     m_game.restart();
     if (m_autoplay)
         m_player.emplace(m_game.table(), m_seed);
-    m_effects = Effects(m_game.table());
-    impacts.clear();
-    scrubber.clear();
-    selected = {};
-    m_game.record_substeps(m_record);
+    forget_what_was_seen();
 }
 
 void Machine::play_by_itself(bool on)
@@ -273,13 +279,14 @@ bool Machine::poll_table()
 {
     if (!m_watch.poll())
         return false;
-    LoadResult result = load_table_file(m_watch.file());
+    std::string text = text_of(m_watch.file()); // once: an editor may write between two looks
+    LoadResult result = load_table(text);
     m_table_errors.clear();
     for (const LoadError& error : result.errors)
         m_table_errors.push_back(to_string(error));
     if (!result.table)
         return false;
-    begin(std::move(*result.table));
+    begin(std::move(*result.table), std::move(text));
     return true;
 }
 

@@ -38,7 +38,7 @@ public:
     void restart();
     /// Plays a recorded game again instead of the player's; a sentence where that cannot be. What the buttons do then counts for nothing.
     [[nodiscard]] std::string watch(const std::filesystem::path& file);
-    /// The game that was played last, of this run of the program or of one before.
+    /// The player's last game, of this run of the program or of one before.
     [[nodiscard]] std::string watch_last();
     /// Back to the player's own table.
     void stop_watching();
@@ -46,7 +46,7 @@ public:
     /// Of what is being watched: over, and whether it came out as it was recorded.
     [[nodiscard]] bool has_watched() const { return m_playback && m_playback->is_over(); }
     [[nodiscard]] bool came_out_the_same() const { return m_came_out_the_same; }
-    /// Another one each time the table file is read.
+    /// Changes with the table that is played.
     [[nodiscard]] std::uint64_t table_version() const { return m_table_version; }
     /// A game that nobody has played or that is over.
     [[nodiscard]] bool is_idle() const { return m_game.phase() == Phase::Attract || m_game.phase() == Phase::GameOver; }
@@ -79,9 +79,11 @@ public:
     [[nodiscard]] view::ShapeNamer namer() const;
 
 private:
-    void begin(Table table);
-    /// Puts another game in place of this one; what was seen of the old one is forgotten.
-    void put(Game game);
+    void begin(Table table, std::string text);
+    /// Puts another game in place of this one, which it gives back; what was seen of it is forgotten.
+    Game put(Game game);
+    void forget_what_was_seen();
+    [[nodiscard]] std::string watch(Recording recording);
     void step_watched();
     /// A game of its own for each time somebody presses start, recorded from its first step.
     void begin_game();

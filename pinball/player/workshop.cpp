@@ -92,6 +92,7 @@ void Workshop::check(const Machine& machine)
         return;
     m_version = machine.table_version();
     m_done = false;
+    m_findings.clear();
     m_running = std::async(std::launch::async, [table = machine.game().table()] { return pinball::check(table); });
 }
 

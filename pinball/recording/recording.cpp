@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace carom::pinball {
@@ -152,7 +153,7 @@ Table table_of(const Recording& recording)
     LoadResult result = load_table(recording.table_text);
     if (result.table)
         return std::move(*result.table);
-    std::string text = "the recorded table is none:";
+    std::string text = "the table in the recording has errors:";
     for (const LoadError& error : result.errors)
         text += "\n  " + to_string(error);
     throw std::runtime_error(text);
@@ -177,12 +178,17 @@ std::string Recording::to_json() const
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// Beside it first: a file that is there is a whole one.
 std::string Recording::save(const std::filesystem::path& file) const
 {
-    std::ofstream out(file, std::ios::binary);
+    const std::filesystem::path unfinished = file.string() + ".new";
+    std::ofstream out(unfinished, std::ios::binary);
     out << to_json();
     out.close();
-    return out ? std::string() : file.string() + ": the game cannot be written there";
+    std::error_code error;
+    if (out)
+        std::filesystem::rename(unfinished, file, error);
+    return out && !error ? std::string() : file.string() + ": the game cannot be written there";
 }
 
 LoadedRecording read_recording(std::string_view json)

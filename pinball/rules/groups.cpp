@@ -40,7 +40,10 @@ public:
         }
     }
 
-    void begin_turn(Desk& desk) override
+    void begin_turn(Desk& desk) override { restore(desk); }
+
+    // The targets stand and lie as the group has them, also after a tilt, when it was deaf.
+    void restore(Desk& desk) const
     {
         for (std::size_t g = 0; g < m_states.size(); ++g)
             for (std::size_t i = 0; i < m_states[g].made.size(); ++i)
@@ -54,6 +57,7 @@ public:
         for (std::size_t g = 0; g < m_states.size(); ++g)
             if (desk.table().groups[g].reset == GroupReset::Never && is_complete(g))
                 reset(desk, g);
+        restore(desk);
     }
 
     void on_event(Desk& desk, const GameEvent& event) override

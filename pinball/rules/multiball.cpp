@@ -20,6 +20,9 @@ public:
         end(desk);
     }
 
+    // A tilt may have ended the last ball in the middle of it.
+    void start_ball(Desk& desk) override { end(desk); }
+
     void on_event(Desk& desk, const GameEvent& event) override
     {
         if (desk.multiball)

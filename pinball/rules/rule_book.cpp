@@ -182,8 +182,6 @@ void RuleBook::start_ball()
     m_desk.player.bonus = 0;
     m_desk.player.multiplier = 1;
     m_desk.phase = Phase::Ready;
-    if (std::exchange(m_desk.tilted, false))
-        m_desk.order_all(Command::Enable);
     for (auto& rule : seat().rules)
         rule->start_ball(m_desk);
     m_desk.serve();
@@ -221,6 +219,8 @@ void RuleBook::count_bonus()
 
 void RuleBook::end_turn()
 {
+    if (std::exchange(m_desk.tilted, false))
+        m_desk.order_all(Command::Enable);
     if (m_desk.player.extra_balls > 0)
         return start_ball();
     const int next = (m_desk.player_up + 1) % m_desk.players;
@@ -279,11 +279,12 @@ void RuleBook::add_to(Hash& hash) const
     for (const std::int64_t value : {m_bonus_left, m_bonus_piece, m_next_count, m_match_ends})
         hash.add(value);
     hash.add(m_match_number);
-    for (const Seat& seat : m_seats)
+    for (std::size_t i = 0; i < m_seats.size(); ++i)
     {
-        seat.player.add_to(hash);
-        hash.add(seat.has_begun);
-        for (const auto& rule : seat.rules)
+        if (static_cast<int>(i) != m_desk.player_up) // who plays is on the desk
+            m_seats[i].player.add_to(hash);
+        hash.add(m_seats[i].has_begun);
+        for (const auto& rule : m_seats[i].rules)
             rule->add_to(hash);
     }
 }
