@@ -203,12 +203,13 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const float by_formula = first ? before - change : before + change;
     const float scale = std::max({std::abs(before), std::abs(after), change});
     const bool is_alone = std::abs(by_formula - after) <= 0.2f * digits_tell * scale;
-    const std::string way = is_alone ? v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign +
-                                           number(impulse) + "/" + number(effective) + " = "
-                                     : say("from to", {{"v", v}, {"before", number(before)}});
     const bool turns = !p.held && !p.jointed && lever_arm(p, effective) > 0;
+    const std::string sum = v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign + number(impulse) + "/" +
+                            number(effective) + " = ";
+    const char* sentence = is_alone ? (turns ? "change of spot" : "change") : turns ? "change of spot from" : "change from";
     story.push_back(
-        {Kind::Formula, say(turns ? "change of spot" : "change", {{"name", p.name}, {"way", way}, {"after", number(after)}})});
+        {Kind::Formula,
+         say(sentence, {{"name", p.name}, {"way", sum}, {"v", v}, {"before", number(before)}, {"after", number(after)}})});
     if (turns && undisturbed)
         story.push_back({Kind::Formula, say("centre", {{"name", p.name},
                                                        {"impulse", number(impulse)},
@@ -238,17 +239,17 @@ void tell_parting(std::vector<StoryLine>& story, const ImpactRecord& record)
     const ImpactEvent& e = record.event;
     const float parting = dot(e.velocity_after_b - e.velocity_after_a, e.normal);
     const float by_formula = e.restitution * e.approach_speed + e.kick_speed;
-    const std::string formula = "e·(v₁−v₂)" + (e.kick_speed > 0 ? say("kick sum") : std::string()) + " = " +
-                                number(e.restitution) + "·" + number(e.approach_speed) +
-                                (e.kick_speed > 0 ? " + " + number(e.kick_speed) : "") + " = " + number(by_formula) + " m/s";
+    const bool kicked = e.kick_speed > 0;
+    const std::string formula = number(e.restitution) + "·" + number(e.approach_speed) +
+                                (kicked ? " + " + number(e.kick_speed) : "") + " = " + number(by_formula);
     if (std::abs(parting - by_formula) <= 2 * digits_tell * std::max(e.approach_speed, std::abs(by_formula)))
     {
-        story.push_back({Kind::Formula, say("part as told", {{"formula", formula}})});
+        story.push_back({Kind::Formula, say(kicked ? "part with kick" : "part as told", {{"formula", formula}})});
         return;
     }
     const char* how = std::abs(parting) <= 1e-4f * e.approach_speed ? "stay together" : parting > 0 ? "part" : "still approach";
     story.push_back({Kind::Text, say(how, {{"speed", number(std::abs(parting))}})});
-    story.push_back({Kind::Formula, formula});
+    story.push_back({Kind::Formula, say(kicked ? "alone with kick" : "alone", {{"formula", formula}})});
     const bool rubbed = std::abs(e.friction_impulse) > digits_tell * e.impulse;
     story.push_back({Kind::Text, say(rubbed && is_as_by_formula(record) ? "friction turned" : "others")});
 }

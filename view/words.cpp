@@ -1,5 +1,6 @@
 #include "view/words.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 

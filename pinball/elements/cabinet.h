@@ -34,7 +34,7 @@ private:
     float m_stiffness; ///< 1/s²
     Vec2 m_offset{};
     Vec2 m_velocity{};
-    bool m_is_near = false; ///< to the ring since it touched it
+    bool m_is_near = false; ///< has touched the ring and not yet swung back from it
 };
 
 class Cabinet

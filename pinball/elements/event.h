@@ -52,7 +52,7 @@ enum class EventKind : std::uint8_t
     Warned,       ///< `value` warnings so far on this ball
     Tilted,       ///< the ball is over, its bonus lost
     BallSearch,   ///< no switch for a while: the coils feel for the ball; `value` is the round from 1
-    BallMissing,  ///< it was not found and another one comes; `value` how many
+    BallMissing,  ///< it was not found; `value` how many are written off, and replaced unless the machine has tilted
     GameEnded,
     HighScore, ///< `value` is the rank from 0; `ball` the player's number, from 0
 };

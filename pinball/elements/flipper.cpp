@@ -71,7 +71,7 @@ public:
         m_coil.add_to(hash);
         hash.add(m_enabled);
         hash.add(m_at_stop);
-        hash.add(m_luck);
+        hash.add(m_scatter_factor);
         hash.add(m_seen_speed);
     }
 
@@ -97,8 +97,8 @@ private:
         state.down = on;
         if (on)
         {
-            const float luck = field.luck();
-            m_luck = luck * luck; // a speed goes with the root of the torque
+            const float factor = field.scatter_factor();
+            m_scatter_factor = factor * factor; // a speed goes with the root of the torque
         }
     }
 
@@ -115,7 +115,7 @@ private:
                 const float then = angle + motion.angular_velocity * static_cast<float>(time - begin);
                 return flipper.target_torque(flipper.is_on(flipper.m_field.buttons_at(time - flipper.m_step_began)), then);
             });
-        return {.torque = (flipper.m_stroke > 0 ? flipper.m_luck : -flipper.m_luck) * torque};
+        return {.torque = (flipper.m_stroke > 0 ? flipper.m_scatter_factor : -flipper.m_scatter_factor) * torque};
     }
 
     // A bat mostly rests, and the arc tangent is what its law costs.
@@ -165,7 +165,7 @@ private:
     float m_seen_angle = 0;
     int m_at_stop = -1; ///< -1 lower, 1 upper, 0 between
     std::vector<StopHit> m_stop_hits{};
-    float m_luck = 1; ///< of this stroke's torque
+    float m_scatter_factor = 1; ///< of this stroke's torque
     bool m_enabled;
 };
 

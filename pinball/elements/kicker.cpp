@@ -47,7 +47,7 @@ public:
 private:
     void fire(Playfield& field, Ball& ball)
     {
-        const Vec2 kick = field.luck() * m_def.kick;
+        const Vec2 kick = field.scatter_factor() * m_def.kick;
         const Vec2 change = kick - ball.state.velocity;
         field.throw_ball(ball, kick);
         report_hit(field, {.kind = EventKind::Fired,

@@ -19,10 +19,10 @@ void KickingDevice::add_kicker(Playfield& field, BodyId body, const Geometry& ge
 
 void KickingDevice::arm(Playfield& field)
 {
-    m_luck = field.luck();
+    m_scatter_factor = field.scatter_factor();
     ShapeDef surface = field.scene().shape(m_kicker).def();
     surface.kick = m_enabled ? m_kick : Kick{};
-    surface.kick.speed *= m_luck;
+    surface.kick.speed *= m_scatter_factor;
     field.scene().shape(m_kicker).set_def(surface);
 }
 
@@ -61,7 +61,7 @@ void KickingDevice::pulse(Playfield& field)
 
 void KickingDevice::add_to(Hash& hash) const
 {
-    hash.add(m_luck);
+    hash.add(m_scatter_factor);
     hash.add(m_enabled);
 }
 

@@ -25,7 +25,7 @@ private:
     void pulse(Playfield& field);
 
     Kick m_kick;
-    float m_luck = 1;
+    float m_scatter_factor = 1;
     bool m_enabled = true;
     ShapeId m_kicker{};
 };

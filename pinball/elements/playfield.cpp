@@ -117,7 +117,7 @@ const Buttons& Playfield::buttons_at(double time) const
     return last->buttons;
 }
 
-float Playfield::luck()
+float Playfield::scatter_factor()
 {
     const float scatter = m_table.physics.scatter;
     return scatter > 0 ? 1 + m_random.between(-scatter, scatter) : 1;

@@ -98,7 +98,7 @@ public:
     [[nodiscard]] Scene& scene() { return m_scene; }
     [[nodiscard]] Random& random() { return m_random; }
     /// A factor near 1 for the next speed that a coil or a spring gives: Physics::scatter.
-    [[nodiscard]] float luck();
+    [[nodiscard]] float scatter_factor();
     /// The changes of this step; the first is at its start.
     [[nodiscard]] std::span<const ButtonChange> button_changes() const { return m_changes; }
     /// The buttons at a time since the step began.

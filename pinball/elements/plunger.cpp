@@ -53,7 +53,7 @@ public:
             turn_key(field, change);
     }
 
-    void add_to(Hash& hash) const override { hash.add(m_luck); }
+    void add_to(Hash& hash) const override { hash.add(m_scatter_factor); }
 
     void after_step(Playfield& field) override
     {
@@ -77,7 +77,7 @@ private:
             field.emit({.kind = EventKind::PlungerPulled, .element = index(), .point = m_def.pos});
         else
         {
-            m_luck = field.luck();
+            m_scatter_factor = field.scatter_factor();
             report_hit(field, {.kind = EventKind::PlungerReleased, .point = m_def.pos, .speed = travel});
         }
     }
@@ -116,7 +116,7 @@ private:
     // No two strokes rub alike: the spring seems stronger or weaker.
     [[nodiscard]] float scatter(const BodyMotion& motion) const
     {
-        return (m_luck * m_luck - 1) * m_def.k * std::max(0.0f, travel(motion));
+        return (m_scatter_factor * m_scatter_factor - 1) * m_def.k * std::max(0.0f, travel(motion));
     }
 
     // A key's hand, which goes back at its speed up to the end of the stroke.
@@ -147,7 +147,7 @@ private:
     Vec2 m_slope{};       ///< acceleration down the table, m/s²
     float m_strength = 0; ///< N
     std::uint8_t m_rod = 0;
-    float m_luck = 1; ///< of this stroke: its speed over that of the spring alone
+    float m_scatter_factor = 1; ///< of this stroke: its speed over that of the spring alone
 };
 
 } // namespace

@@ -100,7 +100,7 @@ private:
     void eject(Playfield& field, Ball& ball)
     {
         const float scatter = field.random().between(-m_def.spread, m_def.spread);
-        const Vec2 kick = field.luck() * rotate(Rotation::from_angle(scatter), m_def.kick);
+        const Vec2 kick = field.scatter_factor() * rotate(Rotation::from_angle(scatter), m_def.kick);
         field.release(ball, kick);
         m_thrown = m_held;
         m_held = {};

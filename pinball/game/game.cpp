@@ -264,6 +264,8 @@ std::int64_t Game::bonus() const { return m_state->session->rules.desk().player.
 
 int Game::bonus_multiplier() const { return m_state->session->rules.desk().player.multiplier; }
 
+int Game::bumper_level() const { return m_state->session->rules.desk().player.bumper_level; }
+
 int Game::letters() const { return m_state->session->rules.desk().player.letters; }
 
 int Game::ball_save_steps() const { return m_state->session->rules.ball_save_steps(); }

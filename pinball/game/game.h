@@ -83,6 +83,7 @@ public:
     [[nodiscard]] int credits() const;        ///< games won and not yet played
     [[nodiscard]] std::int64_t bonus() const; ///< not yet multiplied
     [[nodiscard]] int bonus_multiplier() const;
+    [[nodiscard]] int bumper_level() const;    ///< of this player, from 0
     [[nodiscard]] int letters() const;         ///< lit ones of the bank rule's word
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
     [[nodiscard]] bool tilted() const;         ///< until the bonus of that ball would have been counted

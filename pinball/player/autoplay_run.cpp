@@ -70,6 +70,7 @@ private:
     void step()
     {
         m_machine.step({});
+        m_served += static_cast<int>(std::ranges::count(m_machine.game().events(), EventKind::Served, &GameEvent::kind));
         m_sounds.hear(m_machine.game());
     }
 
@@ -127,9 +128,10 @@ private:
     void report() const
     {
         const Game& game = m_machine.game();
-        std::printf("%s, seed %llu: score %lld, ball %d of %d, %d served, %.1f s played\n", game.table().name.c_str(),
-                    static_cast<unsigned long long>(m_seed), static_cast<long long>(game.score()), game.ball_number(),
-                    game.balls_per_game(), game.balls_served(), static_cast<double>(game.step_count()) * m_step_s);
+        std::printf("%s, seed %llu: %d balls served, %.1f s played; the last game: score %lld, ball %d of %d\n",
+                    game.table().name.c_str(), static_cast<unsigned long long>(m_seed), m_served,
+                    static_cast<double>(m_machine.times().count()) * m_step_s, static_cast<long long>(game.score()),
+                    game.ball_number(), game.balls_per_game());
         std::printf("steps of %.0f ms: mean %.1f us, longest %.0f us, %lld steps\n", m_step_s * 1000, m_machine.times().mean_us(),
                     m_machine.times().most_us(), static_cast<long long>(m_machine.times().count()));
     }
@@ -138,6 +140,7 @@ private:
     std::uint64_t m_seed;
     Machine m_machine;
     double m_step_s;
+    int m_served = 0;
     Sounds m_sounds{};
 };
 

@@ -39,7 +39,7 @@ void draw_part(Canvas& canvas, const Picture& picture, Index index, const Bumper
     const view::Color outer = view::mix(view::mix(yellow, view::rgb(0xb36a00), 0.45f), yellow, flash);
     canvas.fill_radial(bumper.pos, r * 0.82f, inner, outer, {-0.3f, 0.35f});
     canvas.stroke_circle(bumper.pos, r * 0.66f, {view::fade(view::rgb(0x8a5200), 0.5f), canvas.points(0.0010f)});
-    draw_star(canvas, bumper.pos, r * 0.46f, picture.effects.bumper_level(),
+    draw_star(canvas, bumper.pos, r * 0.46f, picture.game.bumper_level(),
               view::mix(view::rgb(0xd8343a), view::rgb(0xffffff), 0.85f * flash));
     canvas.arc(bumper.pos, r * 0.73f, 1.75f, 1.2f, {view::fade(palette::ivory, 0.85f), canvas.points(0.0016f)});
     if (flash > 0.01f && !picture.plain)

@@ -72,11 +72,6 @@ void Effects::observe(const Game& game)
         const float goal = game.element(i).down ? 1.0f : 0.0f;
         m_sunk[i] += std::clamp(goal - m_sunk[i], -sink_per_step, sink_per_step);
     }
-    for (const GameEvent& event : game.events())
-        if (event.kind == EventKind::LevelUp)
-            m_bumper_level = event.value;
-        else if (event.kind == EventKind::GameStarted)
-            m_bumper_level = 0;
 }
 
 const BallMemory* Effects::ball(int serial) const

@@ -39,14 +39,12 @@ public:
     [[nodiscard]] const BallMemory* ball(int serial) const;
     /// How far a drop target is down, 0 to 1.
     [[nodiscard]] float sunk(Index element) const { return m_sunk[element]; }
-    [[nodiscard]] int bumper_level() const { return m_bumper_level; }
 
 private:
     void follow(const BallState& ball, const Game& game);
 
     std::map<int, BallMemory> m_balls{};
     std::vector<float> m_sunk;
-    int m_bumper_level = 0;
 };
 
 /// 1 at the element's last hit, then fading; `alpha` is how far the frame is past the last step.

@@ -63,7 +63,7 @@ public:
     [[nodiscard]] const std::string& score_trouble() const
     {
         return m_score_trouble;
-    } ///< a sentence, where scores cannot be kept
+    } ///< a sentence, where scores, games or keys cannot be kept or read
     [[nodiscard]] const std::vector<std::string>& table_errors() const { return m_table_errors; }
     [[nodiscard]] const StepTimes& times() const { return m_times; }
 

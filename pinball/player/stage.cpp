@@ -56,7 +56,8 @@ void draw_what_happens(view::Canvas& screen, const Layout& layout, const Machine
     else if (status.paused && !frame.xray && layout.landscape)
         draw_banner(screen, layout, "PAUSED", pause.c_str());
     else if (machine.name_entry().active())
-        draw_banner(screen, layout, "YOUR NAME", "type it, or turn letters with the flippers; Enter");
+        draw_banner(screen, layout, "YOUR NAME",
+                    ("type it, or turn letters with the flippers; " + machine.controls.label(Button::Start)).c_str());
     if (machine.is_watching())
         draw_strip(screen, layout, {watching_text(machine, status)});
     else if (!status.trouble.empty() && machine.is_idle())

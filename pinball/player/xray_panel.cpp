@@ -36,7 +36,10 @@ void time_line(const Machine& machine, const Status& status)
 {
     const double time =
         static_cast<double>(machine.game().step_count()) * static_cast<double>(machine.game().table().physics.step);
-    const char* how = status.paused ? "paused" : status.speed < 1 ? "slow motion" : "real time";
+    const char* how = status.paused      ? "paused"
+                      : status.speed < 1 ? "slow motion"
+                      : status.speed > 1 ? "fast motion"
+                                         : "real time";
     ImGui::Text("%.3f s, %s", time, how);
     const StepReport& report = machine.game().scene().report();
     ImGui::TextWrapped("pairs %d, touching %d, impacts %d, %.0f us a step", report.pairs, report.touching,

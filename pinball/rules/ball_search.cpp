@@ -1,5 +1,5 @@
 // The ball search: when a ball is out, nobody holds it on a flipper, and no switch has closed for a while, it lies somewhere. All coils
-// fire, again and again; when that does not help, or it falls back to where it lay, the ball is written off and another one comes.
+// but the flippers' fire, again and again; when that does not help, or it falls back to where it lay, the ball is written off and another one comes.
 // So no ball ends a game.
 
 #include "pinball/rules/rule.h"
@@ -16,7 +16,7 @@ constexpr int rounds = 3;
 bool is_sign_of_life(const Table& table, const GameEvent& event)
 {
     using enum EventKind;
-    return is_playfield_switch(table, event) || event.kind == Served || event.kind == Launched || event.kind == Ejected;
+    return is_playfield_switch(table, event) || event.kind == Launched || event.kind == Ejected;
 }
 
 class BallSearch final : public Rule

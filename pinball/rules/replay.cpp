@@ -1,4 +1,4 @@
-// The replay: once in a game, whoever reaches the score wins a game or a ball.
+// The replay: each player who reaches the score wins a game or a ball, once in a game.
 
 #include "pinball/rules/rule.h"
 

@@ -874,5 +874,59 @@ TEST(Players, FindDropTargetsOfNoGroupAsTheyLeftThem)
     EXPECT_TRUE(m.ordered(m.bank[1], Command::Raise));
 }
 
+void tilt(Machine& m)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        m.step({{.kind = EventKind::BobTouched}});
+        m.wait(1);
+    }
+    ASSERT_TRUE(m.desk().tilted);
+}
+
+TEST(Tilt, LeavesNoDropTargetLying)
+{
+    WithoutSave m;
+    m.start();
+    m.tell(EventKind::Entered, m.orbit);
+    tilt(m);
+    m.tell(EventKind::Fell, m.bank[0]); // unheard
+    m.orders.clear();
+    m.drain_ball();
+    m.wait(4, 0);
+    ASSERT_EQ(m.desk().player.ball, 2);
+    EXPECT_TRUE(m.ordered(m.bank[0], Command::Raise));
+}
+
+TEST(Tilt, EndsWithTheGame)
+{
+    WithoutSave m;
+    m.table.rules.balls = 1;
+    m.rebuild({});
+    m.start();
+    m.tell(EventKind::Entered, m.orbit);
+    tilt(m);
+    m.drain_ball();
+    m.wait(4, 0);
+    EXPECT_EQ(m.desk().phase, Phase::GameOver);
+    EXPECT_FALSE(m.desk().tilted);
+}
+
+TEST(Tilt, InAMultiballIsNoneOfTheNextPlayers)
+{
+    WithoutSave m;
+    m.start();
+    press_start(m);
+    start_multiball(m);
+    ASSERT_TRUE(m.desk().multiball);
+    tilt(m);
+    m.drain_ball();
+    m.wait(4, 0);
+    ASSERT_EQ(m.desk().player_up, 1);
+    EXPECT_FALSE(m.desk().multiball);
+    for (const LampState lamp : m.desk().player.lamps)
+        EXPECT_NE(lamp, LampState::Blink);
+}
+
 } // namespace
 } // namespace carom::pinball::test

@@ -4,6 +4,7 @@
 #include "pinball/player/step_clock.h"
 #include "pinball/table/loader.h"
 
+#include <SDL_keyboard.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -219,13 +220,24 @@ TEST(PlayerControls, AreKeptInAFile)
     EXPECT_EQ(read.load(file), "");
     EXPECT_EQ(press_of(read, key(SDL_SCANCODE_B, true))->button, Button::Plunger);
     EXPECT_EQ(read.key_lines().size(), controls.key_lines().size());
+    std::string many = "{\"left\": [";
+    for (int code = SDL_SCANCODE_A; code < SDL_SCANCODE_A + 40; ++code)
+        many += (code == SDL_SCANCODE_A ? "\"key " : ", \"key ") +
+                std::string(SDL_GetScancodeName(static_cast<SDL_Scancode>(code))) + '"';
+    std::ofstream(file) << many + "], \"pause\": [\"key Space\"]}";
+    Controls crowded;
+    EXPECT_EQ(crowded.load(file), "");
+    EXPECT_LE(crowded.controls_of(action_named("left")).size(), 4u);
+    EXPECT_EQ(crowded.wish_of(key(SDL_SCANCODE_SPACE, true)), Wish::Pause);
+    EXPECT_FALSE(press_of(crowded, key(SDL_SCANCODE_SPACE, true))) << "a key does one thing";
     for (const char* bad : {"{\"left\": [\"key Nonsense\"]}", "{\"jump\": []}", "[1", "{\"left\": 5}"})
     {
         std::ofstream(file) << bad;
         EXPECT_NE(read.load(file).find("was not read"), std::string::npos) << bad;
         EXPECT_EQ(press_of(read, key(SDL_SCANCODE_B, true))->button, Button::Plunger) << "nothing was lost";
     }
-    std::filesystem::remove(file);
+    EXPECT_FALSE(std::filesystem::exists(file)) << "a bad file is put aside";
+    std::filesystem::remove(file.string() + ".broken");
     EXPECT_EQ(read.load(file), "") << "no file, no change";
     EXPECT_NE(controls.save("/no/such/folder/file").find("cannot be written"), std::string::npos);
 }

@@ -47,6 +47,15 @@ protected:
             m_runs = m_app->frame();
         }
     }
+    // Longer than a game must be to be kept, in frames as long as they may be.
+    void play_a_while()
+    {
+        for (int i = 0; i < 60; ++i)
+        {
+            m_now += 80;
+            frames(1);
+        }
+    }
     void start_game()
     {
         tap(SDL_SCANCODE_RETURN);
@@ -141,7 +150,7 @@ TEST_F(Window, AGameThatWasLeftIsShownAgainAtAnySpeed)
     if (had_one)
         tap(SDL_SCANCODE_W);
     start_game();
-    frames(400);
+    play_a_while();
     tap(SDL_SCANCODE_R);
     tap(SDL_SCANCODE_R);
     tap(SDL_SCANCODE_W);
@@ -158,8 +167,7 @@ TEST_F(Window, AGameThatWasLeftIsShownAgainAtAnySpeed)
     const std::int64_t later = game().step_count();
     frames(10);
     EXPECT_NEAR(static_cast<double>(game().step_count() - later), 4.0 * static_cast<double>(at_one), 40);
-    for (int i = 0; i < 1000 && !m_app->machine().has_watched(); ++i)
-        frames(1);
+    play_a_while();
     EXPECT_TRUE(m_app->machine().came_out_the_same());
     tap(SDL_SCANCODE_ESCAPE);
     EXPECT_FALSE(m_app->machine().is_watching());
@@ -186,6 +194,37 @@ TEST_F(Window, AClickUnderTheXrayChoosesAThing)
         chosen = game().scene().is_valid(m_app->machine().selected);
     }
     EXPECT_TRUE(chosen);
+}
+
+TEST_F(Window, TheSpeedOfWatchingEndsWithIt)
+{
+    start_game();
+    play_a_while();
+    tap(SDL_SCANCODE_ESCAPE);
+    tap(SDL_SCANCODE_ESCAPE);
+    m_runs = true;
+    m_app.emplace(PlayerOptions{.seed = 3, .width = 400, .height = 500, .mute = true}, [this] { return m_now; });
+    frames(3);
+    tap(SDL_SCANCODE_W);
+    ASSERT_TRUE(m_app->machine().is_watching());
+    for (int i = 0; i < 4; ++i)
+        tap(SDL_SCANCODE_RIGHTBRACKET);
+    start_game();
+    EXPECT_FALSE(m_app->machine().is_watching());
+    const std::int64_t before = game().step_count();
+    frames(10);
+    EXPECT_NEAR(static_cast<double>(game().step_count() - before), 160, 5);
+}
+
+TEST_F(Window, TheAnswerToAQuestionIsNotPlayed)
+{
+    start_game();
+    tap(SDL_SCANCODE_ESCAPE);
+    ASSERT_TRUE(m_app->asks());
+    tap(SDL_SCANCODE_RETURN);
+    EXPECT_FALSE(m_app->asks());
+    frames(4);
+    EXPECT_EQ(game().players(), 1);
 }
 
 } // namespace
