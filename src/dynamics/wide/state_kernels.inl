@@ -2,18 +2,18 @@
 
 namespace states {
 
-CAROM_INLINE D8 all_doubles(double x) { return D8{x, x, x, x, x, x, x, x}; }
+CAROM_INLINE D8 all_doubles(double x) { return eight_of(x, x, x, x, x, x, x, x); }
 
 // By less than a quarter of a radian.
 CAROM_INLINE Turn small_turn(F8 radians)
 {
-    const D8 x = __builtin_convertvector(radians, D8);
+    const D8 x = doubles(radians);
     const D8 z = x * x;
     const D8 one = all_doubles(1);
     const D8 s = x * (one + z * (all_doubles(-1.0 / 6) + z * (all_doubles(1.0 / 120) + z * all_doubles(-1.0 / 5040))));
     const D8 c = one + z * (all_doubles(-0.5) +
                             z * (all_doubles(1.0 / 24) + z * (all_doubles(-1.0 / 720) + z * all_doubles(1.0 / 40320))));
-    return {__builtin_convertvector(c, F8), __builtin_convertvector(s, F8)};
+    return {floats(c), floats(s)};
 }
 
 // x += h v, or drift(), of all but fliers, as many as turn little from the first on, eight by eight. How many that were.

@@ -5,9 +5,9 @@ namespace sweeps {
 // As length(Vec2): in double, rounded once.
 CAROM_INLINE F8 length_of(F8 x, F8 y)
 {
-    const D8 dx = __builtin_convertvector(x, D8);
-    const D8 dy = __builtin_convertvector(y, D8);
-    return __builtin_convertvector(root(dx * dx + dy * dy), F8);
+    const D8 dx = doubles(x);
+    const D8 dy = doubles(y);
+    return floats(root(dx * dx + dy * dy));
 }
 
 // Of how eight bodies move.
@@ -75,17 +75,17 @@ CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
     const auto each = [&](double Position::*axis)
     {
         const auto of = [&](int i) { return eight.bodies[i]->center.*axis; };
-        return D8{of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)};
+        return eight_of(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7));
     };
     D8 x = each(&Position::x);
     D8 y = each(&Position::y);
-    x -= __builtin_convertvector(c * center_x - s * center_y, D8);
-    y -= __builtin_convertvector(s * center_x + c * center_y, D8);
+    x -= doubles(c * center_x - s * center_y);
+    y -= doubles(s * center_x + c * center_y);
     // As rounded_outwards.
     constexpr float spacing = 0x1p-23f;
     const auto outwards = [&](D8 from, F8 to, float by)
     {
-        const F8 bound = __builtin_convertvector(from + __builtin_convertvector(to, D8), F8);
+        const F8 bound = floats(from + doubles(to));
         return bound + by * magnitude(bound);
     };
     return {outwards(x, b.lx, -spacing), outwards(y, b.ly, -spacing), outwards(x, b.ux, spacing), outwards(y, b.uy, spacing)};

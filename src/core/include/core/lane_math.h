@@ -1,7 +1,7 @@
 #pragma once
 
 // Eight floats that are calculated with at once, on GCC's and Clang's vector extensions: one register where the machine has them that wide,
-// two or four elsewhere. The same source gives the same bits everywhere: each lane is computed by itself, with the operations written.
+// two or four elsewhere (by lane_halves.h where g++ would part them lane by lane). The same source gives the same bits everywhere: each lane is computed by itself, with the operations written.
 // Minimum and maximum are comparisons. Only kernels that are compiled once per instruction set include this file (see dynamics/wide/):
 // everything in it is inlined, so that no copy made for one machine is called on another.
 
@@ -13,52 +13,43 @@
 #include <cstring>
 #include <type_traits>
 
+#if defined(__AVX__) || defined(__clang__)
+#define CAROM_EIGHTS_ARE_WHOLE 1
+#else
+#define CAROM_EIGHTS_ARE_WHOLE 0
+#include "core/lane_halves.h"
+#endif
+
 namespace carom::internal {
+
+#if CAROM_EIGHTS_ARE_WHOLE
 
 using F8 = float __attribute__((vector_size(32)));
 using I8 = std::int32_t __attribute__((vector_size(32)));
 using D8 = double __attribute__((vector_size(64)));
 using D4 = double __attribute__((vector_size(32)));
 
-/// Aligned as LaneFloats are.
-CAROM_INLINE F8 load(const float* eight)
+CAROM_INLINE F8 eight_of(float a, float b, float c, float d, float e, float f, float g, float h)
 {
-    F8 r;
-    std::memcpy(&r, __builtin_assume_aligned(eight, 32), sizeof r);
-    return r;
+    return F8{a, b, c, d, e, f, g, h};
 }
-CAROM_INLINE F8 load(const LaneFloats& a) { return load(a.v); }
-CAROM_INLINE I8 load(const LaneInts& a)
+CAROM_INLINE I8 eight_of(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d, std::int32_t e, std::int32_t f,
+                         std::int32_t g, std::int32_t h)
 {
-    I8 r;
-    std::memcpy(&r, __builtin_assume_aligned(a.v, 32), sizeof r);
-    return r;
+    return I8{a, b, c, d, e, f, g, h};
 }
-CAROM_INLINE void store(LaneFloats& a, F8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
-
-CAROM_INLINE void store(LaneInts& a, I8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
-
+CAROM_INLINE D8 eight_of(double a, double b, double c, double d, double e, double f, double g, double h)
+{
+    return D8{a, b, c, d, e, f, g, h};
+}
 CAROM_INLINE F8 all(float x) { return F8{x, x, x, x, x, x, x, x}; }
-CAROM_INLINE I8 all_ints(std::uint32_t x)
-{
-    const auto i = static_cast<std::int32_t>(x);
-    return I8{i, i, i, i, i, i, i, i};
-}
-
-/// The same bits: flags that were gathered beside floats.
-CAROM_INLINE I8 as_ints(F8 bits_of)
-{
-    I8 r;
-    std::memcpy(&r, &bits_of, sizeof r);
-    return r;
-}
+CAROM_INLINE D8 doubles(F8 x) { return __builtin_convertvector(x, D8); }
+CAROM_INLINE F8 floats(D8 x) { return __builtin_convertvector(x, F8); }
 
 /// Of each lane a where the mask is set (-1), b where it is clear (0).
 CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return mask ? a : b; }
 CAROM_INLINE F8 least(F8 a, F8 b) { return a < b ? a : b; }
 CAROM_INLINE F8 greatest(F8 a, F8 b) { return a > b ? a : b; }
-CAROM_INLINE F8 magnitude(F8 x) { return greatest(x, -x); }
-CAROM_INLINE F8 clamp(F8 x, F8 low, F8 high) { return least(greatest(x, low), high); }
 
 CAROM_INLINE F8 root(F8 x)
 {
@@ -120,15 +111,6 @@ CAROM_INLINE unsigned bits(I8 mask)
     const I4 high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
     return bits(low) | bits(high) << 4;
 #endif
-}
-
-/// Lane i is value(i), a float or an int. Put together in registers: eight numbers that have just been written one by one are waited for when they are
-/// read as one.
-template <class Value>
-CAROM_INLINE auto lanes_from(const Value& value)
-{
-    using V = std::conditional_t<std::is_same_v<decltype(value(0)), float>, F8, I8>;
-    return V{value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7)};
 }
 
 /// Of two doubles in each lane the first ones and the second ones, rounded. value(i) is a vector of two.
@@ -195,6 +177,61 @@ CAROM_INLINE void scatter4(const At& at, F8 x, F8 y, F8 z, F8 w)
     split(1, 5, r1);
     split(2, 6, r2);
     split(3, 7, r3);
+}
+
+#else
+
+/// As arc_tangent of trigonometry.h, rounded to floats.
+CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
+{
+    const auto lane = [&](int i)
+    { return static_cast<float>(arc_tangent(static_cast<double>(sine[i]), static_cast<double>(cosine[i]))); };
+    return eight_of(lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7));
+}
+
+#endif
+
+/// Aligned as LaneFloats are.
+CAROM_INLINE F8 load(const float* eight)
+{
+    F8 r;
+    std::memcpy(&r, __builtin_assume_aligned(eight, 32), sizeof r);
+    return r;
+}
+CAROM_INLINE F8 load(const LaneFloats& a) { return load(a.v); }
+CAROM_INLINE I8 load(const LaneInts& a)
+{
+    I8 r;
+    std::memcpy(&r, __builtin_assume_aligned(a.v, 32), sizeof r);
+    return r;
+}
+CAROM_INLINE void store(LaneFloats& a, F8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
+
+CAROM_INLINE void store(LaneInts& a, I8 x) { std::memcpy(__builtin_assume_aligned(a.v, 32), &x, sizeof x); }
+
+CAROM_INLINE I8 all_ints(std::uint32_t x)
+{
+    const auto i = static_cast<std::int32_t>(x);
+    return eight_of(i, i, i, i, i, i, i, i);
+}
+
+/// The same bits: flags that were gathered beside floats.
+CAROM_INLINE I8 as_ints(F8 bits_of)
+{
+    I8 r;
+    std::memcpy(&r, &bits_of, sizeof r);
+    return r;
+}
+
+CAROM_INLINE F8 magnitude(F8 x) { return greatest(x, -x); }
+CAROM_INLINE F8 clamp(F8 x, F8 low, F8 high) { return least(greatest(x, low), high); }
+
+/// Lane i is value(i), a float or an int. Put together in registers: eight numbers that have just been written one by one are waited for when they are
+/// read as one.
+template <class Value>
+CAROM_INLINE auto lanes_from(const Value& value)
+{
+    return eight_of(value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7));
 }
 
 /// Two eights in flight: while the one waits for its last result, the other is calculated. A kernel written for F lanes, F8 or Twice<F8>, does the same
