@@ -214,7 +214,7 @@ void tab(const char* name, const auto& content, int flags = 0)
     ImGui::EndTabItem();
 }
 
-// What was just clicked comes to the front.
+// The tab of a thing comes to the front when that is clicked.
 void story_tabs(view::Window& window, Run& run, LabState& state)
 {
     const bool is_new = state.selected != std::exchange(state.told, state.selected) && run.scene().is_valid(state.selected);

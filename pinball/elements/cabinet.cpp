@@ -11,7 +11,7 @@ namespace {
 // The cabinet swings ten times a second at most.
 constexpr float longest_slice = 0.00025f; // s
 
-// What is left below these nobody sees, and a table at rest costs nothing.
+// Smaller movements cannot be seen; a cabinet at rest costs nothing.
 constexpr float still_speed = 2e-4f;  // m/s
 constexpr float still_offset = 5e-6f; // m
 

@@ -20,11 +20,11 @@ public:
 
     /// Moves on while the cabinet accelerates; true when the bob touches the ring that it had left.
     bool step(Vec2 cabinet_acceleration, float h);
-    /// Off the middle, m.
+    /// The bob's way off the middle, m.
     [[nodiscard]] Vec2 offset() const { return m_offset; }
-    /// Of the ring, m: the offset at which it touches.
+    /// The ring's radius, m: the offset at which the bob touches it.
     [[nodiscard]] float ring() const { return m_ring; }
-    /// Hardly swings any more.
+    /// Whether it hardly swings any more.
     [[nodiscard]] bool is_still() const;
     void rest();
     void add_to(Hash& hash) const;

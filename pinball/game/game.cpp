@@ -130,7 +130,7 @@ void Game::State::step(std::span<const InputChange> changes)
                   .flipper_is_held = s.held.left || s.held.right});
     s.events.insert(s.events.end(), s.rules.announced().begin(), s.rules.announced().end());
     obey();
-    // What the table tells when it obeys is heard in the next step.
+    // The rules hear in the next step of events that an order has caused.
     s.late.assign(s.field.events().begin() + static_cast<std::ptrdiff_t>(heard), s.field.events().end());
     if (std::ranges::any_of(s.events, [](const GameEvent& e) { return e.kind == EventKind::BallEnded; }))
         s.auto_plunger.forget();

@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace carom::pinball {
 
@@ -52,9 +52,7 @@ int record_game(const std::string& table_file, std::uint64_t seed, const std::st
         std::cerr << file << " is the table itself\n";
         return 1;
     }
-    std::ifstream in(table_file, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    LoadResult result = load_table(text);
+    LoadResult result = load_table_file(table_file);
     for (const LoadError& error : result.errors)
         std::cerr << table_file << ":" << to_string(error) << '\n';
     if (!result.table)
@@ -67,7 +65,7 @@ int record_game(const std::string& table_file, std::uint64_t seed, const std::st
     const Options options{.seed = seed};
     Game game(*result.table, options);
     ReflexPlayer player(*result.table, seed);
-    Recorder recorder(text, options);
+    Recorder recorder(std::move(result.text), options);
     do
     {
         const Input input = player.play(game);

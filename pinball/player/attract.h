@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What the display shows while nobody plays: page after page, who has scored most, what there is to win, how to start.
+/// The pages of the display while nobody plays: the best scores, the prizes, how to start.
 
 #include "pinball/player/machine.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What keys, gamepad buttons and sticks mean. Keys count by their place on the keyboard and are shown as the player's layout labels
+/// The meaning of keys, gamepad buttons and sticks. Keys count by their place on the keyboard and are shown as the player's layout labels
 /// them. The player may give every action other keys; they are kept in a file.
 
 #include "pinball/player/buttons.h"
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] std::optional<Wish> wish_of(const SDL_Event& event) const;
     /// How far the stick holds the plunger's rod back, 0 to 255; empty where the event does not move it.
     [[nodiscard]] static std::optional<std::uint8_t> rod_of(const SDL_Event& event);
-    /// What was pressed, for whoever waits for a control to bind.
+    /// The control that was pressed, for whoever waits for one to bind.
     [[nodiscard]] static std::optional<Control> pressed(const SDL_Event& event);
 
     [[nodiscard]] std::string label(

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -14,21 +12,17 @@ namespace carom::pinball {
 
 namespace {
 
-Table table_of(const std::string& file, const std::string& text)
+// Puts the file's text aside as well: a recording holds it.
+Table load_or_throw(const std::string& file, std::string& text)
 {
-    LoadResult result = load_table(text);
+    LoadResult result = load_table_file(file);
+    text = std::move(result.text);
     if (result.table)
         return std::move(*result.table);
     std::string trouble = file + " is not a table:";
     for (const LoadError& error : result.errors)
         trouble += "\n  " + to_string(error);
     throw std::runtime_error(trouble);
-}
-
-std::string text_of(const std::filesystem::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    return {(std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>()};
 }
 
 // A shorter game is not worth keeping.
@@ -49,8 +43,8 @@ std::string name_of(const Table& table, std::uint64_t tag)
 } // namespace
 
 Machine::Machine(const std::string& file, std::uint64_t seed, bool autoplay, bool keep_scores)
-    : impacts(namer()), m_watch(file), m_table_text(text_of(file)), m_seeds(seed), m_seed(seed), m_autoplay(autoplay),
-      m_game(table_of(file, m_table_text), {.seed = seed}), m_effects(m_game.table()), m_art(m_game.table())
+    : impacts(namer()), m_watch(file), m_seeds(seed), m_seed(seed), m_autoplay(autoplay),
+      m_game(load_or_throw(file, m_table_text), {.seed = seed}), m_effects(m_game.table()), m_art(m_game.table())
 {
     if (keep_scores)
     {
@@ -93,14 +87,17 @@ void Machine::keep_score(int rank)
         m_score_trouble = m_score_file->add(m_game.table().name, m_game.high_scores().entries()[static_cast<std::size_t>(rank)]);
 }
 
+void Machine::keep_named_score()
+{
+    m_game.rename_score(m_name_entry.rank(), m_name_entry.name());
+    keep_score(m_name_entry.rank());
+}
+
 // Those that wait for a name go to the file without one, and what is being written as far as it has come.
 void Machine::keep_scores()
 {
     if (m_name_entry.active())
-    {
-        m_game.rename_score(m_name_entry.rank(), m_name_entry.name());
-        keep_score(m_name_entry.rank());
-    }
+        keep_named_score();
     for (const GameEvent& event : m_unnamed)
         keep_score(event.value);
     m_name_entry = {};
@@ -122,10 +119,7 @@ void Machine::step(Input input)
     if (m_player)
         input = m_player->play(m_game);
     if (m_name_entry.step(input))
-    {
-        m_game.rename_score(m_name_entry.rank(), m_name_entry.name());
-        keep_score(m_name_entry.rank());
-    }
+        keep_named_score();
     input = m_name_entry.leaves_over(input);
     if (input.start && !m_start_was_down && is_idle())
         begin_game();
@@ -279,14 +273,13 @@ bool Machine::poll_table()
 {
     if (!m_watch.poll())
         return false;
-    std::string text = text_of(m_watch.file()); // once: an editor may write between two looks
-    LoadResult result = load_table(text);
+    LoadResult result = load_table_file(m_watch.file());
     m_table_errors.clear();
     for (const LoadError& error : result.errors)
         m_table_errors.push_back(to_string(error));
     if (!result.table)
         return false;
-    begin(std::move(*result.table), std::move(text));
+    begin(std::move(*result.table), std::move(result.text));
     return true;
 }
 

@@ -43,7 +43,7 @@ public:
     /// Back to the player's own table.
     void stop_watching();
     [[nodiscard]] bool is_watching() const { return m_playback.has_value(); }
-    /// Of what is being watched: over, and whether it came out as it was recorded.
+    /// The watched game is over; came_out_the_same() says whether it came out as it was recorded.
     [[nodiscard]] bool has_watched() const { return m_playback && m_playback->is_over(); }
     [[nodiscard]] bool came_out_the_same() const { return m_came_out_the_same; }
     /// Changes with the table that is played.
@@ -93,10 +93,11 @@ private:
     /// Takes down the next name, where a score waits for one.
     void ask_for_name();
     void keep_score(int rank);
+    void keep_named_score(); ///< the one whose name is being written
     void keep_scores();
 
     TableWatch m_watch;
-    std::string m_table_text;
+    std::string m_table_text{};
     std::uint64_t m_table_version = 1;
     Random m_seeds;
     std::uint64_t m_seed;

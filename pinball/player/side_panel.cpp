@@ -42,7 +42,7 @@ std::vector<std::string> wrap(const Canvas& screen, const std::string& text, con
     return lines;
 }
 
-// Of rules and keys, while nobody plays, s.
+// Rules and keys show for so long by turns while nobody plays, s.
 constexpr double page_time = 8;
 
 void draw_sheet(Canvas& screen, Vec2 min, Vec2 max)

@@ -56,7 +56,7 @@ public:
 
     /// Before each step of the game.
     void note(const Input& input);
-    /// What has been played so far.
+    /// The game as far as it has been played.
     [[nodiscard]] Recording recording(const Game& game) const;
 
 private:

@@ -19,7 +19,7 @@ struct Order
     Command command = Command::Raise;
 };
 
-/// What belongs to one player, and waits while another one plays.
+/// The state of one player, which waits while another one plays.
 struct Player
 {
     std::int64_t score = 0;
@@ -37,7 +37,7 @@ struct Player
     void add_to(Hash& hash) const;
 };
 
-/// What the machine knows of its balls and of the player's hands in a step.
+/// The machine's knowledge of its balls and of the player's hands in a step.
 struct Seen
 {
     int balls_in_play = 0;

@@ -71,10 +71,12 @@ LoadResult load_table_file(const std::filesystem::path& file)
     if (std::filesystem::file_size(file, error) > max_file_size)
         return unreadable("larger than 4 MB: this is no table");
     std::ifstream stream(file, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
     if (!stream)
         return unreadable("cannot read " + file.string());
-    return load_table(text);
+    LoadResult result = load_table(text);
+    result.text = std::move(text);
+    return result;
 }
 
 } // namespace carom::pinball

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace carom::pinball {
@@ -16,6 +17,7 @@ struct LoadResult
 {
     std::optional<Table> table{}; ///< only if there is no error
     LoadErrors errors{};          ///< everything that is wrong, by line; 200 at most
+    std::string text{};           ///< of the file, where load_table_file could read it
 };
 
 /// Never throws on bad text; any bytes are safe.

@@ -39,6 +39,14 @@ Recording record(const char* name, std::uint64_t seed, int steps)
     return recorder.recording(game);
 }
 
+Game play_again(Playback& playback)
+{
+    Game game = playback.new_game();
+    while (!playback.is_over())
+        game.step(playback.next());
+    return game;
+}
+
 TEST(Recording, PlayedAgainIsTheSameGame)
 {
     for (const char* name : {"momentum", "lab"})
@@ -50,9 +58,7 @@ TEST(Recording, PlayedAgainIsTheSameGame)
         EXPECT_EQ(read.recording->changes, first.changes);
         EXPECT_EQ(read.recording->options.credits, 2);
         Playback playback(std::move(*read.recording));
-        Game game = playback.new_game();
-        while (!playback.is_over())
-            game.step(playback.next());
+        const Game game = play_again(playback);
         EXPECT_TRUE(playback.came_out_the_same(game)) << name;
         EXPECT_EQ(game.score(0), first.scores[0]);
     }
@@ -64,9 +70,7 @@ TEST(Recording, AnotherPressIsAnotherGame)
     ASSERT_GT(changed.changes.size(), 8u);
     changed.changes.erase(changed.changes.begin() + 4, changed.changes.begin() + 8);
     Playback playback(changed);
-    Game game = playback.new_game();
-    while (!playback.is_over())
-        game.step(playback.next());
+    const Game game = play_again(playback);
     EXPECT_FALSE(playback.came_out_the_same(game));
 }
 
@@ -75,9 +79,7 @@ TEST(Recording, WithOtherScoresIsAnotherGame)
     Recording forged = record("lab", 1, 3000);
     forged.scores.front() += 1'000'000;
     Playback playback(forged);
-    Game game = playback.new_game();
-    while (!playback.is_over())
-        game.step(playback.next());
+    const Game game = play_again(playback);
     EXPECT_FALSE(playback.came_out_the_same(game));
 }
 

@@ -100,6 +100,14 @@ struct Machine
         tell(EventKind::Entered, orbit);
         wait(15);
     }
+    /// Past its save, somewhere on the playfield, and nothing has been ordered yet.
+    void lose_the_ball()
+    {
+        all_known = true;
+        use_up_save();
+        all_known = false;
+        orders.clear();
+    }
     [[nodiscard]] bool announced(EventKind kind) const { return count(book.announced(), kind) > 0; }
     [[nodiscard]] bool ordered(Index element, Command command) const
     {
@@ -584,10 +592,7 @@ TEST(BallSearch, FiresTheCoilsWhenNoSwitchClosesAndGivesUpAtLast)
 {
     Machine m;
     m.start();
-    m.all_known = true;
-    m.use_up_save();
-    m.all_known = false;
-    m.orders.clear();
+    m.lose_the_ball();
     m.wait(7.9f);
     EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse));
     m.wait(0.2f);
@@ -825,10 +830,7 @@ TEST(BallSearch, IsHeldUpByAHeldFlipperAndNotByTaps)
 {
     Machine m;
     m.start();
-    m.all_known = true;
-    m.use_up_save();
-    m.all_known = false;
-    m.orders.clear();
+    m.lose_the_ball();
     m.flipper_is_held = true;
     m.wait(20);
     EXPECT_FALSE(m.ordered(m.bumper, Command::Pulse)) << "a cradled ball";
