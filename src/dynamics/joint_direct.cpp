@@ -667,9 +667,11 @@ bool DirectSolve::take_next_pieces(bool all)
         const Item& item = m_items[axis.item];
         const double k = as_double(item.work->rows.axis_inverse_mass);
         const double impulse = m_impulses[as_index(axis.row)];
-        const bool gives_way = m_compliances[as_index(axis.row)] != JointMatrix::off; // with the rows of a loop
+        // As in solve_pieces: with the rows of a loop all that give way do; and what keeps a rate leaks, but no spring.
+        const double leaking = axis.piece.keeps_rate() ? axis_leak() * axis.before : 0;
+        const bool gives_way = m_compliances[as_index(axis.row)] != JointMatrix::off;
         const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held) +
-                            (gives_way ? m_matrix.weight(axis.row) * (m_compliance * impulse + axis_leak() * axis.before) : 0);
+                            (gives_way ? m_matrix.weight(axis.row) * (m_compliance * impulse + leaking) : 0);
         const AxisPiece next = axis.law.solve(rate - k * (axis.before + impulse), k);
         if (std::fabs(next.rate - rate) <= same_rate * std::max(1.0, std::fabs(rate)))
             continue;
