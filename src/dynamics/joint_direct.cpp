@@ -667,7 +667,7 @@ bool DirectSolve::take_next_pieces(bool all)
         const Item& item = m_items[axis.item];
         const double k = as_double(item.work->rows.axis_inverse_mass);
         const double impulse = m_impulses[as_index(axis.row)];
-        // As in solve_pieces: with the rows of a loop all that give way do; and what keeps a rate leaks, but no spring.
+        // The same equation as in solve_pieces, where axes that keep a rate leak and springs do not.
         const double leaking = axis.piece.keeps_rate() ? axis_leak() * axis.before : 0;
         const bool gives_way = m_compliances[as_index(axis.row)] != JointMatrix::off;
         const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held) +

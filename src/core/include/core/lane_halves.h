@@ -115,7 +115,7 @@ CAROM_INLINE F4 chosen(I4 mask, F4 a, F4 b)
     return r;
 }
 
-/// Of each lane a where the mask is set (-1), b where it is clear (0).
+/// Each lane is a where the mask is set (-1), b where it is clear (0).
 CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return {chosen(mask.low, a.low, b.low), chosen(mask.high, a.high, b.high)}; }
 CAROM_INLINE F8 least(F8 a, F8 b) { return {lesser(a.low, b.low), lesser(a.high, b.high)}; }
 CAROM_INLINE F8 greatest(F8 a, F8 b) { return {greater(a.low, b.low), greater(a.high, b.high)}; }
@@ -148,7 +148,7 @@ CAROM_INLINE D8 doubles(F8 x)
 }
 CAROM_INLINE F8 floats(D8 x) { return {rounded(x.pairs[0], x.pairs[1]), rounded(x.pairs[2], x.pairs[3])}; }
 
-/// Of two doubles in each lane the first ones and the second ones, rounded. value(i) is a vector of two.
+/// Each value(i) is a vector of two doubles: lane i of `first` is its first one, rounded, lane i of `second` its second.
 template <class Value>
 CAROM_INLINE void round_pairs(const Value& value, F8& first, F8& second)
 {

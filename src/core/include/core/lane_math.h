@@ -46,7 +46,7 @@ CAROM_INLINE F8 all(float x) { return F8{x, x, x, x, x, x, x, x}; }
 CAROM_INLINE D8 doubles(F8 x) { return __builtin_convertvector(x, D8); }
 CAROM_INLINE F8 floats(D8 x) { return __builtin_convertvector(x, F8); }
 
-/// Of each lane a where the mask is set (-1), b where it is clear (0).
+/// Each lane is a where the mask is set (-1), b where it is clear (0).
 CAROM_INLINE F8 select(I8 mask, F8 a, F8 b) { return mask ? a : b; }
 CAROM_INLINE F8 least(F8 a, F8 b) { return a < b ? a : b; }
 CAROM_INLINE F8 greatest(F8 a, F8 b) { return a > b ? a : b; }
@@ -113,7 +113,7 @@ CAROM_INLINE unsigned bits(I8 mask)
 #endif
 }
 
-/// Of two doubles in each lane the first ones and the second ones, rounded. value(i) is a vector of two.
+/// Each value(i) is a vector of two doubles: lane i of `first` is its first one, rounded, lane i of `second` its second.
 template <class Value>
 CAROM_INLINE void round_pairs(const Value& value, F8& first, F8& second)
 {
