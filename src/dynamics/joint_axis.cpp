@@ -74,12 +74,45 @@ AxisPiece AxisLaw::solve(double free_rate, double inverse_mass) const
     return piece;
 }
 
-AxisPiece AxisLaw::between_stops(double rate) const
+AxisPiece AxisLaw::neighbour(const AxisPiece& piece, const AxisPiece& towards) const
+{
+    const int from = place_of(piece);
+    const int to = place_of(towards);
+    const int way = from < to ? 1 : -1;
+    int place = from;
+    while (place != to)
+    {
+        place += way;
+        if (place != to && has_piece_at(place))
+            return piece_at(place, towards.spring);
+    }
+    return towards;
+}
+
+// Along the rate: the lower stop at -2, the motor's greatest impulse at -1, the motor that keeps its rate at 0, and so on. Without a motor, 0 is free.
+int AxisLaw::place_of(const AxisPiece& piece) const
+{
+    using Kind = AxisPiece::Kind;
+    if (piece.is_at_stop())
+        return piece.kind == Kind::AtLower ? -2 : 2;
+    return piece.kind == Kind::Driven || most == 0 ? 0 : piece.constant > 0 ? -1 : 1;
+}
+
+// Between the stops.
+bool AxisLaw::has_piece_at(int place) const
+{
+    if (most == 0)
+        return place == 0;
+    return (place > 0 || target > lower) && (place < 0 || target < upper);
+}
+
+AxisPiece AxisLaw::piece_at(int place, SpringLine with) const
 {
     AxisPiece piece;
-    piece.spring = spring;
-    piece.rate = rate;
-    piece.constant = std::copysign(most, target - rate);
+    piece.spring = with;
+    piece.kind = place == 0 && most > 0 ? AxisPiece::Kind::Driven : AxisPiece::Kind::Free;
+    piece.rate = target;
+    piece.constant = place < 0 ? most : -most;
     return piece;
 }
 

@@ -50,6 +50,7 @@ constexpr double loop_compliance = 1e-3;  // of a row's weight
 constexpr double yielding_compliance = 1; // likewise
 constexpr double most_softening = 400;
 constexpr double same_rate = 1e-6;
+constexpr double least_share = 1e-3; // of a spring's compliance, where its row is softer than the spring
 
 double as_double(float x) { return static_cast<double>(x); }
 
@@ -584,10 +585,13 @@ void DirectSolve::begin_axes(Stage stage)
         else
             axis.law = acts_ahead(rows, stage).law_ahead(item.work->spring, m_view.h);
         for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
-            spring->compliance *= m_spring_softening;
+        { // the softness of the row is part of a spring's own
+            const double own = m_spring_softening * spring->compliance;
+            spring->compliance = std::max(own - softness(axis), least_share * own);
+        }
         axis.before = axis.law.scope.sum(axis.restore);
         const double k = as_double(rows.axis_inverse_mass);
-        axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] - k * axis.before, k);
+        axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] + (softness(axis) - k) * axis.before, k);
     }
 }
 
@@ -621,12 +625,13 @@ void DirectSolve::solve_pieces()
     {
         const Item& item = m_items[axis.item];
         const double speed = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        const double leak = softness(axis) * axis.before;
         double& wanted = m_impulses[as_index(axis.row)];
         const SpringLine& spring = axis.piece.spring;
         if (axis.piece.keeps_rate())
-            wanted = axis.piece.rate - speed - axis_leak() * m_matrix.weight(axis.row) * axis.before;
+            wanted = axis.piece.rate - speed - leak;
         else if (spring.is_there())
-            wanted = spring.rest - speed - spring.compliance * (axis.before - axis.piece.constant);
+            wanted = spring.rest - speed - leak - spring.compliance * (axis.before - axis.piece.constant);
         else
             wanted = 0;
     }
@@ -658,6 +663,15 @@ void DirectSolve::give_known_impulses()
     }
 }
 
+// The rate at which an axis' law gives its impulse: the row itself gives way in proportion to that impulse.
+double DirectSolve::rate_of_law(const Axis& axis) const
+{
+    const Item& item = m_items[axis.item];
+    const double given_way =
+        m_matrix.weight(axis.row) * m_compliance * m_impulses[as_index(axis.row)] + softness(axis) * axis.before;
+    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_way;
+}
+
 // False where all are where they should be.
 bool DirectSolve::take_next_pieces(bool all)
 {
@@ -667,16 +681,11 @@ bool DirectSolve::take_next_pieces(bool all)
         const Item& item = m_items[axis.item];
         const double k = as_double(item.work->rows.axis_inverse_mass);
         const double impulse = m_impulses[as_index(axis.row)];
-        // The same equation as in solve_pieces, where axes that keep a rate leak and springs do not.
-        const double leaking = axis.piece.keeps_rate() ? axis_leak() * axis.before : 0;
-        const bool gives_way = m_compliances[as_index(axis.row)] != JointMatrix::off;
-        const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held) +
-                            (gives_way ? m_matrix.weight(axis.row) * (m_compliance * impulse + leaking) : 0);
+        const double rate = rate_of_law(axis);
         const AxisPiece next = axis.law.solve(rate - k * (axis.before + impulse), k);
         if (std::fabs(next.rate - rate) <= same_rate * std::max(1.0, std::fabs(rate)))
             continue;
-        const bool jumps = axis.piece.is_at_stop() && next.is_at_stop(); // over all that is between them
-        axis.piece = jumps ? axis.law.between_stops(rate) : next;
+        axis.piece = axis.law.neighbour(axis.piece, next);
         changed = true;
         if (!all)
             return true;
@@ -732,7 +741,7 @@ void DirectSolve::take_impulses()
     for (const Axis& axis : m_axes)
     {
         const Item& item = m_items[axis.item];
-        const double rate = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        const double rate = rate_of_law(axis);
         const AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate);
         set_axis_impulses(*item.record, axis.law.scope.merge(axis.restore, now));
     }

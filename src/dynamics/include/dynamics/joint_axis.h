@@ -106,10 +106,15 @@ struct AxisLaw
 
     /// The solution of rate = free_rate + inverse_mass * impulse(rate).
     [[nodiscard]] AxisPiece solve(double free_rate, double inverse_mass) const;
-    /// The piece next to a stop at that rate.
-    [[nodiscard]] AxisPiece between_stops(double rate) const;
+    /// The piece next to one, in the order of their rates, on the way to another.
+    [[nodiscard]] AxisPiece neighbour(const AxisPiece& piece, const AxisPiece& towards) const;
     /// Splits an impulse among the spring, the motor and the stops.
     [[nodiscard]] AxisImpulses split(const AxisPiece& piece, double impulse, double rate) const;
+
+private:
+    [[nodiscard]] int place_of(const AxisPiece& piece) const;
+    [[nodiscard]] bool has_piece_at(int place) const;
+    [[nodiscard]] AxisPiece piece_at(int place, SpringLine with) const;
 };
 
 /// The spring, motor and stops along a joint's free axis, and how far the bodies are from them.

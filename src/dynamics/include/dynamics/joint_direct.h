@@ -142,7 +142,11 @@ private:
     [[nodiscard]] float most_speed(const JointRow& row) const;
     void limit_speeds();
     void close_slowly();
-    [[nodiscard]] double axis_leak() const { return m_yields ? m_leak : 0; }
+    [[nodiscard]] double rate_of_law(const Axis& axis) const;
+    [[nodiscard]] double softness(const Axis& axis) const
+    {
+        return m_yields ? m_leak * m_matrix.weight(axis.row) : 0;
+    } // rate per impulse
     [[nodiscard]] AxisActs acts_ahead(const JointRows& rows, Stage stage) const;
 
     void take_step(Stage stage);
