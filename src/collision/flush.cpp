@@ -62,6 +62,30 @@ Surface<double> whole_surface(const LeafView& v, Point p)
     return surface_of_hull<double>(sides.points, sides.normals, sides.radii, 2, p.x, p.y);
 }
 
+// As the public one.
+bool is_farther(const LeafView& v, Point p, double reach)
+{
+    const Leaf& leaf = *v.leaf;
+    if (leaf.type == LeafType::HalfSpace)
+        return false;
+    if (leaf.type == LeafType::Polygon)
+    {
+        const double most = reach + static_cast<double>(leaf.r0);
+        for (int i = 0; i < leaf.count; ++i)
+        {
+            if (dot(wide(v.normals[i]), p - wide(v.points[i])) > most)
+                return true;
+        }
+        return false;
+    }
+    const Point d = wide(leaf.p1) - wide(leaf.p0);
+    const Point way = p - wide(leaf.p0);
+    const double along = std::clamp(dot(way, d), 0.0, dot(d, d));
+    const Point off = dot(d, d) * way - along * d;
+    const double most = (reach + static_cast<double>(std::max(leaf.r0, leaf.r1))) * dot(d, d);
+    return dot(off, off) > most * most;
+}
+
 class Union
 {
 public:
@@ -79,20 +103,27 @@ public:
         FlushAnswer best;
         double farthest = -1e300;
         bool is_hidden = false;
-        for (int edge = 0; edge < m_hull.count(); ++edge)
+        const int nearest = nearest_edge(p); // the others seldom have more room
+        for (int i = 0; i < m_hull.count(); ++i)
         {
+            const int edge = (nearest + i) % m_hull.count();
+            const double under = depth_under(edge, p);
+            const double least = -std::max(under, 0.0) - 2 * m_tolerance;
+            const bool is_face = carom::dot(m_hull.normal(edge), n) > 0.999999f;
+            const bool may_hide = std::fabs(under) <= m_tolerance;
+            if (!is_face && !may_hide && greatest_separation(edge) < std::max(least, farthest))
+                continue;
             if (!is_solid(edge) || !is_exposed(edge, p))
                 continue;
-            if (carom::dot(m_hull.normal(edge), n) > 0.999999f)
+            if (is_face)
                 return {}; // its face goes on beyond the neighbour
-            const double under = depth_under(edge, p);
             const std::optional<double> separation = least_separation(edge);
             if (!separation)
             {
-                is_hidden |= std::fabs(under) <= m_tolerance;
+                is_hidden |= may_hide;
                 continue;
             }
-            if (*separation >= -std::max(under, 0.0) - 2 * m_tolerance && *separation > farthest)
+            if (*separation >= least && *separation > farthest)
             { // else it is the way out on the far side
                 farthest = *separation;
                 best = {FlushVerdict::Turned, edge};
@@ -131,7 +162,8 @@ private:
         return std::ranges::any_of(m_neighbours.all(),
                                    [&](const FlushNeighbour& other)
                                    {
-                                       if (nearest(other, p).distance > m_tolerance)
+                                       if (is_farther(other.leaf, in(other, p), m_tolerance) ||
+                                           nearest(other, p).distance > m_tolerance)
                                            return false;
                                        const Point way = nearest(other, p + 2 * m_tolerance * n).at - p;
                                        const double l = size(way);
@@ -159,16 +191,14 @@ private:
             return false;
         const Point t = (1 / l) * along;
         const double at = std::clamp(dot(t, p - start), 0.0, l);
-        const bool is_covered = goes_on(start + at * t, n);
         for (const double sign : {-1.0, 1.0})
         {
             const double room = sign < 0 ? at : l - at;
             if (room < m_tolerance)
                 continue;
             const Point q = start + (at + sign * std::min(room, 4 * m_tolerance)) * t;
-            if (is_covered && is_behind_neighbour(q, p))
-                continue;
-            if (!goes_on(q, n))
+            const auto is_hidden = [&] { return goes_on(start + at * t, n) && is_behind_neighbour(q, p); };
+            if (!goes_on(q, n) && !is_hidden())
                 return true;
         }
         return false;
@@ -201,6 +231,35 @@ private:
         return dot(n, wide(m_hull.point(edge)) - p) + static_cast<double>(m_hull.radius(edge));
     }
 
+    // Whose line the point is nearest to.
+    [[nodiscard]] int nearest_edge(Point p) const
+    {
+        int nearest = 0;
+        for (int edge = 1; edge < m_hull.count(); ++edge)
+        {
+            if (std::fabs(depth_under(edge, p)) < std::fabs(depth_under(nearest, p)))
+                nearest = edge;
+        }
+        return nearest;
+    }
+
+    // That of the visitor's farthest point along the edge's normal: no point of it has more.
+    [[nodiscard]] double greatest_separation(int edge) const
+    {
+        const Vec2 n = inverse_rotate(m_pose.rotation, m_hull.normal(edge));
+        const Leaf& leaf = *m_visitor.leaf;
+        float farthest = carom::dot(n, leaf.p0) + leaf.r0;
+        if (leaf.type == LeafType::Polygon)
+        {
+            farthest = -3e38f;
+            for (int i = 0; i < leaf.count; ++i)
+                farthest = std::max(farthest, carom::dot(n, m_visitor.points[i]) + leaf.r0);
+        }
+        else if (leaf.type != LeafType::Circle)
+            farthest = std::max(farthest, carom::dot(n, leaf.p1) + leaf.r1);
+        return static_cast<double>(farthest + carom::dot(m_hull.normal(edge), m_pose.position) - m_hull.offset(edge));
+    }
+
     // The least separation of the points that the visitor has before the edge.
     [[nodiscard]] std::optional<double> least_separation(int edge) const
     {
@@ -230,6 +289,13 @@ bool may_visit(const Leaf& leaf) { return has_edges(leaf) || leaf.type == LeafTy
 
 bool may_be_flush(const Leaf& leaf) { return has_edges(leaf) || leaf.type == LeafType::HalfSpace; }
 
+bool is_farther(const LeafView& leaf, Vec2 point, double reach) { return is_farther(leaf, wide(point), reach); }
+
+Vec2 touched_point(const LocalManifold& m, int i, bool of_a, const RelativePose& pose)
+{
+    return of_a ? m.points[i].on_a : pose.to_b(m.points[i].on_b);
+}
+
 bool may_be_hidden(const LeafView& touched, const RelativePose& pose, bool of_a, double tolerance, const LocalManifold& m)
 {
     if (!has_edges(*touched.leaf))
@@ -245,9 +311,9 @@ bool may_be_hidden(const LeafView& touched, const RelativePose& pose, bool of_a,
         const float l = length(along);
         for (int i = 0; i < m.count; ++i)
         {
-            const Vec2 p = of_a ? m.points[i].on_a : pose.to_b(m.points[i].on_b);
+            const Vec2 p = touched_point(m, i, of_a, pose);
             const float at = carom::dot(p - start, along) / l;
-            const float room = 2 * static_cast<float>(tolerance) + std::fabs(m.points[i].separation);
+            const float room = 2 * static_cast<float>(tolerance) + std::max(-m.points[i].separation, 0.0f);
             if (at > room && at < l - room)
                 return false;
         }

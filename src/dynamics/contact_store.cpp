@@ -33,14 +33,14 @@ JointId joint_id(const SceneState& state, int slot)
     return {static_cast<std::uint32_t>(slot) + 1, state.joints.generation(slot)};
 }
 
-namespace {
-
 bool filters_agree(const Filter& a, const Filter& b)
 {
     if (a.group != 0 && a.group == b.group)
         return a.group > 0;
     return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
+
+namespace {
 
 bool joint_forbids(const SceneState& state, int body_a, int body_b)
 {

@@ -1,6 +1,7 @@
 #include "dynamics/flush_pair.h"
 
 #include "dynamics/body_store.h"
+#include "dynamics/contact_store.h"
 #include "dynamics/contact_update.h"
 
 #include <algorithm>
@@ -24,13 +25,31 @@ public:
         return may_be_flush(m_state.shapes[m_touched].leaf) && !(is_dynamic(body) && has_one_leaf(body));
     }
 
-    // In the list of a body that moves: that of a wall is long.
+    // Is one of them at the touched points? False only where none is.
+    [[nodiscard]] bool may_be_near(const LocalManifold& m, bool of_a, const RelativePose& pose) const
+    {
+        const int body = m_state.shapes[m_touched].body;
+        if (!is_dynamic(body))
+            return true;
+        bool found = false;
+        for_each_leaf(m_state, body,
+                      [&](int other)
+                      {
+                          for (int i = 0; i < m.count && !found && other != m_touched; ++i)
+                              found = may_be_flush(m_state.shapes[other].leaf) &&
+                                      !is_farther(leaf_view(m_state, other), touched_point(m, i, of_a, pose),
+                                                  static_cast<double>(m_state.slop));
+                      });
+        return found;
+    }
+
     void find() const
     {
         const int body = m_state.shapes[m_touched].body;
-        const int listed = is_dynamic(body) ? body : m_state.shapes[m_visitor].body;
-        for (int edge = m_state.bodies[listed].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
-            look_at(m_state.contacts[edge >> 1]);
+        if (is_dynamic(body))
+            find_in(body);
+        else
+            find_by(m_state.shapes[m_visitor].body);
     }
 
 private:
@@ -42,12 +61,39 @@ private:
         return record.first_shape == record.last_shape;
     }
 
-    void look_at(const Contact& contact) const
+    // What lies still beside a leaf of a dynamic body belongs to that body.
+    void find_in(int body) const
     {
-        const bool visits_b = contact.shape_a == m_visitor;
-        if (!visits_b && contact.shape_b != m_visitor)
-            return;
-        const int other = visits_b ? contact.shape_b : contact.shape_a;
+        for_each_leaf(m_state, body,
+                      [&](int other)
+                      {
+                          if (meets_visitor(other))
+                              look_at(other);
+                      });
+    }
+
+    [[nodiscard]] bool meets_visitor(int other) const
+    {
+        return filters_agree(m_state.shapes[other].filter, m_state.shapes[m_visitor].filter) &&
+               overlaps(m_state.broad_phase.box(other), m_state.broad_phase.box(m_visitor));
+    }
+
+    // All that the visitor meets: the list of a wall is long.
+    void find_by(int visitor_body) const
+    {
+        for (int edge = m_state.bodies[visitor_body].first_contact; edge != none;)
+        {
+            const Contact& contact = m_state.contacts[edge >> 1];
+            edge = contact.next[edge & 1];
+            if (contact.shape_a == m_visitor)
+                look_at(contact.shape_b);
+            else if (contact.shape_b == m_visitor)
+                look_at(contact.shape_a);
+        }
+    }
+
+    void look_at(int other) const
+    {
         if (other != m_touched && is_still_beside(other) && is_solid(other) && are_boxes_near(other))
             add(other);
     }
@@ -102,7 +148,8 @@ FlushPair::FlushPair(const SceneState& state, const Contact& contact, const Rela
     {
         const Neighbourhood neighbourhood(state, touched, visitor, found);
         if (neighbourhood.may_have_some() &&
-            may_be_hidden(leaf_view(state, touched), pose, of_contact_a, static_cast<double>(state.slop), m))
+            may_be_hidden(leaf_view(state, touched), pose, of_contact_a, static_cast<double>(state.slop), m) &&
+            neighbourhood.may_be_near(m, of_contact_a, pose))
             neighbourhood.find();
     };
     ask(contact.shape_a, contact.shape_b, true, of_a);

@@ -42,6 +42,12 @@ struct FlushNeighbours
 [[nodiscard]] bool may_be_hidden(const LeafView& touched, const RelativePose& pose, bool of_a, double tolerance,
                                  const LocalManifold& m);
 
+/// True only where the leaf's surface is farther from a point of its frame than the reach. Costs less than the distance.
+[[nodiscard]] bool is_farther(const LeafView& leaf, Vec2 point, double reach);
+
+/// A point of the manifold on the surface of the touched leaf, in that leaf's frame.
+[[nodiscard]] Vec2 touched_point(const LocalManifold& m, int i, bool of_a, const RelativePose& pose);
+
 /// Can the leaf have flush neighbours, or be one? Of circles and arcs nothing lies flush.
 [[nodiscard]] bool may_be_flush(const Leaf& leaf);
 

@@ -14,6 +14,9 @@ inline constexpr std::size_t most_near_pairs = 131'072;
 /// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
 [[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
 
+/// By groups, categories and masks alone.
+[[nodiscard]] bool filters_agree(const Filter& a, const Filter& b);
+
 /// The filter as trees of boxes go by it: what shares a positive group meets whatever its categories are.
 [[nodiscard]] inline FilterBits filter_bits(const Filter& filter)
 {
