@@ -74,16 +74,9 @@ void solve_friction(const Pair& pair, const ContactRow& row, RowPoint& p)
     pair.apply(p, change * t);
 }
 
-struct NormalTarget
-{
-    float bias;
-    float mass_scale;
-    float impulse_scale;
-};
-
 // Inlined in any case: three numbers are returned through memory, and waited for.
-[[gnu::always_inline]] inline NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& p,
-                                                         bool use_bias)
+[[gnu::always_inline]] inline NormalTarget target_of_normal(const SolverView& view, const ContactRow& row, const RowPoint& p,
+                                                            bool use_bias)
 {
     const float separation = row_separation(view, row, p);
     if (!use_bias)
@@ -107,7 +100,7 @@ void set_normal_impulse(const Pair& pair, const ContactRow& row, RowPoint& p, fl
 
 void solve_normal(const SolverView& view, const Pair& pair, const ContactRow& row, RowPoint& p, bool use_bias)
 {
-    const NormalTarget target = normal_target(view, row, p, use_bias);
+    const NormalTarget target = target_of_normal(view, row, p, use_bias);
     const float speed = dot(pair.relative_velocity(p), row.n);
     const float change = -p.normal_mass * target.mass_scale * (speed + target.bias) - target.impulse_scale * p.normal_impulse;
     set_normal_impulse(pair, row, p, std::max(p.normal_impulse + change, 0.0f)); // contacts push and never pull
@@ -119,8 +112,8 @@ void solve_both_normals(const SolverView& view, const Pair& pair, ContactRow& ro
 {
     RowPoint& p = row.points[0];
     RowPoint& q = row.points[1];
-    const NormalTarget tp = normal_target(view, row, p, use_bias);
-    const NormalTarget tq = normal_target(view, row, q, use_bias);
+    const NormalTarget tp = target_of_normal(view, row, p, use_bias);
+    const NormalTarget tq = target_of_normal(view, row, q, use_bias);
     const float k11 = 1 / p.normal_mass;
     const float k22 = 1 / q.normal_mass;
     const float k12 = row.coupling;
@@ -154,6 +147,16 @@ float row_separation(const SolverView& view, const ContactRow& row, const RowPoi
     const BodyState& b = view.states[row.b];
     const Vec2 d = b.delta_position + rotate(b.delta_rotation, p.rb0) - a.delta_position - rotate(a.delta_rotation, p.ra0);
     return p.base + dot(d, row.n);
+}
+
+NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& p, bool use_bias)
+{
+    return target_of_normal(view, row, p, use_bias);
+}
+
+float row_slip(const SolverView& view, const ContactRow& row, const RowPoint& p)
+{
+    return dot(Pair(view, row).relative_velocity(p), perp(row.n)) - row.surface_speed;
 }
 
 float row_speed(const SolverView& view, const ContactRow& row, const RowPoint& p)

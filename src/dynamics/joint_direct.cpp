@@ -135,6 +135,7 @@ void DirectSolve::lay_out()
         item.a = edges[i].a;
         item.b = edges[i].b;
     }
+    find_figures();
     m_jacobians.assign(m_items.size(), {});
     for (std::vector<double>* values : {&m_compliances, &m_wanted_compliances, &m_speeds, &m_impulses})
         values->assign(as_index(m_matrix.rows()), 0);
@@ -175,6 +176,7 @@ bool DirectSolve::place()
         }
     }
     m_longest_arm = std::sqrt(longest);
+    find_anchors();
     double stretch = 1;
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
         stretch = std::max(stretch, as_double(m_nodes[i].stretch));
@@ -377,6 +379,8 @@ bool DirectSolve::find_pose_ahead()
         if (i >= newton_steps && left > 0.5 * before_this)
         { // they lead nowhere from here on
             take_back();
+            note_errors_ahead();
+            forget_step();
             break;
         }
     }
@@ -738,6 +742,11 @@ void DirectSolve::take_impulses()
         for (int r = 0; r < item.held; ++r)
             item.impulse(r) += static_cast<float>(m_impulses[as_index(item.first_row + r)]);
     }
+    take_axis_impulses();
+}
+
+void DirectSolve::take_axis_impulses()
+{
     for (const Axis& axis : m_axes)
     {
         const Item& item = m_items[axis.item];
@@ -757,6 +766,14 @@ void DirectSolve::take_back()
     }
     for (const Axis& axis : m_axes)
         set_axis_impulses(*m_items[axis.item].record, axis.restore);
+}
+
+// Nothing has changed since the speeds were noted.
+void DirectSolve::forget_step()
+{
+    for (Node& n : m_nodes)
+        n.change = {};
+    std::ranges::fill(m_impulses, 0.0);
 }
 
 void DirectSolve::tell_as_blow()

@@ -254,18 +254,32 @@ void JointMatrix::factor(std::span<const double> compliances, double of_all)
 void JointMatrix::solve(std::span<double> values) const
 {
     for (std::size_t column = 0; column < m_diagonal.size(); ++column)
-    {
-        const double own = values[column];
-        for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
-            values[as_index(m_rows[as_index(i)])] -= m_factor[as_index(i)] * own;
-    }
+        eliminate(values, column);
     for (std::size_t column = m_diagonal.size(); column-- > 0;)
-    {
-        double own = m_pivots[column] * values[column];
-        for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
-            own -= m_factor[as_index(i)] * values[as_index(m_rows[as_index(i)])];
-        values[column] = own;
-    }
+        substitute(values, column);
+}
+
+void JointMatrix::solve(std::span<double> values, std::span<const int> rows) const
+{
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        eliminate(values, as_index(rows[i]));
+    for (std::size_t i = rows.size(); i-- > 0;)
+        substitute(values, as_index(rows[i]));
+}
+
+void JointMatrix::eliminate(std::span<double> values, std::size_t column) const
+{
+    const double own = values[column];
+    for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
+        values[as_index(m_rows[as_index(i)])] -= m_factor[as_index(i)] * own;
+}
+
+void JointMatrix::substitute(std::span<double> values, std::size_t column) const
+{
+    double own = m_pivots[column] * values[column];
+    for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
+        own -= m_factor[as_index(i)] * values[as_index(m_rows[as_index(i)])];
+    values[column] = own;
 }
 
 } // namespace carom::internal

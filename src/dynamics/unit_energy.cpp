@@ -32,7 +32,7 @@ bool may_lose(const JointRecord& joint)
 }
 
 // Not a rope that is slack, nor a limit that is far.
-bool acts(const JointRecord& joint, const JointWork& work)
+bool is_at_work(const JointRecord& joint, const JointWork& work)
 {
     return work.rows.held_count > 0 || joint.kind == JointType::Spring || axis_impulse(joint) != 0;
 }
@@ -364,7 +364,7 @@ void UnitEnergy::note_joint(JointWork& work)
     {
         if (!is_ours(own))
             continue;
-        if (acts(joint, work))
+        if (is_at_work(joint, work))
             join(own, other);
         group_of(own).is_passive &= is_passive(joint);
         group_of(own).may_lose |= may_lose(joint);

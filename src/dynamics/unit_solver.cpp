@@ -587,8 +587,13 @@ private:
             m_joint_bins.by_color(m_crew, [&](int first, int last)
                                   { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
             m_bins.by_color(m_crew, [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
-            solve_rows(m_view, m_rows, use_bias);
-            solve_rows(m_view, late_rows(), use_bias);
+            if (alternate && m_output.direct->has_free_figures())
+                m_output.direct->solve_contacts(m_rows, late_rows(), use_bias, tiny_speed());
+            else
+            {
+                solve_rows(m_view, m_rows, use_bias);
+                solve_rows(m_view, late_rows(), use_bias);
+            }
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
                 break;
         }
@@ -609,10 +614,12 @@ private:
         }
     }
 
+    [[nodiscard]] float tiny_speed() const { return 0.01f * m_ctx.scene.tolerances.slop * m_view.inverse_h; }
+
     // No body's speed has changed by more than a hundredth of the slop per sub-step.
     [[nodiscard]] bool have_settled() const
     {
-        const float tiny = 0.01f * m_ctx.scene.tolerances.slop * m_view.inverse_h;
+        const float tiny = tiny_speed();
         for (int i = 0; i < m_unit.dynamic_count; ++i)
         {
             const BodyState& s = m_view.states[m_unit.first_state + 1 + i];

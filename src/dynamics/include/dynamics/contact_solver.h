@@ -34,6 +34,18 @@ void warm_start(const SolverView& view, std::span<ContactRow> rows);
 /// without ("relax") it only stops approach, taking out the speed that the bias put in.
 void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias);
 
+/// What the normal impulse of a point is to reach: a speed of -bias, softly where the scales say so.
+struct NormalTarget
+{
+    float bias;
+    float mass_scale;
+    float impulse_scale;
+};
+
+[[nodiscard]] NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& point, bool use_bias);
+/// The speed of b's surface over a's along perp(n), beyond the surface speed, m/s.
+[[nodiscard]] float row_slip(const SolverView& view, const ContactRow& row, const RowPoint& point);
+
 /// Approach speeds of rows that bear nothing yet, before the sub-step's forces.
 void note_approach(const SolverView& view, ContactRow& row);
 

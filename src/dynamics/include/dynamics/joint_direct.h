@@ -35,6 +35,10 @@ public:
     [[nodiscard]] bool yields() const { return m_yields; }
     void warm_start();
     void solve(bool use_bias);
+    /// Is there a figure that nothing holds? Its contacts are solved here, each with what the joints answer; see figure_contacts.cpp.
+    [[nodiscard]] bool has_free_figures() const { return m_ready && m_has_free_figures; }
+    /// Some sweeps over all contacts of the unit, right after solve(); fewer once none changes a speed by more than `tiny`, m/s.
+    void solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny);
     /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
     void take_forbidden_speeds();
     /// Joints leave their stops at JointWork::bounce.
@@ -115,6 +119,43 @@ private:
         Triple change{}; ///< of its velocity
     };
 
+    /// Bodies that joints hold together.
+    struct Figure
+    {
+        std::vector<int> nodes;
+        std::vector<int> items;
+        std::vector<int> rows; ///< of the matrix, in order
+        bool anchored = false; ///< held by what does not give way
+    };
+
+    /// What a unit impulse does on one side of a contact: to the body alone, or to its figure.
+    struct PushedSide
+    {
+        std::int32_t state = none;
+        int figure = none;
+        Triple alone{};
+        double k = 0;                 ///< speed gained along the line
+        std::size_t first_change = 0; ///< of velocities, by the figure's nodes
+        std::size_t first_answer = 0; ///< of the joints, by the figure's rows
+    };
+
+    struct PushedLine
+    {
+        PushedSide a;
+        PushedSide b;
+        float mass = 0; ///< effective
+    };
+
+    void find_figures();
+    void find_anchors();
+    [[nodiscard]] int free_figure_of(std::int32_t state) const;
+    [[nodiscard]] PushedSide pushed_side(std::int32_t state, int figure, Triple jacobian);
+    [[nodiscard]] const PushedLine& pushed_line(const ContactRow& row, std::size_t number, Triple ja, Triple jb);
+    void push_whole(const PushedLine& line, float impulse);
+    void push_whole(const PushedSide& side, double impulse);
+    void solve_contact(ContactRow& row, std::size_t number, bool use_bias);
+    void take_answers();
+
     [[nodiscard]] bool find_edges();
     [[nodiscard]] std::int32_t moving(std::int32_t state) const;
     [[nodiscard]] int node_of(std::int32_t state) const;
@@ -161,7 +202,9 @@ private:
     [[nodiscard]] double change_along(const Item& item, int row) const;
     void take_velocities(double sign = 1);
     void take_impulses();
+    void take_axis_impulses();
     void take_back();
+    void forget_step();
     void tell_as_blow();
 
     SolverView m_view{};
@@ -189,6 +232,18 @@ private:
     std::vector<double> m_wanted_compliances;
     std::vector<double> m_speeds; ///< or errors ahead per sub-step
     std::vector<double> m_impulses;
+
+    std::vector<Figure> m_figures;
+    std::vector<int> m_figure_of; ///< by node
+    bool m_has_free_figures = false;
+    std::vector<PushedLine> m_lines; ///< of the contacts, as they are needed
+    std::vector<int> m_line_of;
+    std::vector<Triple> m_changes;
+    std::vector<double> m_answers;
+    std::vector<double> m_answer;   ///< of one line, by row
+    std::vector<double> m_answered; ///< to all contacts so far, by row
+    std::vector<Triple> m_kept;
+    float m_largest_push = 0; ///< change of a speed
 
     std::vector<Item> m_items;
     std::vector<Axis> m_axes; ///< in the present stage

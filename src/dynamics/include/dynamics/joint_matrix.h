@@ -72,6 +72,8 @@ public:
     void factor(std::span<const double> compliances, double of_all = 0);
     /// A^-1 values, in place.
     void solve(std::span<double> values) const;
+    /// The same for rows, in order, that no other row depends on; the other values are left alone.
+    void solve(std::span<double> values, std::span<const int> rows) const;
 
 private:
     /// Two edges that share a body that moves.
@@ -94,6 +96,8 @@ private:
 
     using Neighbors = std::vector<std::vector<int>>; ///< by edge, sorted
 
+    void eliminate(std::span<double> values, std::size_t column) const;
+    void substitute(std::span<double> values, std::size_t column) const;
     void find_loops(int nodes);
     [[nodiscard]] Neighbors couple_edges(int nodes);
     void order(Neighbors& neighbors);
