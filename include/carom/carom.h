@@ -9,6 +9,7 @@
 #include "carom/error.h"
 #include "carom/event.h"
 #include "carom/force_law.h"
+#include "carom/function.h"
 #include "carom/id.h"
 #include "carom/joint.h"
 #include "carom/math.h"

@@ -5,10 +5,9 @@
 /// them may be stale where the object was destroyed since. All events of a step are sorted by (step, time, shape_a, shape_b).
 /// Normals point from shape_a to shape_b.
 
+#include "carom/function.h"
 #include "carom/id.h"
 #include "carom/math.h"
-
-#include <functional>
 
 namespace carom {
 
@@ -94,12 +93,12 @@ struct TriggerEvent
 /// ids, to the callbacks of shapes that live.
 struct ShapeCallbacks
 {
-    std::function<void(Scene&, const ContactBeginEvent&)> on_contact_begin{};
-    std::function<void(Scene&, const ImpactEvent&)> on_impact{};
-    std::function<void(Scene&, const ContactEndEvent&)> on_contact_end{};
-    std::function<void(Scene&, const TriggerEvent&)> on_trigger_enter{};
-    std::function<void(Scene&, const TriggerEvent&)> on_trigger_inside{}; ///< every step while inside, also asleep
-    std::function<void(Scene&, const TriggerEvent&)> on_trigger_exit{};
+    Function<void(Scene&, const ContactBeginEvent&)> on_contact_begin{};
+    Function<void(Scene&, const ImpactEvent&)> on_impact{};
+    Function<void(Scene&, const ContactEndEvent&)> on_contact_end{};
+    Function<void(Scene&, const TriggerEvent&)> on_trigger_enter{};
+    Function<void(Scene&, const TriggerEvent&)> on_trigger_inside{}; ///< every step while inside, also asleep
+    Function<void(Scene&, const TriggerEvent&)> on_trigger_exit{};
 };
 
 } // namespace carom

@@ -8,6 +8,7 @@
 #include "carom/error.h"
 #include "carom/event.h"
 #include "carom/force_law.h"
+#include "carom/function.h"
 #include "carom/id.h"
 #include "carom/joint.h"
 #include "carom/math.h"
@@ -16,8 +17,6 @@
 #include "carom/step_report.h"
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -92,7 +91,7 @@ struct SceneDef
 class Scene;
 
 /// Called by Scene::update before each of its steps.
-using BeforeStep = std::function<void(Scene&)>;
+using BeforeStep = Function<void(Scene&)>;
 
 /// What Scene::update did.
 struct UpdateResult
@@ -195,7 +194,7 @@ public:
     [[nodiscard]] internal::SceneData& data() { return *m_data; }
 
 private:
-    std::unique_ptr<internal::SceneData> m_data;
+    internal::SceneData* m_data; ///< owned
 };
 
 } // namespace carom

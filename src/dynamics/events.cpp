@@ -135,7 +135,7 @@ void call_both(SceneData& scene, Scene& owner, const std::vector<Event>& events,
     }
 }
 
-using TriggerCallback = std::function<void(Scene&, const TriggerEvent&)>;
+using TriggerCallback = Function<void(Scene&, const TriggerEvent&)>;
 
 void call_trigger(SceneData& scene, Scene& owner, const std::vector<TriggerEvent>& events,
                   TriggerCallback ShapeCallbacks::* which)

@@ -55,9 +55,10 @@ Tolerances tolerances_of(const SceneDef& def)
 
 } // namespace
 
-Scene::Scene(const SceneDef& def) : m_data(std::make_unique<SceneData>())
+Scene::Scene(const SceneDef& def) : m_data(nullptr)
 {
     const SceneDef sound = check_def(def) ? def : SceneDef{};
+    m_data = new SceneData;
     m_data->def = sound;
     m_data->tolerances = tolerances_of(sound);
     m_data->state.gravity = sound.gravity;
@@ -65,7 +66,8 @@ Scene::Scene(const SceneDef& def) : m_data(std::make_unique<SceneData>())
     m_data->state.greatest_sleep_speed = m_data->tolerances.sleep_speed;
 }
 
-Scene::~Scene() = default;
+Scene::~Scene() { delete m_data; }
+
 // A scene that has been moved from is empty.
 Scene::Scene(Scene&& other) noexcept : Scene(other.m_data->def) { std::swap(m_data, other.m_data); }
 

@@ -126,13 +126,13 @@ void Scene::set_force_law(BodyId id, const ForceLaw& law)
 Body Scene::body(BodyId id)
 {
     const bool live = check_live(*m_data, "Scene::body", "body", id);
-    return Body(m_data.get(), live ? id : BodyId{});
+    return Body(m_data, live ? id : BodyId{});
 }
 
 ConstBody Scene::body(BodyId id) const
 {
     const bool live = check_live(*m_data, "Scene::body", "body", id);
-    return ConstBody(m_data.get(), live ? id : BodyId{});
+    return ConstBody(m_data, live ? id : BodyId{});
 }
 
 namespace {

@@ -336,13 +336,13 @@ void Scene::destroy(JointId id)
 Joint Scene::joint(JointId id)
 {
     const bool live = check_live(*m_data, "Scene::joint", "joint", id);
-    return Joint(m_data.get(), live ? id : JointId{});
+    return Joint(m_data, live ? id : JointId{});
 }
 
 ConstJoint Scene::joint(JointId id) const
 {
     const bool live = check_live(*m_data, "Scene::joint", "joint", id);
-    return ConstJoint(m_data.get(), live ? id : JointId{});
+    return ConstJoint(m_data, live ? id : JointId{});
 }
 
 // ------------------------------------------------------------------------------------------------------------------------------------

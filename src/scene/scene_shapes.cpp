@@ -291,13 +291,13 @@ void Scene::set_callbacks(ShapeId id, ShapeCallbacks callbacks)
 Shape Scene::shape(ShapeId id)
 {
     const bool live = check_live(*m_data, "Scene::shape", "shape", id);
-    return Shape(m_data.get(), live ? id : ShapeId{});
+    return Shape(m_data, live ? id : ShapeId{});
 }
 
 ConstShape Scene::shape(ShapeId id) const
 {
     const bool live = check_live(*m_data, "Scene::shape", "shape", id);
-    return ConstShape(m_data.get(), live ? id : ShapeId{});
+    return ConstShape(m_data, live ? id : ShapeId{});
 }
 
 std::vector<ShapeId> Scene::inside(ShapeId id) const
