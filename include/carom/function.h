@@ -21,7 +21,9 @@ public:
     Function(std::nullptr_t) {}
     template <class Callable>
         requires(!std::is_same_v<std::decay_t<Callable>, Function> &&
-                 std::is_invocable_r_v<Result, std::decay_t<Callable>&, Arguments...>)
+                 requires(std::decay_t<Callable>& callable, Arguments... arguments) {
+                     callable(std::forward<Arguments>(arguments)...);
+                 })
     Function(Callable&& callable)
     {
         if constexpr (!std::is_function_v<std::remove_reference_t<Callable>> &&
@@ -62,7 +64,13 @@ private:
         template <class From>
         explicit Held(From&& from) : callable(std::forward<From>(from))
         {}
-        Result call(Arguments... arguments) override { return callable(std::forward<Arguments>(arguments)...); }
+        Result call(Arguments... arguments) override
+        {
+            if constexpr (std::is_void_v<Result>)
+                callable(std::forward<Arguments>(arguments)...);
+            else
+                return callable(std::forward<Arguments>(arguments)...);
+        }
         [[nodiscard]] Target* copy() const override { return new Held(callable); }
 
         Callable callable;

@@ -20,6 +20,9 @@ namespace {
 
 Triple as_triple(Vec2 v, float turn) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(turn)}; }
 
+// Of what a body alone would answer: where joints leave less than rounding, such as a turn that another body's lock forbids, nothing is pushed.
+constexpr double least_answer = 1e-9;
+
 // Of a row's points: normal, friction; at the end rolling.
 constexpr std::size_t lines_per_row = 5;
 
@@ -37,7 +40,6 @@ void DirectSolve::find_figures()
 {
     m_figures.clear();
     m_figure_of.assign(m_nodes.size(), none);
-    std::vector<int> pending;
     for (std::size_t first = JointMatrix::ground + 1; first < m_nodes.size(); ++first)
     {
         if (m_figure_of[first] != none)
@@ -107,9 +109,9 @@ DirectSolve::PushedSide DirectSolve::pushed_side(std::int32_t state, int figure,
     side.state = state;
     side.figure = figure;
     const StateConstants& c = m_view.constants[state];
+    side.alone = product(as_triple(c.inverse_mass, c.inverse_inertia), jacobian);
     if (figure == none)
     {
-        side.alone = product(as_triple(c.inverse_mass, c.inverse_inertia), jacobian);
         side.k = dot(jacobian, side.alone);
         return side;
     }
@@ -157,14 +159,16 @@ const DirectSolve::PushedLine& DirectSolve::pushed_line(const ContactRow& row, s
         at = static_cast<int>(m_lines.size());
         const PushedSide a = pushed_side(row.a, free_figure_of(row.a), ja);
         const PushedSide b = pushed_side(row.b, free_figure_of(row.b), jb);
-        m_lines.push_back({a, b, a.k + b.k > 0 ? static_cast<float>(1 / (a.k + b.k)) : 0});
+        const double k = a.k + b.k;
+        const double alone = dot(ja, a.alone) + dot(jb, b.alone);
+        m_lines.push_back({a, b, k > least_answer * alone ? static_cast<float>(1 / k) : 0});
     }
     return m_lines[as_index(at)];
 }
 
 void DirectSolve::push_whole(const PushedLine& line, float impulse)
 {
-    if (impulse == 0)
+    if (impulse == 0 || line.mass == 0)
         return;
     push_whole(line.a, static_cast<double>(impulse));
     push_whole(line.b, static_cast<double>(impulse));
@@ -272,7 +276,16 @@ void DirectSolve::take_answers()
         for (int r = 0; r < item.held; ++r)
             item.impulse(r) += static_cast<float>(m_answered[as_index(item.first_row + r)]);
     }
-    take_axis_impulses();
+    // A motor may have answered with more than it can do: the next solve knows and takes it back.
+    for (const Axis& axis : m_axes)
+    {
+        const double answered = m_answered[as_index(axis.row)];
+        if (answered == 0)
+            continue;
+        AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate_of_law(axis));
+        now.motor += axis.before + m_impulses[as_index(axis.row)] - now.sum();
+        set_axis_impulses(*m_items[axis.item].record, axis.law.scope.merge(axis.restore, now));
+    }
 }
 
 } // namespace carom::internal

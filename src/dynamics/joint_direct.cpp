@@ -70,6 +70,7 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
     m_state = &state;
     m_joints = joints;
     m_turns_too_far = false;
+    m_spring_softening = 1;
     m_yields = std::ranges::any_of(joints, &JointWork::yields);
     if (std::exchange(m_looks_again, false))
         m_fits = find_edges() && !m_edges.empty();
@@ -380,10 +381,10 @@ bool DirectSolve::find_pose_ahead()
         { // they lead nowhere from here on
             take_back();
             note_errors_ahead();
-            forget_step();
             break;
         }
     }
+    go_on_from_here();
     return true;
 }
 
@@ -742,11 +743,6 @@ void DirectSolve::take_impulses()
         for (int r = 0; r < item.held; ++r)
             item.impulse(r) += static_cast<float>(m_impulses[as_index(item.first_row + r)]);
     }
-    take_axis_impulses();
-}
-
-void DirectSolve::take_axis_impulses()
-{
     for (const Axis& axis : m_axes)
     {
         const Item& item = m_items[axis.item];
@@ -768,12 +764,17 @@ void DirectSolve::take_back()
         set_axis_impulses(*m_items[axis.item].record, axis.restore);
 }
 
-// Nothing has changed since the speeds were noted.
-void DirectSolve::forget_step()
+// The speeds are noted: what has been given up to here is in them.
+void DirectSolve::go_on_from_here()
 {
     for (Node& n : m_nodes)
         n.change = {};
     std::ranges::fill(m_impulses, 0.0);
+    for (Axis& axis : m_axes)
+    {
+        axis.restore = axis_impulses(*m_items[axis.item].record);
+        axis.before = axis.law.scope.sum(axis.restore);
+    }
 }
 
 void DirectSolve::tell_as_blow()

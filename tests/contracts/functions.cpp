@@ -36,6 +36,8 @@ TEST(Functions, CallLambdasPointersAndOtherFunctions)
     EXPECT_EQ(Function<int(int)>([large](int x) { return large[0] + x; })(4), 7);
     EXPECT_EQ(Function<int(int)>(std::function<int(int)>(twice))(4), 8);
     EXPECT_EQ(Function<double(int)>(Function<int(int)>(twice))(4), 8.0);
+    const Function<void(int)> without_result = twice;
+    without_result(4);
     int seen = 0;
     const Function<void(int&)> by_reference = [&seen](int& x) { seen = ++x; };
     int given = 1;

@@ -24,6 +24,7 @@ struct Landing
     float speed = 1; // m/s, down
     float lean = 0;  // rad
     bool limited = false;
+    float brake = 0; // N m, of every hinge
 };
 
 struct Harm
@@ -39,9 +40,8 @@ Position end_of(const Scene& scene, BodyId link, float end)
     return body.world_point({0, end});
 }
 
-Harm harm_of(const Landing& landing)
+std::vector<BodyId> add_links(Scene& scene, const Landing& landing)
 {
-    Scene scene{SceneDef{}};
     scene.create_shape(scene.create_body({}), box(50, 1, {0, -1}), {});
     std::vector<BodyId> links;
     for (int i = 0; i < landing.links; ++i)
@@ -60,8 +60,17 @@ Harm harm_of(const Landing& landing)
                                            .anchor_b = {0, -half},
                                            .enable_limit = landing.limited,
                                            .lower_angle = -0.3f,
-                                           .upper_angle = 0.3f});
+                                           .upper_angle = 0.3f,
+                                           .enable_motor = landing.brake > 0,
+                                           .max_motor_torque = landing.brake});
     }
+    return links;
+}
+
+Harm harm_of(const Landing& landing)
+{
+    Scene scene{SceneDef{}};
+    const std::vector<BodyId> links = add_links(scene, landing);
     Harm harm;
     for (int step = 0; step < 60; ++step)
     {
@@ -116,4 +125,29 @@ TEST(FiguresThatLand, EightLinksStayTogether)
 {
     for (const float speed : {3.0f, 10.0f})
         expect_whole(8, speed);
+}
+
+// A contact's impulse comes with what the joints answer, and a motor answers with no more than it can do.
+TEST(FiguresThatLand, AWeakBrakeIsNoWeld)
+{
+    for (const int count : {2, 3})
+    {
+        for (const float speed : {1.0f, 3.0f, 5.0f})
+        {
+            SCOPED_TRACE(std::to_string(count) + " links, " + std::to_string(speed) + " m/s");
+            Scene free{SceneDef{}};
+            Scene braked{SceneDef{}};
+            Landing landing{.links = count, .speed = speed, .lean = 0.8f};
+            const std::vector<BodyId> in_free = add_links(free, landing);
+            landing.brake = 1e-5f;
+            const std::vector<BodyId> in_braked = add_links(braked, landing);
+            for (int step = 0; step < 8; ++step)
+            {
+                (void)free.step(1.0f / 60);
+                (void)braked.step(1.0f / 60);
+            }
+            for (std::size_t i = 0; i < in_free.size(); ++i)
+                EXPECT_NEAR(braked.body(in_braked[i]).angular_velocity(), free.body(in_free[i]).angular_velocity(), 0.05f) << i;
+        }
+    }
 }

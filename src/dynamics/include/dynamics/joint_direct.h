@@ -202,9 +202,8 @@ private:
     [[nodiscard]] double change_along(const Item& item, int row) const;
     void take_velocities(double sign = 1);
     void take_impulses();
-    void take_axis_impulses();
     void take_back();
-    void forget_step();
+    void go_on_from_here();
     void tell_as_blow();
 
     SolverView m_view{};
