@@ -18,12 +18,10 @@ namespace carom::internal {
 
 namespace {
 
-Triple as_triple(Vec2 v, float turn) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(turn)}; }
-
-// Of what a body alone would answer: where joints leave less than rounding, such as a turn that another body's lock forbids, nothing is pushed.
+// The least share of a body's own answer that counts: below it joints leave rounding alone, as of a turn that another body's lock forbids.
 constexpr double least_answer = 1e-9;
 
-// Of a row's points: normal, friction; at the end rolling.
+// A row has a normal and a friction line for each point, and one for rolling.
 constexpr std::size_t lines_per_row = 5;
 
 float clamped_change(float& impulse, float change, float least, float most)

@@ -61,7 +61,7 @@ private:
         return record.first_shape == record.last_shape;
     }
 
-    // What lies still beside a leaf of a dynamic body belongs to that body.
+    // Only leaves of the same body lie still beside a leaf of a dynamic one.
     void find_in(int body) const
     {
         for_each_leaf(m_state, body,

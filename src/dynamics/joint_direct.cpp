@@ -54,8 +54,6 @@ constexpr double least_share = 1e-3; // of a spring's compliance, where its row 
 
 double as_double(float x) { return static_cast<double>(x); }
 
-Triple as_triple(Vec2 v, float turn) { return {as_double(v.x), as_double(v.y), as_double(turn)}; }
-
 Triple velocity(const BodyState& s) { return as_triple(s.velocity, s.angular_velocity); }
 
 // 0 and -0 differ.

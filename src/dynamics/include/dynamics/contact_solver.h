@@ -34,7 +34,7 @@ void warm_start(const SolverView& view, std::span<ContactRow> rows);
 /// without ("relax") it only stops approach, taking out the speed that the bias put in.
 void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias);
 
-/// What the normal impulse of a point is to reach: a speed of -bias, softly where the scales say so.
+/// The aim of a point's normal impulse: a speed of -bias, softly where the scales say so.
 struct NormalTarget
 {
     float bias;

@@ -11,6 +11,11 @@
 
 namespace carom::internal {
 
+[[nodiscard]] inline Triple as_triple(Vec2 v, float turn)
+{
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(turn)};
+}
+
 /// All joint rows of an island at once. Kept from step to step for its memory, and for the layout where the joints are the same.
 class DirectSolve
 {
@@ -128,7 +133,7 @@ private:
         bool anchored = false; ///< held by what does not give way
     };
 
-    /// What a unit impulse does on one side of a contact: to the body alone, or to its figure.
+    /// The answer to a unit impulse on one side of a contact: of the body alone, or of its figure.
     struct PushedSide
     {
         std::int32_t state = none;
