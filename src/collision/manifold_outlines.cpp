@@ -38,25 +38,20 @@ void split(const Vec2* v, int first, int count, F4& x, F4& y)
     {
         const F4 lo = load4(&v[first].x);
         const F4 hi = load4(&v[first + 2].x);
-        x = __builtin_shufflevector(lo, hi, 0, 2, 4, 6);
-        y = __builtin_shufflevector(lo, hi, 1, 3, 5, 7);
+        x = even_lanes(lo, hi);
+        y = odd_lanes(lo, hi);
         return;
     }
-    for (int i = 0; i < 4; ++i)
-    {
-        const Vec2 p = v[first + i < count ? first + i : count - 1];
-        x[i] = p.x;
-        y[i] = p.y;
-    }
+    const auto at = [&](int i) { return v[std::min(first + i, count - 1)]; };
+    x = four_of(at(0).x, at(1).x, at(2).x, at(3).x);
+    y = four_of(at(0).y, at(1).y, at(2).y, at(3).y);
 }
 
 // In all lanes.
 F4 greatest_of_all(F4 x)
 {
-    const F4 y = __builtin_shufflevector(x, x, 1, 0, 3, 2);
-    const F4 two = x > y ? x : y;
-    const F4 z = __builtin_shufflevector(two, two, 2, 3, 0, 1);
-    return two > z ? two : z;
+    const F4 two = greatest(x, swapped_neighbours(x));
+    return greatest(two, swapped_halves(two));
 }
 
 // The edge beyond which the other's corners are farthest. Four edges side by side, corner by corner.
@@ -76,12 +71,12 @@ EdgeAxis best_axis(const Hull& reference, const Corners& other, float radii)
         for (int j = 1; j < other.count; ++j)
         {
             const F4 d = nx * other.at[j].x + ny * other.at[j].y;
-            low = d < low ? d : low;
+            low = least(d, low);
         }
         const F4 separation = low - (nx * px + ny * py) - radii;
         const F4 most = greatest_of_all(separation);
-        if (most[0] > best.separation)
-            best = {first + std::countr_zero(bits(separation == most)), most[0]};
+        if (first_lane(most) > best.separation)
+            best = {first + std::countr_zero(bits(separation == most)), first_lane(most)};
     }
     return best;
 }
@@ -98,9 +93,9 @@ int most_opposed_edge(const Hull& v, Vec2 n)
         split(v.normals(), first, v.count(), x, y);
         const F4 facing = -(x * n.x + y * n.y);
         const F4 four = greatest_of_all(facing);
-        if (four[0] > most)
+        if (first_lane(four) > most)
         {
-            most = four[0];
+            most = first_lane(four);
             edge = first + std::countr_zero(bits(facing == four));
         }
     }

@@ -40,8 +40,8 @@ float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shi
 // A fat box that held a fast path is far too wide for a body that has slowed down.
 bool too_wide(F4 fat, F4 needed, float margin)
 {
-    const auto size = [](F4 box) { return swap_halves(box) - box; };
-    return (bits(size(fat) > size(needed) + 8 * margin) & 3) != 0;
+    const auto size = [](F4 box) { return swapped_halves(box) - box; };
+    return (bits(size(fat) > size(needed) + F4(8 * margin)) & 3) != 0;
 }
 
 // Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
@@ -215,7 +215,7 @@ private:
         {
             m_ctx.scratch.motion[m_body_places[i]] = m_eight.motion.v[i];
             if ((m_eight.moved >> i & 1u) != 0)
-                move_box(m_moved, m_shapes[i], F4{m_eight.lx.v[i], m_eight.ly.v[i], m_eight.ux.v[i], m_eight.uy.v[i]},
+                move_box(m_moved, m_shapes[i], four_of(m_eight.lx.v[i], m_eight.ly.v[i], m_eight.ux.v[i], m_eight.uy.v[i]),
                          m_eight.motion.v[i], margin);
         }
         return true;

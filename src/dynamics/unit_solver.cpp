@@ -471,23 +471,18 @@ private:
     static_assert(sizeof(BodySpeeds) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);
 
     // Velocity, angular velocity, and 0 where the flags are.
-    [[nodiscard]] static F4 speeds_of(const BodyState& s)
-    {
-        return __builtin_shufflevector(load4(&s.velocity.x), F4{}, 0, 1, 2, 4);
-    }
+    [[nodiscard]] static F4 speeds_of(const BodyState& s) { return with_last(load4(&s.velocity.x), F4{}); }
 
-    static void set_speeds(BodyState& s, F4 speeds)
-    {
-        store4(&s.velocity.x, __builtin_shufflevector(speeds, load4(&s.velocity.x), 0, 1, 2, 7));
-    }
+    static void set_speeds(BodyState& s, F4 speeds) { store4(&s.velocity.x, with_last(speeds, load4(&s.velocity.x))); }
 
     // By a sub-step's forces and damping: v + h a, then the decay.
     [[nodiscard]] F4 accelerated(const BodyState& s, const StateConstants& c) const
     {
         static_assert(offsetof(StateConstants, angular_acceleration) == 12 && offsetof(StateConstants, acceleration) == 16);
         const F4 rest = load4(&c.acceleration.x); // acceleration, and decays of both
-        const F4 acceleration = __builtin_shufflevector(rest, load4(&c.inverse_mass.x), 0, 1, 7, 7);
-        const F4 decay = __builtin_shufflevector(rest, rest, 2, 2, 3, 3);
+        const F4 masses = load4(&c.inverse_mass.x);
+        const F4 acceleration = low_and_high(rest, interleaved_high(masses, masses));
+        const F4 decay = interleaved_high(rest, rest);
         return decay * (speeds_of(s) + m_ctx.h * acceleration);
     }
 

@@ -13,29 +13,25 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class Extremes
 {
 public:
-    void add(F4 points, float r) { add(points, F4{r, r, r, r}); }
+    void add(F4 points, float r) { add(points, F4(r)); }
     void add(F4 points, F4 r)
     {
         m_low = least(m_low, points - r);
         m_high = greatest(m_high, points + r);
     }
-    void add(Vec2 p, float r) { add(F4{p.x, p.y, p.x, p.y}, r); }
+    void add(Vec2 p, float r) { add(four_of(p.x, p.y, p.x, p.y), r); }
     [[nodiscard]] Box at(Position p) const
     {
-        const F4 low = least(m_low, swap_halves(m_low));
-        const F4 high = greatest(m_high, swap_halves(m_high));
-        return {{p.x + low[0], p.y + low[1]}, {p.x + high[0], p.y + high[1]}};
+        const FloatBox b = box_of(low_and_high(least(m_low, swapped_halves(m_low)), greatest(m_high, swapped_halves(m_high))));
+        return {{p.x + b.lx, p.y + b.ly}, {p.x + b.ux, p.y + b.uy}};
     }
 
 private:
-    F4 m_low = {infinity, infinity, infinity, infinity};
+    F4 m_low = infinity;
     F4 m_high = -m_low;
 };
 
-F4 rotate_both(Rotation q, F4 points)
-{
-    return F4{q.c, q.c, q.c, q.c} * points + F4{-q.s, q.s, -q.s, q.s} * __builtin_shufflevector(points, points, 1, 0, 3, 2);
-}
+F4 rotate_both(Rotation q, F4 points) { return q.c * points + four_of(-q.s, q.s, -q.s, q.s) * swapped_neighbours(points); }
 
 // Of three corners at least; an odd one comes with the one before it once more.
 void add_polygon(Extremes& e, const LeafView& v, Rotation q)
@@ -74,7 +70,7 @@ Box leaf_bounds(const LeafView& v, const Pose& pose)
     case LeafType::Polygon: add_polygon(e, v, q); break;
     case LeafType::Capsule:
     case LeafType::Segment:
-        e.add(rotate_both(q, F4{leaf.p0.x, leaf.p0.y, leaf.p1.x, leaf.p1.y}), F4{leaf.r0, leaf.r0, leaf.r1, leaf.r1});
+        e.add(rotate_both(q, four_of(leaf.p0.x, leaf.p0.y, leaf.p1.x, leaf.p1.y)), four_of(leaf.r0, leaf.r0, leaf.r1, leaf.r1));
         break;
     case LeafType::Arc: add_arc(e, v, q); break;
     }

@@ -24,7 +24,7 @@ double least_of(std::span<const double> times)
 {
     constexpr std::size_t side_by_side = 4;
     D2 least_pairs[side_by_side];
-    std::ranges::fill(least_pairs, D2{1e300, 1e300});
+    std::ranges::fill(least_pairs, D2(1e300));
     std::size_t i = 0;
     for (; i + 2 * side_by_side <= times.size(); i += 2 * side_by_side)
     {
@@ -32,8 +32,12 @@ double least_of(std::span<const double> times)
             least_pairs[k] = least(load2(&times[i + 2 * k]), least_pairs[k]);
     }
     double best = 1e300;
-    for (const D2& two : least_pairs)
+    for (const D2 pair : least_pairs)
+    {
+        double two[2];
+        store2(two, pair);
         best = std::min({best, two[0], two[1]});
+    }
     for (; i < times.size(); ++i)
         best = std::min(best, times[i]);
     return best;

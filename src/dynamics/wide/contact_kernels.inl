@@ -2,7 +2,7 @@
 
 namespace contacts {
 
-// How passes read and write: of one group, with F8, or of two that stand one after the other and share no body that gives way, with Twice<F8>. Of two, what is
+// How passes read and write: of one group, with F8, or of two that stand one after the other and share no body that gives way, with F16. Of two, what is
 // named is the first one's; the second one's is a row further on.
 template <class F>
 struct Rows;
@@ -22,9 +22,9 @@ struct Rows<F8>
 };
 
 template <>
-struct Rows<Twice<F8>>
+struct Rows<F16>
 {
-    using F = Twice<F8>;
+    using F = F16;
 
     template <class Field>
     static CAROM_INLINE Field& next(Field& a)
@@ -33,29 +33,29 @@ struct Rows<Twice<F8>>
         return *reinterpret_cast<Field*>(reinterpret_cast<Byte*>(&a) + sizeof(WideRow));
     }
 
-    static CAROM_INLINE F read(const LaneFloats& a) { return {load(a), load(next(a))}; }
-    static CAROM_INLINE Twice<I8> read(const LaneInts& a) { return {load(a), load(next(a))}; }
+    static CAROM_INLINE F read(const LaneFloats& a) { return sixteen_of(load(a), load(next(a))); }
+    static CAROM_INLINE I16 read(const LaneInts& a) { return sixteen_of(load(a), load(next(a))); }
     static CAROM_INLINE void write(LaneFloats& a, F x)
     {
-        store(a, x.first);
-        store(next(a), x.second);
+        store(a, first_eight(x));
+        store(next(a), second_eight(x));
     }
     static CAROM_INLINE Speeds<F> speeds(const BodyState* states, const LaneInts& index)
     {
         const Speeds<F8> a = speeds_of(states, index);
         const Speeds<F8> b = speeds_of(states, next(index));
-        return {{a.x, b.x}, {a.y, b.y}, {a.w, b.w}, {a.flags, b.flags}};
+        return {sixteen_of(a.x, b.x), sixteen_of(a.y, b.y), sixteen_of(a.w, b.w), sixteen_of(a.flags, b.flags)};
     }
     static CAROM_INLINE Poses<F> poses(const BodyState* states, const LaneInts& index)
     {
         const Poses<F8> a = poses_of(states, index);
         const Poses<F8> b = poses_of(states, next(index));
-        return {{a.x, b.x}, {a.y, b.y}, {a.c, b.c}, {a.s, b.s}};
+        return {sixteen_of(a.x, b.x), sixteen_of(a.y, b.y), sixteen_of(a.c, b.c), sixteen_of(a.s, b.s)};
     }
-    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F>& v, Twice<I8> fixed)
+    static CAROM_INLINE void put_speeds(BodyState* states, const LaneInts& index, const Speeds<F>& v, I16 fixed)
     {
-        put(states, index, {v.x.first, v.y.first, v.w.first, v.flags.first}, bits(fixed.first));
-        put(states, next(index), {v.x.second, v.y.second, v.w.second, v.flags.second}, bits(fixed.second));
+        put(states, index, {first_eight(v.x), first_eight(v.y), first_eight(v.w), first_eight(v.flags)}, bits(first_eight(fixed)));
+        put(states, next(index), {second_eight(v.x), second_eight(v.y), second_eight(v.w), second_eight(v.flags)}, bits(second_eight(fixed)));
     }
 };
 
@@ -91,7 +91,7 @@ CAROM_INLINE void for_each_group(const WideBin& bin, const Pass& pass)
         if (bin.are_far)
             fetch(bin.rows + i, bin.notes + i);
         if (i + 1 < bin.count)
-            pass(bin.rows[i], Twice<F8>());
+            pass(bin.rows[i], F16());
         else
             pass(bin.rows[i], F8());
     }
@@ -124,7 +124,7 @@ struct Group
         const F dy = b.y - a.y;
         vn = dx * nx + dy * ny;
         vt = dy * nx - dx * ny;
-        pn = pt = all<F>(0);
+        pn = pt = F(0);
     }
 
     // J M^-1 J^T of the normal. Where nothing gives way, as in empty lanes, no impulse is to speak of.
@@ -133,7 +133,7 @@ struct Group
         const F across_a = read<F>(p.across_a);
         const F across_b = read<F>(p.across_b);
         const F sum = mass + across_a * across_a * inertia_a + across_b * across_b * inertia_b;
-        return select(sum > all<F>(least_k), sum, all<F>(unyielding));
+        return select(sum > F(least_k), sum, F(unyielding));
     }
 
     CAROM_INLINE F normal_speed(const WidePoint& p) const { return vn + read<F>(p.across_b) * b.w - read<F>(p.across_a) * a.w; }
@@ -200,9 +200,9 @@ struct Soft
     // Stiff against what has infinite mass.
     CAROM_INLINE Soft(const Group<F>& g, const WideSoftness& s)
     {
-        const auto stiff = (g.mass_a == all<F>(0)) | (g.mass_b == all<F>(0));
-        bias_rate = select(stiff, all<F>(s.stiff.bias_rate), all<F>(s.contact.bias_rate));
-        give = select(stiff, all<F>(1 / s.stiff.mass_scale), all<F>(1 / s.contact.mass_scale));
+        const auto stiff = (g.mass_a == F(0)) | (g.mass_b == F(0));
+        bias_rate = select(stiff, F(s.stiff.bias_rate), F(s.contact.bias_rate));
+        give = select(stiff, F(1 / s.stiff.mass_scale), F(1 / s.contact.mass_scale));
     }
 };
 
@@ -217,9 +217,9 @@ template <class F>
 CAROM_INLINE Target<F> target_of(const Group<F>& g, const WidePoint& p, const Soft<F>& soft, const WideSoftness& s)
 {
     const F separation = read<F>(p.separation);
-    const auto apart = separation > all<F>(0);
-    return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, all<F>(-s.push_speed))),
-            select(apart, all<F>(1), soft.give)};
+    const auto apart = separation > F(0);
+    return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, F(-s.push_speed))),
+            select(apart, F(1), soft.give)};
 }
 
 // At new poses, which stay until the next sub-step's turn.
@@ -228,7 +228,7 @@ CAROM_INLINE Target<F> relaxed(const Group<F>& g, WidePoint& p, const Displaceme
 {
     const F separation = d.separation(p);
     write(p.separation, separation);
-    return {g.normal_speed(p), greatest(separation, all<F>(0)) * s.inverse_h, all<F>(1)};
+    return {g.normal_speed(p), greatest(separation, F(0)) * s.inverse_h, F(1)};
 }
 
 template <class F>
@@ -244,7 +244,7 @@ CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const Target<F>& t)
     // k give x + (speed + bias - k old) = 0, x >= 0: softness is compliance beside k.
     const F k = g.k(p);
     const F old = read<F>(p.normal_impulse);
-    set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), all<F>(0)));
+    set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), F(0)));
 }
 
 // Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account and stacks lean.
@@ -263,15 +263,15 @@ CAROM_INLINE void solve_normals(Group<F>& g, WideRow& row, const Target<F>& t1, 
     const F a22 = k22 * t2.give;
     const F b1 = t1.speed + t1.bias - (k11 * old1 + k12 * old2);
     const F b2 = t2.speed + t2.bias - (k12 * old1 + k22 * old2);
-    const F inverse_det = all<F>(1) / (a11 * a22 - k12 * k12);
+    const F inverse_det = F(1) / (a11 * a22 - k12 * k12);
     const F both1 = inverse_det * (k12 * b2 - a22 * b1);
     const F both2 = inverse_det * (k12 * b1 - a11 * b2);
-    const F only1 = greatest(-b1 / a11, all<F>(0));
-    const F only2 = greatest(-b2 / a22, all<F>(0));
-    const auto second_sinks = k12 * only1 + b2 < all<F>(0);
-    const auto both = (both1 >= all<F>(0)) & (both2 >= all<F>(0));
-    set_normal(g, p, old1, select(both, both1, select(second_sinks, all<F>(0), only1)));
-    set_normal(g, q, old2, select(both, both2, select(second_sinks, only2, all<F>(0))));
+    const F only1 = greatest(-b1 / a11, F(0));
+    const F only2 = greatest(-b2 / a22, F(0));
+    const auto second_sinks = k12 * only1 + b2 < F(0);
+    const auto both = (both1 >= F(0)) & (both2 >= F(0));
+    set_normal(g, p, old1, select(both, both1, select(second_sinks, F(0), only1)));
+    set_normal(g, q, old2, select(both, both2, select(second_sinks, only2, F(0))));
 }
 
 template <class F>
@@ -303,7 +303,7 @@ CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftnes
 
 // The least separation of each lane.
 CAROM_INLINE F8 of_both(F8 x) { return x; }
-CAROM_INLINE F8 of_both(Twice<F8> x) { return least(x.first, x.second); }
+CAROM_INLINE F8 of_both(F16 x) { return least(first_eight(x), second_eight(x)); }
 
 template <class F, int points>
 CAROM_INLINE F8 relax_group(WideRow& row, BodyState* states, const WideSoftness& s)

@@ -120,7 +120,7 @@ struct Change
 
 CAROM_INLINE I8 lanes_of(std::uint32_t bits)
 {
-    return (all_ints(bits) & I8{1, 2, 4, 8, 16, 32, 64, 128}) != I8{};
+    return (all_ints(bits) & eight_of(1, 2, 4, 8, 16, 32, 64, 128)) != I8{};
 }
 
 // Of eight contacts what is kept of them, as it lies there.
@@ -443,7 +443,7 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
 // Impulses of a point, side by side in a row, one after the other in a contact's.
 void take_impulses(const WideRow& row, WideNotes& notes, Contact* contacts, ContactImpulses* impulses)
 {
-    static_assert(sizeof(PointImpulses) == sizeof(F4) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
+    static_assert(sizeof(PointImpulses) == 4 * sizeof(float) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
                   offsetof(PointImpulses, total_normal) == 8);
     PointImpulses unused[lane_count];
     I8 loaded{};

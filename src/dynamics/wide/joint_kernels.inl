@@ -33,8 +33,8 @@ CAROM_INLINE void start(WideJoint& j, const BodySim* const (&a)[lane_count], con
     turn(turns_of(b), j.anchors.bx, j.anchors.by, arms.bx, arms.by);
     const auto gap = [&](int i)
     { // in double: both anchors may be far out
-        const D2 from = load2(&a[i]->center.x) + D2{static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i])};
-        const D2 to = load2(&b[i]->center.x) + D2{static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i])};
+        const D2 from = load2(&a[i]->center.x) + two_of(static_cast<double>(arms.ax.v[i]), static_cast<double>(arms.ay.v[i]));
+        const D2 to = load2(&b[i]->center.x) + two_of(static_cast<double>(arms.bx.v[i]), static_cast<double>(arms.by.v[i]));
         return to - from;
     };
     F8 gap_x;

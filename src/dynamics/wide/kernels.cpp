@@ -1,6 +1,7 @@
 // Which set of kernels this machine runs.
 
 #include "carom/scene.h"
+#include "core/compiler.h"
 #include "dynamics/wide_kernels.h"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace carom::internal {
 namespace baseline {
 extern const WideKernels kernels;
 }
-#if defined(__x86_64__)
+#if CAROM_HAS_AVX_KERNELS
 namespace avx2 {
 extern const WideKernels kernels;
 }
@@ -30,11 +31,10 @@ struct Sets
 
     Sets()
     {
-#if defined(__x86_64__)
-        __builtin_cpu_init();
-        if (__builtin_cpu_supports("avx2") != 0)
+#if CAROM_HAS_AVX_KERNELS
+        if (has_avx2())
             list[count++] = &avx2::kernels;
-        if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0)
+        if (has_avx512())
             list[count++] = &avx512::kernels;
 #endif
     }

@@ -96,7 +96,7 @@ CAROM_INLINE void fill_masses(Wide& wide, const StateConstants* constants)
 template <class F>
 CAROM_INLINE auto are_fixed(F inverse_mass, F inverse_inertia)
 {
-    return (inverse_mass == all<F>(0)) & (inverse_inertia == all<F>(0));
+    return (inverse_mass == F(0)) & (inverse_inertia == F(0));
 }
 
 #include "fill_kernels.inl"

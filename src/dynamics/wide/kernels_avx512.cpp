@@ -1,5 +1,6 @@
 // Eight lanes as with AVX2, with twice as many registers and masks of their own.
-#if defined(__x86_64__)
+#include "core/compiler.h"
+#if CAROM_HAS_AVX_KERNELS
 #define CAROM_ISA avx512
 #define CAROM_ISA_NAME "avx512"
 #include "kernels.inl"

@@ -2,17 +2,13 @@
 
 namespace states {
 
-CAROM_INLINE D8 all_doubles(double x) { return eight_of(x, x, x, x, x, x, x, x); }
-
 // By less than a quarter of a radian.
 CAROM_INLINE Turn small_turn(F8 radians)
 {
     const D8 x = doubles(radians);
     const D8 z = x * x;
-    const D8 one = all_doubles(1);
-    const D8 s = x * (one + z * (all_doubles(-1.0 / 6) + z * (all_doubles(1.0 / 120) + z * all_doubles(-1.0 / 5040))));
-    const D8 c = one + z * (all_doubles(-0.5) +
-                            z * (all_doubles(1.0 / 24) + z * (all_doubles(-1.0 / 720) + z * all_doubles(1.0 / 40320))));
+    const D8 s = x * (1.0 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040))));
+    const D8 c = 1.0 + z * (-0.5 + z * (1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320))));
     return {floats(c), floats(s)};
 }
 

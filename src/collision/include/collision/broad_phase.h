@@ -38,8 +38,8 @@ struct ItemTraits
 
 [[nodiscard]] inline F4 swept(F4 box, Vec2 way, float any_way)
 {
-    const F4 shift = {way.x, way.y, way.x, way.y};
-    return grown(box + __builtin_shufflevector(least(shift, F4{}), greatest(shift, F4{}), 0, 1, 6, 7), any_way);
+    const F4 shift = four_of(way.x, way.y, way.x, way.y);
+    return grown(box + low_and_high(least(shift, F4{}), greatest(shift, F4{})), any_way);
 }
 
 /// The box around all that it covers.
@@ -48,15 +48,13 @@ struct ItemTraits
 /// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.
 [[nodiscard]] inline float least_gap(const BoxPath& a, const BoxPath& b)
 {
-    const F4 d = {b.shift.x - a.shift.x, b.shift.y - a.shift.y, a.shift.x - b.shift.x, a.shift.y - b.shift.y};
-    const F4 none{};
+    const F4 d = four_of(b.shift.x - a.shift.x, b.shift.y - a.shift.y, a.shift.x - b.shift.x, a.shift.y - b.shift.y);
     const F4 from = load4(&b.box.lx);
     const F4 to = load4(&a.box.lx);
-    const F4 low = __builtin_shufflevector(from, to, 0, 1, 4, 5) + (d < none ? d : none);
-    const F4 gap = low - __builtin_shufflevector(to, from, 2, 3, 6, 7);
-    const float x = gap[0] > gap[2] ? gap[0] : gap[2];
-    const float y = gap[1] > gap[3] ? gap[1] : gap[3];
-    return (x > y ? x : y) - (a.any_way + b.any_way);
+    const F4 low = low_halves(from, to) + least(d, F4{});
+    const F4 gap = low - high_halves(to, from);
+    const F4 by_axis = greatest(gap, swapped_halves(gap));
+    return first_lane(greatest(by_axis, swapped_neighbours(by_axis))) - (a.any_way + b.any_way);
 }
 
 /// All that decides about an item's pairs.

@@ -1,51 +1,38 @@
 #pragma once
 
-// Four floats that are calculated with at once, on GCC's and Clang's vector extensions: every machine that we build for has registers of that size.
-// What needs eight, and a kernel per instruction set, is in lane_math.h.
+// Four floats that are calculated with at once: every machine that we build for has registers of that size. What needs eight, and a kernel per
+// instruction set, is in lane_math.h.
+
+#include "core/lanes/vectors.h"
 
 #include <cstdint>
-#include <cstring>
-
-#define CAROM_INLINE inline __attribute__((always_inline))
 
 namespace carom::internal {
 
-using F4 = float __attribute__((vector_size(16)));
-using I4 = std::int32_t __attribute__((vector_size(16)));
-using D2 = double __attribute__((vector_size(16)));
+using F4 = Floats<lanes::FourFloats>;
+using I4 = Ints<lanes::FourInts>;
+using D2 = Doubles<lanes::TwoDoubles>;
 
-CAROM_INLINE F4 load4(const float* p)
-{
-    F4 v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-}
+CAROM_INLINE F4 four_of(float a, float b, float c, float d) { return lanes::four(a, b, c, d); }
+CAROM_INLINE D2 two_of(double a, double b) { return lanes::two(a, b); }
 
-CAROM_INLINE D2 load2(const double* p)
-{
-    D2 v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-}
+CAROM_INLINE F4 load4(const float* p) { return lanes::load_four(p); }
+CAROM_INLINE D2 load2(const double* p) { return lanes::load_two(p); }
+CAROM_INLINE void store4(float* p, F4 v) { lanes::store(p, v.v); }
+CAROM_INLINE void store2(double* p, D2 v) { lanes::store(p, v.v); }
 
-CAROM_INLINE void store4(float* p, F4 v) { std::memcpy(p, &v, sizeof v); }
+CAROM_INLINE float first_lane(F4 a) { return lanes::first_lane(a.v); }
+CAROM_INLINE unsigned bits(I4 mask) { return lanes::signs(mask.v); } ///< one for each lane of a comparison that holds
 
-CAROM_INLINE F4 least(F4 a, F4 b) { return a < b ? a : b; }
-CAROM_INLINE D2 least(D2 a, D2 b) { return a < b ? a : b; }
-CAROM_INLINE F4 greatest(F4 a, F4 b) { return a > b ? a : b; }
-CAROM_INLINE F4 magnitude(F4 a) { return greatest(a, -a); }
-CAROM_INLINE F4 swap_halves(F4 a) { return __builtin_shufflevector(a, a, 2, 3, 0, 1); }
-
-/// A bit for each lane of a comparison that holds.
-CAROM_INLINE unsigned bits(I4 mask)
-{
-#if defined(__SSE__)
-    F4 signs;
-    std::memcpy(&signs, &mask, sizeof signs);
-    return static_cast<unsigned>(__builtin_ia32_movmskps(signs));
-#else
-    return (mask[0] & 1u) | (mask[1] & 2u) | (mask[2] & 4u) | (mask[3] & 8u);
-#endif
-}
+// Moves, with a = a0 a1 a2 a3.
+CAROM_INLINE F4 low_halves(F4 a, F4 b) { return lanes::low_halves(a.v, b.v); }             ///< a0 a1 b0 b1
+CAROM_INLINE F4 high_halves(F4 a, F4 b) { return lanes::high_halves(a.v, b.v); }           ///< a2 a3 b2 b3
+CAROM_INLINE F4 low_and_high(F4 a, F4 b) { return lanes::low_and_high(a.v, b.v); }         ///< a0 a1 b2 b3
+CAROM_INLINE F4 even_lanes(F4 a, F4 b) { return lanes::even_lanes(a.v, b.v); }             ///< a0 a2 b0 b2
+CAROM_INLINE F4 odd_lanes(F4 a, F4 b) { return lanes::odd_lanes(a.v, b.v); }               ///< a1 a3 b1 b3
+CAROM_INLINE F4 interleaved_high(F4 a, F4 b) { return lanes::interleaved_high(a.v, b.v); } ///< a2 b2 a3 b3
+CAROM_INLINE F4 swapped_halves(F4 a) { return lanes::swapped_halves(a.v); }                ///< a2 a3 a0 a1
+CAROM_INLINE F4 swapped_neighbours(F4 a) { return lanes::swapped_neighbours(a.v); }        ///< a1 a0 a3 a2
+CAROM_INLINE F4 with_last(F4 a, F4 b) { return lanes::with_last(a.v, b.v); }               ///< a0 a1 a2 b3
 
 } // namespace carom::internal

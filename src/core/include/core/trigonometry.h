@@ -3,7 +3,7 @@
 // sin, cos, atan2 and exp from + - * / alone, so that every platform gives the same bits. Errors below 1e-15 relative to 1
 // in double for arguments up to 1e6.
 
-#include "core/float4.h"
+#include "core/compiler.h"
 
 namespace carom::internal {
 

@@ -3,7 +3,7 @@
 // Hinges of large units, eight side by side: no two of a group share a moving body. A hinge holds two anchors together; of some the angle is
 // limited, driven or sprung as well.
 
-#include "core/lanes.h"
+#include "core/lane_storage.h"
 #include "dynamics/rows.h"
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 //   along  = r · n    the arm of the tangent, and how the separation curves
 // Points and normals are those of the start of the step; what turns with them is the separation.
 
-#include "core/lanes.h"
+#include "core/lane_storage.h"
 #include "dynamics/rows.h"
 
 #include <cstdint>

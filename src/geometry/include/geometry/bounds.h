@@ -19,11 +19,11 @@ struct FloatBox
 {
     const F4 x = load4(&a.lx);
     const F4 y = load4(&b.lx);
-    return bits(__builtin_shufflevector(x, y, 0, 1, 4, 5) <= __builtin_shufflevector(y, x, 2, 3, 6, 7)) == 15;
+    return bits(low_halves(x, y) <= high_halves(y, x)) == 15;
 }
 [[nodiscard]] inline bool contains(F4 outer, F4 inner)
 {
-    return bits(__builtin_shufflevector(outer, inner, 0, 1, 6, 7) <= __builtin_shufflevector(inner, outer, 0, 1, 6, 7)) == 15;
+    return bits(low_and_high(outer, inner) <= low_and_high(inner, outer)) == 15;
 }
 [[nodiscard]] inline bool contains(const FloatBox& outer, const FloatBox& inner)
 {
@@ -45,15 +45,15 @@ struct FloatBox
 [[nodiscard]] inline F4 rounded_outwards(double lx, double ly, double ux, double uy)
 {
     constexpr float spacing = 0x1p-23f;
-    const F4 b = {static_cast<float>(lx), static_cast<float>(ly), static_cast<float>(ux), static_cast<float>(uy)};
-    return b + F4{-spacing, -spacing, spacing, spacing} * magnitude(b);
+    const F4 b = four_of(static_cast<float>(lx), static_cast<float>(ly), static_cast<float>(ux), static_cast<float>(uy));
+    return b + four_of(-spacing, -spacing, spacing, spacing) * magnitude(b);
 }
 [[nodiscard]] inline FloatBox round_outwards(double lx, double ly, double ux, double uy)
 {
     return box_of(rounded_outwards(lx, ly, ux, uy));
 }
 [[nodiscard]] inline FloatBox round_outwards(const Box& b) { return round_outwards(b.lower.x, b.lower.y, b.upper.x, b.upper.y); }
-[[nodiscard]] inline F4 grown(F4 box, float m) { return box + F4{-m, -m, m, m}; }
+[[nodiscard]] inline F4 grown(F4 box, float m) { return box + four_of(-m, -m, m, m); }
 [[nodiscard]] inline FloatBox grow(const FloatBox& b, float m) { return box_of(grown(load4(&b.lx), m)); }
 
 /// Tight box of a leaf whose body's frame has this pose. A half-space gives an infinite one.
