@@ -1,18 +1,51 @@
 # What every target of this project has in common.
 
+include(CheckCXXCompilerFlag)
+
+# Two ways of spelling options. clang-cl takes MSVC's, and those of Clang by /clang:.
+if(MSVC)
+    set(CAROM_COMPILER_IS_GNU_LIKE FALSE)
+else()
+    set(CAROM_COMPILER_IS_GNU_LIKE TRUE)
+endif()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
+    set(CAROM_FOR_X86 TRUE)
+else()
+    set(CAROM_FOR_X86 FALSE)
+endif()
+
+# carom_options(<target> <option>...): those that the compiler knows.
+function(carom_options target)
+    foreach(option IN LISTS ARGN)
+        string(MAKE_C_IDENTIFIER "CAROM_HAS${option}" known)
+        check_cxx_compiler_flag("${option}" ${known})
+        if(${known})
+            target_compile_options(${target} PRIVATE "${option}")
+        endif()
+    endforeach()
+endfunction()
+
 # carom_target(<target>): language level, warnings, and the floating-point rule that determinism rests on.
 function(carom_target target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-    # g++ contracts a*b+c to one rounding by default where the machine can: other bits than everywhere else.
+    # Compilers contract a*b+c to one rounding by default where the machine can: other bits than everywhere else. MSVC does not by /fp:precise.
+    if(CAROM_COMPILER_IS_GNU_LIKE)
+        carom_options(${target} -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion -Wshadow)
+    else()
+        carom_options(${target} /fp:precise /clang:-ffp-contract=off /clang:-fno-math-errno /W4 /utf-8)
+    endif()
+    if(CMAKE_CXX_COMPILER_ID STREQUAL IntelLLVM)
+        carom_options(${target} -fp-model=precise) # its default is fast
+    endif()
     # g++ 12 takes a pair of doubles through floats without rounding them when it vectorizes the pair.
-    # g++ inlines no function of a position-independent file that another library could replace; nobody replaces the engine's.
-    target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion -Wshadow
-                           "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize;-fno-semantic-interposition>")
-    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+        carom_options(${target} -fno-tree-slp-vectorize)
+    endif()
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CAROM_FOR_X86)
         # g++ clears and copies records of a few cache lines by instructions that take longer to begin than that takes.
-        target_compile_options(${target} PRIVATE -mmemset-strategy=vector_loop:512:noalign,libcall:-1:noalign
-                               -mmemcpy-strategy=vector_loop:512:noalign,libcall:-1:noalign)
+        carom_options(${target} -mmemset-strategy=vector_loop:512:noalign,libcall:-1:noalign
+                      -mmemcpy-strategy=vector_loop:512:noalign,libcall:-1:noalign)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
         # g++ 12 sees an overlap in every inlined "text" + std::string (GCC bug 105651).
@@ -20,10 +53,14 @@ function(carom_target target)
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
         # clang reports what libstdc++ 12's own std::stable_sort calls; g++ reports what we call.
-        target_compile_options(${target} PRIVATE -Wno-deprecated-declarations)
+        carom_options(${target} -Wno-deprecated-declarations)
     endif()
     if(CAROM_WERROR)
-        target_compile_options(${target} PRIVATE -Werror)
+        if(CAROM_COMPILER_IS_GNU_LIKE)
+            carom_options(${target} -Werror)
+        else()
+            carom_options(${target} /WX)
+        endif()
     endif()
     # A third of what a file takes to compile. g++ builds go without, but for tests: they tell where an include is missing.
     get_target_property(shared ${target} PRECOMPILE_HEADERS_REUSE_FROM)
@@ -41,17 +78,26 @@ function(carom_fuzzed target)
 endfunction()
 
 # carom_kernels(<folder>): the kernels in it are one source, compiled for what the machine may have; the choice falls at run time
-# (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only.
+# (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only. -Wa,...: g++ for Windows aligns the stack to 16 bytes.
 function(carom_kernels folder)
     # Precompiled headers belong to one set of instructions.
     set_source_files_properties("${folder}/kernels_baseline.cpp" "${folder}/kernels_avx2.cpp" "${folder}/kernels_avx512.cpp"
                                 PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-    set_source_files_properties("${folder}/kernels_baseline.cpp" PROPERTIES COMPILE_OPTIONS -Wno-psabi)
-    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-        set_source_files_properties("${folder}/kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "-Wno-psabi;-mavx2")
-        set_source_files_properties("${folder}/kernels_avx512.cpp" PROPERTIES
-                                    COMPILE_OPTIONS "-Wno-psabi;-mavx512f;-mavx512vl;-mprefer-vector-width=256")
+    if(NOT CAROM_FOR_X86 OR (MSVC AND NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang))
+        return()
     endif()
+    set(avx2 -mavx2)
+    set(avx512 -mavx512f -mavx512vl -mprefer-vector-width=256)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+        list(APPEND avx2 -Wno-psabi)
+        list(APPEND avx512 -Wno-psabi)
+        if(MINGW)
+            list(APPEND avx2 -Wa,-muse-unaligned-vector-move)
+            list(APPEND avx512 -Wa,-muse-unaligned-vector-move)
+        endif()
+    endif()
+    set_source_files_properties("${folder}/kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "${avx2}")
+    set_source_files_properties("${folder}/kernels_avx512.cpp" PROPERTIES COMPILE_OPTIONS "${avx512}")
 endfunction()
 
 # carom_command_line(<file>...): what reads a program's command line runs once; optimizing CLI11 takes half of compiling it.

@@ -3,6 +3,7 @@
 /// @file
 /// Bodies: what a body is made from (BodyDef), and the short-lived references that read and change one.
 
+#include "carom/config.h"
 #include "carom/id.h"
 #include "carom/math.h"
 
@@ -64,7 +65,7 @@ struct BodyDef
 };
 
 /// Reads a body. A short-lived reference: valid until the body is destroyed; every call checks that.
-class ConstBody
+class CAROM_API ConstBody
 {
 public:
     [[nodiscard]] BodyId id() const { return m_id; }
@@ -112,7 +113,7 @@ protected:
 };
 
 /// Reads and changes a body. Verbs that give motion wake the body; non-finite arguments are refused.
-class Body : public ConstBody
+class CAROM_API Body : public ConstBody
 {
 public:
     void set_type(BodyType type);

@@ -4,6 +4,7 @@
 /// Drawing for developers: the scene calls, you draw.
 
 #include "carom/body.h"
+#include "carom/config.h"
 #include "carom/id.h"
 #include "carom/math.h"
 #include "carom/shape.h"
@@ -35,7 +36,7 @@ enum class DrawRole : std::uint8_t
 };
 
 /// Implement what you need; every function does nothing by default. Lengths in m, in the world.
-class DebugDraw
+class CAROM_API DebugDraw
 {
 public:
     virtual ~DebugDraw() = default;

@@ -5,16 +5,25 @@
 
 #include "carom/config.h"
 
-#include <stdexcept>
-#include <string>
+#include <exception>
 
 namespace carom {
 
 /// Thrown by every public function that refuses its input.
-class Error : public std::invalid_argument
+class CAROM_API Error : public std::exception
 {
 public:
-    using std::invalid_argument::invalid_argument;
+    explicit Error(const char* sentence); ///< keeps a copy, which copies of the error share
+    Error(const Error& other) noexcept;
+    Error& operator=(const Error& other) noexcept;
+    ~Error() override;
+
+    /// "Scene::update: dt is nan, but must be finite and > 0".
+    [[nodiscard]] const char* what() const noexcept override;
+
+private:
+    struct Sentence;
+    Sentence* m_sentence;
 };
 
 /// Receives the sentence where the library is built without exceptions. If it returns, the function that refused
@@ -23,6 +32,6 @@ using ErrorHandler = void (*)(const char* sentence);
 
 /// Replaces the handler used in builds without exceptions. The default prints the sentence to stderr and aborts.
 /// Null restores the default. Returns the handler it replaces. Not thread-safe: set it before the first scene.
-ErrorHandler set_error_handler(ErrorHandler handler);
+CAROM_API ErrorHandler set_error_handler(ErrorHandler handler);
 
 } // namespace carom

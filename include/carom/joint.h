@@ -4,6 +4,7 @@
 /// Joints between two bodies, or a body and the world (a null body). Anchors are in each body's frame; the anchor of a
 /// null body is a point of the world. A joint between two static bodies waits until Body::set_type lets one of them move.
 
+#include "carom/config.h"
 #include "carom/id.h"
 #include "carom/math.h"
 
@@ -107,7 +108,7 @@ struct PrismaticDef
 using JointDef = std::variant<SpringDef, DistanceDef, RevoluteDef, PrismaticDef>;
 
 /// Reads a joint. A short-lived reference; every call checks the id.
-class ConstJoint
+class CAROM_API ConstJoint
 {
 public:
     [[nodiscard]] JointId id() const { return m_id; }
@@ -134,7 +135,7 @@ protected:
 };
 
 /// Reads and changes a joint.
-class Joint : public ConstJoint
+class CAROM_API Joint : public ConstJoint
 {
 public:
     /// Replaces the parameters: the same kind of joint on the same bodies. Wakes the bodies. Meant to be cheap: motors,

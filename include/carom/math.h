@@ -4,6 +4,8 @@
 /// Small value types of the plane. SI units, angles in radians, counter-clockwise positive, y up.
 /// Every function here gives the same bits on every platform: none of them calls the C library's sin or cos.
 
+#include "carom/config.h"
+
 #include <cmath>
 
 namespace carom {
@@ -42,7 +44,7 @@ struct Vec2
     return static_cast<float>(std::sqrt(x * x + y * y));
 }
 /// The vector at length one; the zero vector stays zero.
-[[nodiscard]] Vec2 normalize(Vec2 a);
+[[nodiscard]] CAROM_API Vec2 normalize(Vec2 a);
 
 /// A point of the world, in doubles: the world may be large and impacts stay sharp far from its origin.
 /// The difference of two positions is taken in double and given as a Vec2.
@@ -75,9 +77,9 @@ struct Rotation
     float s = 0;
 
     /// Rotation by an angle in radians; any finite angle.
-    [[nodiscard]] static Rotation from_angle(float radians);
+    [[nodiscard]] CAROM_API static Rotation from_angle(float radians);
     /// The angle in radians, from -pi to pi.
-    [[nodiscard]] float angle() const;
+    [[nodiscard]] CAROM_API float angle() const;
     friend constexpr bool operator==(Rotation, Rotation) = default;
 };
 

@@ -4,6 +4,7 @@
 /// The scene: one object that holds bodies, shapes and joints and steps them through time.
 
 #include "carom/body.h"
+#include "carom/config.h"
 #include "carom/debug_draw.h"
 #include "carom/error.h"
 #include "carom/event.h"
@@ -58,7 +59,7 @@ struct TaskHooks
 /// The instruction set that the engine's kernels use on this machine: "sse2", "avx2" or "avx512" on x86-64 (the environment variable
 /// CAROM_ISA may ask for a lesser one before the first step), "neon" on AArch64, "wasm" in WebAssembly with
 /// 128-bit lanes, "baseline" elsewhere. The results are the same bits with all.
-[[nodiscard]] const char* instruction_set();
+[[nodiscard]] CAROM_API const char* instruction_set();
 
 /// Parameters of a new scene.
 struct SceneDef
@@ -105,7 +106,7 @@ struct UpdateResult
 ///
 /// Every function refuses bad input (carom::Error) and leaves the scene as it was: numbers that are not finite or
 /// out of range, stale ids, a step of 0.
-class Scene
+class CAROM_API Scene
 {
 public:
     explicit Scene(const SceneDef& def = {});

@@ -3,6 +3,7 @@
 /// @file
 /// Shapes: geometry in the body's frame, material, filter, and what makes a shape a trigger or a field.
 
+#include "carom/config.h"
 #include "carom/id.h"
 #include "carom/math.h"
 
@@ -47,11 +48,11 @@ struct Polygon
 };
 
 /// A rectangle as a polygon. Half sizes in m, > 0; angle in radians about the centre.
-[[nodiscard]] Polygon box(float half_width, float half_height, Vec2 center = {}, float angle = 0, float radius = 0);
+[[nodiscard]] CAROM_API Polygon box(float half_width, float half_height, Vec2 center = {}, float angle = 0, float radius = 0);
 
 /// Splits any simple outline into convex polygons that cover it without overlap (ear clipping, then merging).
 /// An outline that crosses itself is refused.
-[[nodiscard]] std::vector<Polygon> split_concave(std::span<const Vec2> outline);
+[[nodiscard]] CAROM_API std::vector<Polygon> split_concave(std::span<const Vec2> outline);
 
 /// The convex hull of two circles. Equal radii give the usual capsule, different ones a pinball flipper.
 struct Capsule
@@ -171,7 +172,7 @@ struct ShapeDef
 };
 
 /// Reads a shape. A short-lived reference; every call checks the id.
-class ConstShape
+class CAROM_API ConstShape
 {
 public:
     [[nodiscard]] ShapeId id() const { return m_id; }
@@ -191,7 +192,7 @@ protected:
 };
 
 /// Reads and changes a shape.
-class Shape : public ConstShape
+class CAROM_API Shape : public ConstShape
 {
 public:
     /// Replaces everything but the geometry. The body's mass follows a changed density.

@@ -18,8 +18,11 @@ void check_times(const char* function, const char* field, std::span<const Change
     for (const Change& change : changes)
     {
         if (!(change.time >= last && change.time <= static_cast<double>(step)))
-            throw Error(std::string(function) + ": " + field + " is " + std::to_string(change.time) +
-                        ", but must lie within the step and not before the change ahead of it");
+        {
+            const std::string sentence = std::string(function) + ": " + field + " is " + std::to_string(change.time) +
+                                         ", but must lie within the step and not before the change ahead of it";
+            throw Error(sentence.c_str());
+        }
         last = change.time;
     }
 }

@@ -2,10 +2,35 @@
 
 #include "carom/config.h"
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 
 namespace carom {
+
+struct Error::Sentence
+{
+    std::string text;
+    std::atomic<int> owners{1};
+};
+
+Error::Error(const char* sentence) : m_sentence(new Sentence{sentence}) {}
+Error::Error(const Error& other) noexcept : std::exception(other), m_sentence(other.m_sentence) { ++m_sentence->owners; }
+
+Error& Error::operator=(const Error& other) noexcept
+{
+    Error copy(other);
+    std::swap(m_sentence, copy.m_sentence);
+    return *this;
+}
+
+Error::~Error()
+{
+    if (--m_sentence->owners == 0)
+        delete m_sentence;
+}
+
+const char* Error::what() const noexcept { return m_sentence->text.c_str(); }
 
 namespace {
 
@@ -32,7 +57,7 @@ bool refuse(const char* function, const char* field, const std::string& value, c
 {
     const std::string sentence = std::string(function) + ": " + field + " is " + value + ", but " + rule;
 #if CAROM_EXCEPTIONS
-    throw Error(sentence);
+    throw Error(sentence.c_str());
 #else
     g_handler(sentence.c_str());
     return false;

@@ -93,15 +93,15 @@ CAROM_INLINE auto lanes_from(const Value& value)
 CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
 {
     constexpr int most_halvings = 3; // two, and one that rounding may ask for
-    const D8 none = 0.0;
+    const D8 nothing = 0.0;
     const D8 one = 1.0;
     const D8 y = doubles(sine);
     const D8 x = doubles(cosine);
-    const D8 ax = select(x < none, -x, x);
-    const D8 ay = select(y < none, -y, y);
+    const D8 ax = select(x < nothing, -x, x);
+    const D8 ay = select(y < nothing, -y, y);
     const auto flat = ay <= ax;
     const D8 longer = select(flat, ax, ay);
-    D8 t = select(flat, ay, ax) / select(longer == none, one, longer);
+    D8 t = select(flat, ay, ax) / select(longer == nothing, one, longer);
     D8 whole = one;
     for (int i = 0; i < most_halvings; ++i)
     {
@@ -111,8 +111,8 @@ CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
     }
     const D8 unit = whole * atan_small(t);
     const D8 angle = select(flat, unit, half_pi - unit);
-    const D8 upper = select(x < none, 2 * half_pi - angle, angle);
-    return floats(select(y < none, -upper, upper));
+    const D8 upper = select(x < nothing, 2 * half_pi - angle, angle);
+    return floats(select(y < nothing, -upper, upper));
 }
 
 } // namespace carom::internal
