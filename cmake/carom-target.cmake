@@ -80,9 +80,9 @@ endfunction()
 # carom_kernels(<folder>): the kernels in it are one source, compiled for what the machine may have; the choice falls at run time
 # (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only. -Wa,...: g++ for Windows aligns the stack to 16 bytes.
 function(carom_kernels folder)
-    # Precompiled headers belong to one set of instructions.
+    # Precompiled headers belong to one set of instructions, and CAROM_ISA to one file.
     set_source_files_properties("${folder}/kernels_baseline.cpp" "${folder}/kernels_avx2.cpp" "${folder}/kernels_avx512.cpp"
-                                PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+                                PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
     if(NOT CAROM_FOR_X86 OR (MSVC AND NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang))
         return()
     endif()

@@ -29,7 +29,7 @@ Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 Point operator*(double k, Point a) { return {k * a.x, k * a.y}; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-double size(Point a) { return std::sqrt(dot(a, a)); }
+double magnitude(Point a) { return std::sqrt(dot(a, a)); }
 Point wide(Vec2 v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
 
 Point rotated(Rotation q, Point p)
@@ -166,7 +166,7 @@ private:
                                            nearest(other, p).distance > m_tolerance)
                                            return false;
                                        const Point way = nearest(other, p + 2 * m_tolerance * n).at - p;
-                                       const double l = size(way);
+                                       const double l = magnitude(way);
                                        return l > 0.002 * m_tolerance && dot(n, way) > 1e-3 * l;
                                    });
     }
@@ -186,7 +186,7 @@ private:
         const int next = m_hull.next(edge);
         const Point start = wide(m_hull.point(edge)) + static_cast<double>(m_hull.radius(edge)) * n;
         const Point along = wide(m_hull.point(next)) + static_cast<double>(m_hull.radius(next)) * n - start;
-        const double l = size(along);
+        const double l = magnitude(along);
         if (!(l > 0))
             return false;
         const Point t = (1 / l) * along;
