@@ -11,7 +11,7 @@
 /// The version as one number, 10,000 · major + 100 · minor + patch, for comparison in the preprocessor.
 #define CAROM_VERSION (CAROM_VERSION_MAJOR * 10000 + CAROM_VERSION_MINOR * 100 + CAROM_VERSION_PATCH)
 
-/// What a shared library shows: the public API, nothing else. CMake defines CAROM_SHARED for the library and whoever links it where it is shared,
+/// Marks the public API, all that a shared library exports. CMake defines CAROM_SHARED for the library and whoever links it where it is shared,
 /// and CAROM_IS_BUILT while it is built.
 #if defined(_WIN32) && defined(CAROM_SHARED) && defined(CAROM_IS_BUILT)
 #define CAROM_API __declspec(dllexport)

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a compiler offers beside ISO C++, under one name each; the lane backends (core/lanes/) are the only other place for such things. A compiler
-// that nobody thought of here gets plain C++.
+// Extensions of compilers, under one name each. The lane backends (core/lanes/) are the only other place for anything that is not ISO C++. A compiler
+// that is not named here gets plain C++.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
-// Four floats that are calculated with at once: every machine that we build for has registers of that size. What needs eight, and a kernel per
-// instruction set, is in lane_math.h.
+// Four floats that are calculated with at once: every machine that we build for has registers of that size. Eight, in a kernel
+// per instruction set, are in lane_math.h.
 
 #include "core/lanes/vectors.h"
 

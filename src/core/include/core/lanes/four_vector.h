@@ -97,7 +97,7 @@ CAROM_INLINE TwoDoubles root(TwoDoubles a) { return static_cast<TwoDoubles>(wasm
 CAROM_INLINE FourFloats choose(FourInts mask, FourFloats a, FourFloats b) { return mask ? a : b; }
 CAROM_INLINE TwoDoubles choose(TwoLongs mask, TwoDoubles a, TwoDoubles b) { return mask ? a : b; }
 CAROM_INLINE unsigned signs(FourInts a) { return wasm_i32x4_bitmask(static_cast<v128_t>(a)); }
-// Of these, unlike of its other two, the second is the first of a comparison.
+// pmin(b, a) is a < b ? a : b.
 CAROM_INLINE FourFloats least(FourFloats a, FourFloats b)
 {
     return static_cast<FourFloats>(wasm_f32x4_pmin(static_cast<v128_t>(b), static_cast<v128_t>(a)));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers side by side with the operators of numbers: what kernels are written in. R is a register, or Halves of several.
+// Vectors of numbers with the operators of numbers. Kernels are written in these. R is a register, or Halves of several.
 
 #include "core/lanes/registers.h"
 
