@@ -1,6 +1,7 @@
 # What every target of this project has in common.
 
 include(CheckCXXCompilerFlag)
+include(CheckCXXSourceCompiles)
 
 # Two ways of spelling options. clang-cl takes MSVC's, and those of Clang by /clang:.
 if(MSVC)
@@ -8,11 +9,12 @@ if(MSVC)
 else()
     set(CAROM_COMPILER_IS_GNU_LIKE TRUE)
 endif()
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
-    set(CAROM_FOR_X86 TRUE)
-else()
-    set(CAROM_FOR_X86 FALSE)
-endif()
+# Asked of the compiler: CMAKE_SYSTEM_PROCESSOR may be the host's. Not where one build is for several processors.
+check_cxx_source_compiles("
+#if !defined(__x86_64__) && !defined(_M_X64)
+#error
+#endif
+int main() { return 0; }" CAROM_FOR_X86)
 
 # carom_options(<target> <option>...): those that the compiler knows.
 function(carom_options target)
@@ -33,7 +35,7 @@ function(carom_target target)
     if(CAROM_COMPILER_IS_GNU_LIKE)
         carom_options(${target} -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion -Wshadow)
     else()
-        carom_options(${target} /fp:precise /clang:-ffp-contract=off /clang:-fno-math-errno /W4 /utf-8)
+        target_compile_options(${target} PRIVATE /fp:precise /W4 /utf-8 /wd4324 "$<$<CXX_COMPILER_ID:Clang>:/clang:-ffp-contract=off;/clang:-fno-math-errno>")
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL IntelLLVM)
         carom_options(${target} -fp-model=precise) # its default is fast
@@ -59,7 +61,7 @@ function(carom_target target)
         if(CAROM_COMPILER_IS_GNU_LIKE)
             carom_options(${target} -Werror)
         else()
-            carom_options(${target} /WX)
+            target_compile_options(${target} PRIVATE /WX)
         endif()
     endif()
     # A third of what a file takes to compile. g++ builds go without, but for tests: they tell where an include is missing.
@@ -78,26 +80,39 @@ function(carom_fuzzed target)
 endfunction()
 
 # carom_kernels(<folder>): the kernels in it are one source, compiled for what the machine may have; the choice falls at run time
-# (src/dynamics/wide/kernels.cpp). -Wno-psabi: vectors are passed to inlined functions only. -Wa,...: g++ for Windows aligns the stack to 16 bytes.
+# (src/dynamics/wide/kernels.cpp). Sets CAROM_WITH_AVX where there are such for AVX2 and AVX-512. -Wno-psabi: vectors are passed to inlined functions
+# only. -Wa,...: g++ for Windows aligns the stack to 16 bytes. -O1 in debug builds: nothing that the linker could take for another machine's is left
+# out of line.
 function(carom_kernels folder)
     # Precompiled headers belong to one set of instructions, and CAROM_ISA to one file.
     set_source_files_properties("${folder}/kernels_baseline.cpp" "${folder}/kernels_avx2.cpp" "${folder}/kernels_avx512.cpp"
                                 PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
-    if(NOT CAROM_FOR_X86 OR (MSVC AND NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang))
-        return()
+    set(CAROM_WITH_AVX FALSE PARENT_SCOPE)
+    set(every "$<$<CONFIG:Debug>:-O1>")
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+        list(APPEND every -Wno-psabi)
+        if(MINGW)
+            list(APPEND every -Wa,-muse-unaligned-vector-move)
+        endif()
     endif()
     set(avx2 -mavx2)
     set(avx512 -mavx512f -mavx512vl -mprefer-vector-width=256)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-        list(APPEND avx2 -Wno-psabi)
-        list(APPEND avx512 -Wno-psabi)
-        if(MINGW)
-            list(APPEND avx2 -Wa,-muse-unaligned-vector-move)
-            list(APPEND avx512 -Wa,-muse-unaligned-vector-move)
+    set(known TRUE)
+    foreach(option IN LISTS every avx2 avx512)
+        if(NOT option MATCHES "CONFIG")
+            string(MAKE_C_IDENTIFIER "CAROM_HAS${option}" variable)
+            check_cxx_compiler_flag("${option}" ${variable})
+            if(NOT ${variable})
+                set(known FALSE)
+            endif()
         endif()
+    endforeach()
+    if(NOT CAROM_FOR_X86 OR NOT known)
+        return()
     endif()
-    set_source_files_properties("${folder}/kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "${avx2}")
-    set_source_files_properties("${folder}/kernels_avx512.cpp" PROPERTIES COMPILE_OPTIONS "${avx512}")
+    set(CAROM_WITH_AVX TRUE PARENT_SCOPE)
+    set_source_files_properties("${folder}/kernels_avx2.cpp" PROPERTIES COMPILE_OPTIONS "${every};${avx2}")
+    set_source_files_properties("${folder}/kernels_avx512.cpp" PROPERTIES COMPILE_OPTIONS "${every};${avx512}")
 endfunction()
 
 # carom_command_line(<file>...): what reads a program's command line runs once; optimizing CLI11 takes half of compiling it.

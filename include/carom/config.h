@@ -17,14 +17,14 @@
 #define CAROM_API __declspec(dllexport)
 #elif defined(_WIN32) && defined(CAROM_SHARED)
 #define CAROM_API __declspec(dllimport)
-#elif !defined(_WIN32) && defined(__GNUC__)
+#elif !defined(_WIN32) && defined(CAROM_SHARED)
 #define CAROM_API __attribute__((visibility("default")))
 #else
 #define CAROM_API
 #endif
 
 /// 1 where refusals are thrown as carom::Error, 0 where they go to the handler set by carom::set_error_handler.
-#if defined(__cpp_exceptions) || defined(__EXCEPTIONS)
+#if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
 #define CAROM_EXCEPTIONS 1
 #else
 #define CAROM_EXCEPTIONS 0

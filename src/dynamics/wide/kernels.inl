@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <type_traits>
 
 namespace carom::internal::CAROM_ISA {
 

@@ -10,6 +10,10 @@
 #include <intrin.h>
 #endif
 
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
+#error "Carom needs floats that are rounded to floats: on 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
+
 // CAROM_GNU: the extensions of GCC, which Clang has too, also where it takes the place of MSVC.
 #if defined(__GNUC__) || defined(__clang__)
 #define CAROM_GNU 1
@@ -33,8 +37,9 @@
 #define CAROM_X86 0
 #endif
 
-// CAROM_HAS_AVX_KERNELS: the engine is built with kernels for AVX2 and AVX-512 beside those for SSE2.
-#if CAROM_X86 && CAROM_GNU && !defined(CAROM_SCALAR_LANES)
+// CAROM_HAS_AVX_KERNELS: the engine is built with kernels for AVX2 and AVX-512 beside those for SSE2. CMake defines CAROM_WITH_AVX where it passes the
+// options for them.
+#if defined(CAROM_WITH_AVX) && CAROM_X86 && CAROM_GNU && !defined(CAROM_SCALAR_LANES)
 #define CAROM_HAS_AVX_KERNELS 1
 #else
 #define CAROM_HAS_AVX_KERNELS 0

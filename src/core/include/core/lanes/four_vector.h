@@ -125,6 +125,10 @@ CAROM_INLINE FourFloats greatest(FourFloats a, FourFloats b) { return choose(a >
 
 CAROM_INLINE TwoDoubles least(TwoDoubles a, TwoDoubles b) { return choose(a < b, a, b); }
 
+#if defined(__aarch64__) // g++ converts lane by lane
+CAROM_INLINE Halves<TwoDoubles> to_doubles(FourFloats a) { return {vcvt_f64_f32(vget_low_f32(a)), vcvt_high_f64_f32(a)}; }
+CAROM_INLINE FourFloats to_floats(Halves<TwoDoubles> a) { return vcvt_high_f32_f64(vcvt_f32_f64(a.low), a.high); }
+#else
 CAROM_INLINE Halves<TwoDoubles> to_doubles(FourFloats a)
 {
     using TwoFloats = float __attribute__((vector_size(8)));
@@ -139,6 +143,7 @@ CAROM_INLINE FourFloats to_floats(Halves<TwoDoubles> a)
     const TwoFloats high = __builtin_convertvector(a.high, TwoFloats);
     return __builtin_shufflevector(low, high, 0, 1, 2, 3);
 }
+#endif
 
 CAROM_INLINE FourFloats low_halves(FourFloats a, FourFloats b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
 CAROM_INLINE FourFloats high_halves(FourFloats a, FourFloats b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }

@@ -18,7 +18,7 @@
 #include "core/lanes/four_scalar.h"
 #elif CAROM_X86
 #include "core/lanes/four_sse2.h"
-#elif CAROM_GNU
+#elif CAROM_GNU && (!defined(__arm__) || defined(__aarch64__)) // 32-bit NEON flushes small numbers to zero
 #include "core/lanes/four_vector.h"
 #else
 #include "core/lanes/four_scalar.h"

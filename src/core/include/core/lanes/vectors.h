@@ -65,6 +65,8 @@ struct Holds
 {
     R v;
 };
+template <class R>
+Holds(R) -> Holds<R>;
 
 template <class R>
 struct Doubles
