@@ -1,6 +1,6 @@
 #include "web/scenes.h"
 
-#include "scenes/build.h"
+#include "scenes/benchmark.h"
 
 #include <cmath>
 #include <numbers>
@@ -13,18 +13,12 @@ using carom::scenes::add_dynamic;
 using carom::scenes::add_static;
 using carom::scenes::BuiltScene;
 using carom::scenes::SceneEntry;
-
-SceneDef sleepless(SceneDef base)
-{
-    base.sleeping = false;
-    base.gravity = {0, -10};
-    return base;
-}
+using carom::scenes::sleepless_def;
 
 BuiltScene pyramid(const SceneDef& base)
 {
     constexpr int rows = 20;
-    BuiltScene built{Scene(sleepless(base))};
+    BuiltScene built{Scene(sleepless_def(base))};
     add_static(built.scene, box(40, 1), {}, {0, -1});
     for (int row = 0; row < rows; ++row)
     {
@@ -36,7 +30,7 @@ BuiltScene pyramid(const SceneDef& base)
     return built;
 }
 
-BuiltScene tumbler(const SceneDef& base) { return scenes::find_scene("tumbler")->create(sleepless(base)); }
+BuiltScene tumbler(const SceneDef& base) { return scenes::find_scene("tumbler")->create(sleepless_def(base)); }
 
 Polygon hexagon(float radius)
 {
@@ -55,7 +49,7 @@ BuiltScene pile(const SceneDef& base)
     constexpr int rows = 40;
     constexpr float pitch = 0.55f;
     constexpr float half_width = 0.5f * pitch * columns;
-    BuiltScene built{Scene(sleepless(base))};
+    BuiltScene built{Scene(sleepless_def(base))};
     Scene& scene = built.scene;
     add_static(scene, box(half_width + 1, 0.5f), {}, {0, -0.5f});
     for (const float side : {-1.0f, 1.0f})

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What scenes call back. Like std::function, whose header alone takes half as long to compile as all of Carom's.
+/// Callbacks of scenes. Like std::function, whose header alone takes half as long to compile as all of Carom's.
 
 #include <cstddef>
 #include <type_traits>

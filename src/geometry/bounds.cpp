@@ -13,7 +13,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class Extremes
 {
 public:
-    void add(F4 points, float r) { add(points, F4(r)); }
     void add(F4 points, F4 r)
     {
         m_low = least(m_low, points - r);

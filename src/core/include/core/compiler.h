@@ -57,17 +57,6 @@ CAROM_INLINE void prefetch_line([[maybe_unused]] const void* place)
 #endif
 }
 
-/// The same place, which the caller knows to be a multiple of 32 bytes.
-template <class T>
-CAROM_INLINE T* aligned_for_eight(T* place)
-{
-#if CAROM_GNU
-    return static_cast<T*>(__builtin_assume_aligned(place, 32));
-#else
-    return place;
-#endif
-}
-
 #if CAROM_HAS_AVX_KERNELS
 
 #if defined(_MSC_VER)

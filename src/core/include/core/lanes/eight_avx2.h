@@ -35,14 +35,9 @@ CAROM_INLINE void spread(float x, EightFloats& r) { r = EightFloats{x, x, x, x, 
 CAROM_INLINE void spread(double x, FourDoubles& r) { r = FourDoubles{x, x, x, x}; }
 
 CAROM_INLINE EightFloats load_aligned_eight(const float* p) { return _mm256_load_ps(p); }
-CAROM_INLINE EightInts load_aligned_eight(const std::int32_t* p)
-{
-    EightInts r;
-    std::memcpy(&r, aligned_for_eight(p), sizeof r);
-    return r;
-}
+CAROM_INLINE EightInts load_aligned_eight(const std::int32_t* p) { return read<EightInts>(p); }
 CAROM_INLINE void store_aligned(float* p, EightFloats v) { _mm256_store_ps(p, v); }
-CAROM_INLINE void store_aligned(std::int32_t* p, EightInts v) { std::memcpy(aligned_for_eight(p), &v, sizeof v); }
+CAROM_INLINE void store_aligned(std::int32_t* p, EightInts v) { std::memcpy(p, &v, sizeof v); }
 
 CAROM_INLINE EightFloats add(EightFloats a, EightFloats b) { return a + b; }
 CAROM_INLINE EightFloats subtract(EightFloats a, EightFloats b) { return a - b; }
@@ -75,18 +70,8 @@ CAROM_INLINE EightInts either(EightInts a, EightInts b) { return a | b; }
 CAROM_INLINE EightInts inverted(EightInts a) { return ~a; }
 CAROM_INLINE EightFloats choose(EightInts mask, EightFloats a, EightFloats b) { return mask ? a : b; }
 CAROM_INLINE FourDoubles choose(FourLongs mask, FourDoubles a, FourDoubles b) { return mask ? a : b; }
-CAROM_INLINE unsigned signs(EightInts a)
-{
-    EightFloats r;
-    std::memcpy(&r, &a, sizeof r);
-    return static_cast<unsigned>(_mm256_movemask_ps(r));
-}
-CAROM_INLINE EightInts same_bits(EightFloats a)
-{
-    EightInts r;
-    std::memcpy(&r, &a, sizeof r);
-    return r;
-}
+CAROM_INLINE unsigned signs(EightInts a) { return static_cast<unsigned>(_mm256_movemask_ps(read<EightFloats>(&a))); }
+CAROM_INLINE EightInts same_bits(EightFloats a) { return read<EightInts>(&a); }
 
 CAROM_INLINE EightDoubles to_doubles(EightFloats a)
 {

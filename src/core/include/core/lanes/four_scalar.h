@@ -11,7 +11,7 @@
 
 namespace carom::internal::lanes {
 
-inline constexpr const char* baseline_name = "scalar"; ///< of kernels that use no wider ones
+inline constexpr const char* baseline_name = "scalar"; ///< the name of kernels that use no wider registers
 
 using FourFloats = Halves<Halves<float>>;
 using FourInts = Halves<Halves<std::int32_t>>;
@@ -22,14 +22,6 @@ CAROM_INLINE FourInts four(std::int32_t a, std::int32_t b, std::int32_t c, std::
 CAROM_INLINE TwoDoubles two(double a, double b) { return {a, b}; }
 CAROM_INLINE void spread(float x, float& r) { r = x; }
 CAROM_INLINE void spread(double x, double& r) { r = x; }
-
-template <class R>
-CAROM_INLINE R read(const void* p)
-{
-    R r;
-    std::memcpy(&r, p, sizeof r);
-    return r;
-}
 
 CAROM_INLINE FourFloats load_four(const void* p) { return read<FourFloats>(p); }
 CAROM_INLINE FourFloats load_aligned_four(const float* p) { return read<FourFloats>(p); }

@@ -12,7 +12,7 @@
 
 namespace carom::internal::lanes {
 
-inline constexpr const char* baseline_name = "sse2"; ///< of kernels that use no wider ones
+inline constexpr const char* baseline_name = "sse2"; ///< the name of kernels that use no wider registers
 
 #if CAROM_GNU // as the intrinsics' types, without their leave to alias, which template arguments do not carry
 using FourFloats = float __attribute__((vector_size(16)));

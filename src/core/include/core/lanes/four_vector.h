@@ -14,7 +14,7 @@
 
 namespace carom::internal::lanes {
 
-/// Of kernels that use no wider ones.
+/// The name of kernels that use no wider registers.
 #if defined(__aarch64__)
 inline constexpr const char* baseline_name = "neon";
 #elif defined(__wasm_simd128__)
@@ -33,14 +33,6 @@ CAROM_INLINE FourInts four(std::int32_t a, std::int32_t b, std::int32_t c, std::
 CAROM_INLINE TwoDoubles two(double a, double b) { return TwoDoubles{a, b}; }
 CAROM_INLINE void spread(float x, FourFloats& r) { r = FourFloats{x, x, x, x}; }
 CAROM_INLINE void spread(double x, TwoDoubles& r) { r = TwoDoubles{x, x}; }
-
-template <class R>
-CAROM_INLINE R read(const void* p)
-{
-    R r;
-    std::memcpy(&r, p, sizeof r);
-    return r;
-}
 
 CAROM_INLINE FourFloats load_four(const void* p) { return read<FourFloats>(p); }
 CAROM_INLINE FourFloats load_aligned_four(const float* p) { return read<FourFloats>(__builtin_assume_aligned(p, 16)); }

@@ -5,6 +5,8 @@
 
 #include "core/compiler.h"
 
+#include <cstring>
+
 namespace carom::internal::lanes {
 
 template <class R>
@@ -15,5 +17,14 @@ struct Halves
 };
 template <class R>
 Halves(R, R) -> Halves<R>;
+
+/// The bytes there as a register, or those of one as another.
+template <class R>
+CAROM_INLINE R read(const void* p)
+{
+    R r;
+    std::memcpy(&r, p, sizeof r);
+    return r;
+}
 
 } // namespace carom::internal::lanes
