@@ -1,8 +1,10 @@
 // Contacts of figures: bodies that joints hold together are pushed as a whole. A contact that knew its own body alone would stop a foot and let the
 // joints push it on, turn after turn, as slowly as the foot is lighter than what it carries.
 //
-//   u = M^-1 j^T,  lambda = -A^-1 J u,  w = u + M^-1 J^T lambda       what a unit impulse along j and the answer of the joints do
-//   impulse = -(j v + bias) / (j w)
+//   Y = -A^-1 J M^-1 E,   R = M^-1 (E + J^T Y)       answers of the joints, and of bodies, to unit impulses E on one body
+//   impulse = -(j v + bias) / (j R j^T)
+//
+// While contacts push, only the bodies that have contacts are kept up to date; the others and the joints get their shares at the end.
 //
 // A figure that is held by what does not give way has no such answer everywhere: a wall may contradict its joints, and these have to yield. There, and
 // between two bodies of one figure, contacts push their own bodies alone and joints and contacts take turns.
@@ -20,9 +22,6 @@ namespace {
 
 // The least share of a body's own answer that counts: below it joints leave rounding alone, as of a turn that another body's lock forbids.
 constexpr double least_answer = 1e-9;
-
-// A row has a normal and a friction line for each point, and one for rolling.
-constexpr std::size_t lines_per_row = 5;
 
 float clamped_change(float& impulse, float change, float least, float most)
 {
@@ -99,102 +98,124 @@ int DirectSolve::free_figure_of(std::int32_t state) const
     return m_figures[as_index(figure)].anchored ? none : figure;
 }
 
-// --- answers of the joints ----------------------------------------------------------------------------------------------------------
+// --- responses ----------------------------------------------------------------------------------------------------------------------
 
-DirectSolve::PushedSide DirectSolve::pushed_side(std::int32_t state, int figure, Triple jacobian)
+Triple DirectSolve::Response::to(const Triple& impulse) const { return {dot(x, impulse), dot(y, impulse), dot(turn, impulse)}; }
+
+void DirectSolve::Response::add(const Triple& inverse_mass, const Triple& jacobian, const Triple& answers)
 {
-    PushedSide side;
-    side.state = state;
-    side.figure = figure;
-    const StateConstants& c = m_view.constants[state];
-    side.alone = product(as_triple(c.inverse_mass, c.inverse_inertia), jacobian);
+    x += (inverse_mass.x * jacobian.x) * answers;
+    y += (inverse_mass.y * jacobian.y) * answers;
+    turn += (inverse_mass.turn * jacobian.turn) * answers;
+}
+
+DirectSolve::Side DirectSolve::side_of(std::int32_t state)
+{
+    const int figure = free_figure_of(state);
     if (figure == none)
+        return {state};
+    const int n = node_of(state);
+    int& body = m_pushed_of[as_index(n)];
+    if (body == none)
     {
-        side.k = dot(jacobian, side.alone);
-        return side;
+        body = static_cast<int>(m_pushed.size());
+        std::vector<int>& others = m_figures[as_index(figure)].pushed;
+        m_pushed.push_back({.node = n, .figure = figure, .place = others.size()});
+        others.push_back(body);
     }
-    const Figure& whole = m_figures[as_index(figure)];
-    m_kept.clear();
-    for (const int n : whole.nodes)
-        m_kept.push_back(std::exchange(node(n).change, {}));
-    const int own = node_of(state);
-    node(own).change = product(m_masses[as_index(own)], jacobian);
+    return {state, figure, body};
+}
+
+void DirectSolve::find_responses(PushedBody& body)
+{
+    const Figure& whole = m_figures[as_index(body.figure)];
+    const Triple& mass = m_masses[as_index(body.node)];
     m_answer.resize(as_index(m_matrix.rows()));
     for (const int i : whole.items)
     {
         const Item& item = m_items[as_index(i)];
+        const JointJacobian& j = m_jacobians[as_index(i)];
         for (int r = 0; r < item.rows(); ++r)
-            m_answer[as_index(item.first_row + r)] = -change_along(item, r);
+            m_answer[as_index(item.first_row + r)] = item.a == body.node   ? -1 * product(mass, j.a[r])
+                                                     : item.b == body.node ? -1 * product(mass, j.b[r])
+                                                                           : Triple{};
     }
     m_matrix.solve(m_answer, whole.rows);
+    body.first_answer = m_answers.size();
+    for (const int row : whole.rows)
+        m_answers.push_back(m_answer[as_index(row)]);
+
+    body.first_response = m_responses.size();
+    m_responses.resize(m_responses.size() + whole.pushed.size());
+    const auto response_of = [&](int node) -> Response*
+    {
+        const int at = m_pushed_of[as_index(node)];
+        return at == none ? nullptr : &m_responses[body.first_response + m_pushed[as_index(at)].place];
+    };
+    *response_of(body.node) = {{mass.x, 0, 0}, {0, mass.y, 0}, {0, 0, mass.turn}};
     for (const int i : whole.items)
     {
         const Item& item = m_items[as_index(i)];
+        const JointJacobian& j = m_jacobians[as_index(i)];
+        Response* a = response_of(item.a);
+        Response* b = response_of(item.b);
         for (int r = 0; r < item.rows(); ++r)
         {
-            double& answer = m_answer[as_index(item.first_row + r)];
-            if (m_compliances[as_index(item.first_row + r)] == JointMatrix::off)
-                answer = 0;
-            else
-                push(item, r, answer);
+            const Triple& answers = m_answer[as_index(item.first_row + r)];
+            if (a != nullptr)
+                a->add(m_masses[as_index(item.a)], j.a[r], answers);
+            if (b != nullptr)
+                b->add(m_masses[as_index(item.b)], j.b[r], answers);
         }
     }
-    side.k = dot(jacobian, node(own).change);
-    side.first_change = m_changes.size();
-    side.first_answer = m_answers.size();
-    for (std::size_t i = 0; i < whole.nodes.size(); ++i)
-        m_changes.push_back(std::exchange(node(whole.nodes[i]).change, m_kept[i]));
-    for (const int row : whole.rows)
-        m_answers.push_back(m_answer[as_index(row)]);
-    return side;
+    body.responds = true;
 }
 
-const DirectSolve::PushedLine& DirectSolve::pushed_line(const ContactRow& row, std::size_t number, Triple ja, Triple jb)
+Triple DirectSolve::response(const Side& side, const Triple& impulse)
 {
-    int& at = m_line_of[number];
-    if (at == none)
-    {
-        at = static_cast<int>(m_lines.size());
-        const PushedSide a = pushed_side(row.a, free_figure_of(row.a), ja);
-        const PushedSide b = pushed_side(row.b, free_figure_of(row.b), jb);
-        const double k = a.k + b.k;
-        const double alone = dot(ja, a.alone) + dot(jb, b.alone);
-        m_lines.push_back({a, b, k > least_answer * alone ? static_cast<float>(1 / k) : 0});
-    }
-    return m_lines[as_index(at)];
+    if (side.body == none)
+        return response_alone(side, impulse);
+    PushedBody& body = m_pushed[as_index(side.body)];
+    if (!body.responds)
+        find_responses(body);
+    return m_responses[body.first_response + body.place].to(impulse);
 }
 
-void DirectSolve::push_whole(const PushedLine& line, float impulse)
+Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) const
 {
-    if (impulse == 0 || line.mass == 0)
+    const StateConstants& c = m_view.constants[side.state];
+    return product(as_triple(c.inverse_mass, c.inverse_inertia), impulse);
+}
+
+// 0 where joints leave no more than rounding of the bodies' own answer, as of a turn that another body's lock forbids.
+float DirectSolve::mass_along(const PushedLine& line)
+{
+    const double k = dot(line.ja, response(line.a, line.ja)) + dot(line.jb, response(line.b, line.jb));
+    const double alone = dot(line.ja, response_alone(line.a, line.ja)) + dot(line.jb, response_alone(line.b, line.jb));
+    return k > least_answer * alone ? static_cast<float>(1 / k) : 0;
+}
+
+void DirectSolve::push_whole(const PushedLine& line, float mass, float impulse)
+{
+    if (impulse == 0 || mass == 0)
         return;
-    push_whole(line.a, static_cast<double>(impulse));
-    push_whole(line.b, static_cast<double>(impulse));
-    m_largest_push = std::max(m_largest_push, std::fabs(impulse) / line.mass);
+    push_whole(line.a, static_cast<double>(impulse) * line.ja);
+    push_whole(line.b, static_cast<double>(impulse) * line.jb);
+    m_largest_push = std::max(m_largest_push, std::fabs(impulse) / mass);
 }
 
-void DirectSolve::push_whole(const PushedSide& side, double impulse)
+void DirectSolve::push_whole(const Side& side, const Triple& impulse)
 {
-    const auto give = [&](std::int32_t state, const Triple& change)
+    if (side.body == none)
     {
-        BodyState& s = m_view.states[state];
-        s.velocity += Vec2{static_cast<float>(impulse * change.x), static_cast<float>(impulse * change.y)};
-        s.angular_velocity += static_cast<float>(impulse * change.turn);
-    };
-    if (side.figure == none)
-    {
-        give(side.state, side.alone);
+        change_velocity(m_view.states[side.state], response_alone(side, impulse));
         return;
     }
-    const Figure& whole = m_figures[as_index(side.figure)];
-    for (std::size_t i = 0; i < whole.nodes.size(); ++i)
-    {
-        const Triple& change = m_changes[side.first_change + i];
-        give(node(whole.nodes[i]).state, change);
-        node(whole.nodes[i]).change += impulse * change;
-    }
-    for (std::size_t i = 0; i < whole.rows.size(); ++i)
-        m_answered[as_index(whole.rows[i])] += impulse * m_answers[side.first_answer + i];
+    PushedBody& body = m_pushed[as_index(side.body)];
+    body.given += impulse;
+    const Response* response = &m_responses[body.first_response];
+    for (const int i : m_figures[as_index(side.figure)].pushed)
+        change_velocity(m_view.states[node(m_pushed[as_index(i)].node).state], (response++)->to(impulse));
 }
 
 // --- passes -------------------------------------------------------------------------------------------------------------------------
@@ -202,45 +223,57 @@ void DirectSolve::push_whole(const PushedSide& side, double impulse)
 void DirectSolve::solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny)
 {
     constexpr int most_sweeps = 4;
-    m_lines.clear();
-    m_changes.clear();
-    m_answers.clear();
-    m_answered.assign(m_impulses.size(), 0);
-    m_line_of.assign(lines_per_row * (rows.size() + late_rows.size()), none);
+    begin_pushes();
+    for (const std::span<ContactRow> some : {rows, late_rows})
+    {
+        for (ContactRow& row : some)
+            m_contacts.push_back({&row, side_of(row.a), side_of(row.b)});
+    }
     for (int sweep = 0; sweep < most_sweeps; ++sweep)
     {
         m_largest_push = 0;
-        std::size_t number = 0;
-        for (const std::span<ContactRow> some : {rows, late_rows})
+        for (const Contact& contact : m_contacts)
         {
-            for (std::size_t i = 0; i < some.size(); ++i, number += lines_per_row)
-            {
-                const int a = free_figure_of(some[i].a);
-                const int b = free_figure_of(some[i].b);
-                if (a == b) // in one figure, or in none
-                    solve_rows(m_view, some.subspan(i, 1), use_bias);
-                else
-                    solve_contact(some[i], number, use_bias);
-            }
+            if (contact.a.figure == contact.b.figure) // or in none
+                solve_rows(m_view, {contact.row, 1}, use_bias);
+            else
+                solve_contact(contact, use_bias);
         }
         if (m_largest_push < tiny)
             break;
     }
+    for (const Figure& figure : m_figures)
+        take_pushes(figure);
     take_answers();
 }
 
-void DirectSolve::solve_contact(ContactRow& row, std::size_t number, bool use_bias)
+void DirectSolve::begin_pushes()
 {
-    const auto line = [&](std::size_t which, Vec2 d, const RowPoint& p) -> const PushedLine&
-    { return pushed_line(row, number + which, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))); };
+    for (Figure& figure : m_figures)
+        figure.pushed.clear();
+    m_contacts.clear();
+    m_pushed.clear();
+    m_pushed_of.assign(m_nodes.size(), none);
+    m_responses.clear();
+    m_answers.clear();
+    m_answered.assign(m_impulses.size(), 0);
+}
+
+void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
+{
+    const auto& [which, a, b] = contact;
+    ContactRow& row = *which;
     float load = 0;
     for (int i = 0; i < row.count; ++i)
         load += row.points[i].normal_impulse;
+    const auto line = [&](Vec2 d, const RowPoint& p)
+    { return PushedLine{a, b, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))}; };
     if (row.rolling > 0 && (load > 0 || row.rolling_impulse != 0))
     {
-        const PushedLine& turn = pushed_line(row, number + lines_per_row - 1, {0, 0, -1}, {0, 0, 1});
+        const PushedLine turn{a, b, {0, 0, -1}, {0, 0, 1}};
+        const float mass = mass_along(turn);
         const float slip = m_view.states[row.b].angular_velocity - m_view.states[row.a].angular_velocity;
-        push_whole(turn, clamped_change(row.rolling_impulse, -turn.mass * slip, -row.rolling * load, row.rolling * load));
+        push_whole(turn, mass, clamped_change(row.rolling_impulse, -mass * slip, -row.rolling * load, row.rolling * load));
     }
     for (int i = 0; i < row.count; ++i)
     {
@@ -249,9 +282,10 @@ void DirectSolve::solve_contact(ContactRow& row, std::size_t number, bool use_bi
         const float lacking = row_speed(m_view, row, p) + target.bias;
         if (p.normal_impulse == 0 && lacking >= 0)
             continue;
-        const PushedLine& normal = line(static_cast<std::size_t>(i), row.n, p);
-        const float change = -normal.mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
-        push_whole(normal, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
+        const PushedLine normal = line(row.n, p);
+        const float mass = mass_along(normal);
+        const float change = -mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
+        push_whole(normal, mass, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
     }
     for (int i = 0; i < row.count; ++i)
     {
@@ -259,9 +293,47 @@ void DirectSolve::solve_contact(ContactRow& row, std::size_t number, bool use_bi
         const float limit = row.friction * p.normal_impulse;
         if (limit == 0 && p.tangent_impulse == 0)
             continue;
-        const Vec2 t = perp(row.n);
-        const PushedLine& along = line(2 + static_cast<std::size_t>(i), t, p);
-        push_whole(along, clamped_change(p.tangent_impulse, -along.mass * row_slip(m_view, row, p), -limit, limit));
+        const PushedLine along = line(perp(row.n), p);
+        const float mass = mass_along(along);
+        push_whole(along, mass, clamped_change(p.tangent_impulse, -mass * row_slip(m_view, row, p), -limit, limit));
+    }
+}
+
+// The answers of the joints to all pushes, and the changes of bodies that no contact touches.
+void DirectSolve::take_pushes(const Figure& figure)
+{
+    bool is_pushed = false;
+    for (const int p : figure.pushed)
+    {
+        const PushedBody& body = m_pushed[as_index(p)];
+        if (!body.responds)
+            continue;
+        is_pushed = true;
+        for (std::size_t i = 0; i < figure.rows.size(); ++i)
+            m_answered[as_index(figure.rows[i])] += dot(m_answers[body.first_answer + i], body.given);
+    }
+    if (!is_pushed)
+        return;
+    m_before.clear();
+    for (const int n : figure.nodes)
+        m_before.push_back(std::exchange(node(n).change, {}));
+    for (const int p : figure.pushed)
+    {
+        const PushedBody& body = m_pushed[as_index(p)];
+        node(body.node).change += product(m_masses[as_index(body.node)], body.given);
+    }
+    for (const int i : figure.items)
+    {
+        const Item& item = m_items[as_index(i)];
+        for (int r = 0; r < item.rows(); ++r)
+            push(item, r, m_answered[as_index(item.first_row + r)]);
+    }
+    for (std::size_t i = 0; i < figure.nodes.size(); ++i)
+    {
+        Node& n = node(figure.nodes[i]);
+        if (m_pushed_of[as_index(figure.nodes[i])] == none)
+            change_velocity(m_view.states[n.state], n.change);
+        n.change += m_before[i];
     }
 }
 

@@ -728,9 +728,7 @@ void DirectSolve::take_velocities(double sign)
     {
         if (n.state == none)
             continue;
-        BodyState& s = m_view.states[n.state];
-        s.velocity += Vec2{static_cast<float>(sign * n.change.x), static_cast<float>(sign * n.change.y)};
-        s.angular_velocity += static_cast<float>(sign * n.change.turn);
+        change_velocity(m_view.states[n.state], sign * n.change);
     }
 }
 

@@ -251,6 +251,25 @@ void JointMatrix::factor(std::span<const double> compliances, double of_all)
     }
 }
 
+template <class T>
+void JointMatrix::eliminate(std::span<T> values, std::size_t column) const
+{
+    const T own = values[column];
+    if (own == T{})
+        return;
+    for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
+        values[as_index(m_rows[as_index(i)])] -= m_factor[as_index(i)] * own;
+}
+
+template <class T>
+void JointMatrix::substitute(std::span<T> values, std::size_t column) const
+{
+    T own = m_pivots[column] * values[column];
+    for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
+        own -= m_factor[as_index(i)] * values[as_index(m_rows[as_index(i)])];
+    values[column] = own;
+}
+
 void JointMatrix::solve(std::span<double> values) const
 {
     for (std::size_t column = 0; column < m_diagonal.size(); ++column)
@@ -259,27 +278,12 @@ void JointMatrix::solve(std::span<double> values) const
         substitute(values, column);
 }
 
-void JointMatrix::solve(std::span<double> values, std::span<const int> rows) const
+void JointMatrix::solve(std::span<Triple> values, std::span<const int> rows) const
 {
     for (std::size_t i = 0; i < rows.size(); ++i)
         eliminate(values, as_index(rows[i]));
     for (std::size_t i = rows.size(); i-- > 0;)
         substitute(values, as_index(rows[i]));
-}
-
-void JointMatrix::eliminate(std::span<double> values, std::size_t column) const
-{
-    const double own = values[column];
-    for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
-        values[as_index(m_rows[as_index(i)])] -= m_factor[as_index(i)] * own;
-}
-
-void JointMatrix::substitute(std::span<double> values, std::size_t column) const
-{
-    double own = m_pivots[column] * values[column];
-    for (int i = m_column_starts[column]; i < m_column_starts[column + 1]; ++i)
-        own -= m_factor[as_index(i)] * values[as_index(m_rows[as_index(i)])];
-    values[column] = own;
 }
 
 } // namespace carom::internal

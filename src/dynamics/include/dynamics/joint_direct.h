@@ -16,6 +16,12 @@ namespace carom::internal {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(turn)};
 }
 
+inline void change_velocity(BodyState& s, const Triple& by)
+{
+    s.velocity += Vec2{static_cast<float>(by.x), static_cast<float>(by.y)};
+    s.angular_velocity += static_cast<float>(by.turn);
+}
+
 /// All joint rows of an island at once. Kept from step to step for its memory, and for the layout where the joints are the same.
 class DirectSolve
 {
@@ -129,36 +135,71 @@ private:
     {
         std::vector<int> nodes;
         std::vector<int> items;
-        std::vector<int> rows; ///< of the matrix, in order
-        bool anchored = false; ///< held by what does not give way
+        std::vector<int> rows;   ///< of the matrix, in order
+        bool anchored = false;   ///< held by what does not give way
+        std::vector<int> pushed; ///< bodies that have contacts
     };
 
-    /// The answer to a unit impulse on one side of a contact: of the body alone, or of its figure.
-    struct PushedSide
+    /// The velocity that a body gains by unit impulses on one, by component.
+    struct Response
+    {
+        Triple x{};
+        Triple y{};
+        Triple turn{};
+
+        [[nodiscard]] Triple to(const Triple& impulse) const;
+        /// The share of a joint's row: its answers to the unit impulses act on the body along the jacobian.
+        void add(const Triple& inverse_mass, const Triple& jacobian, const Triple& answers);
+    };
+
+    /// A body of a figure that has contacts.
+    struct PushedBody
+    {
+        int node = 0;
+        int figure = 0;
+        std::size_t place = 0;          ///< among the figure's
+        bool responds = false;          ///< responses and answers to unit impulses on it are known
+        std::size_t first_response = 0; ///< by the figure's pushed bodies
+        std::size_t first_answer = 0;   ///< of the joints, by the figure's rows
+        Triple given{};                 ///< impulse, by all contacts so far
+    };
+
+    /// A body in a contact: as a part of its figure, or alone.
+    struct Side
     {
         std::int32_t state = none;
         int figure = none;
-        Triple alone{};
-        double k = 0;                 ///< speed gained along the line
-        std::size_t first_change = 0; ///< of velocities, by the figure's nodes
-        std::size_t first_answer = 0; ///< of the joints, by the figure's rows
+        int body = none; ///< of those pushed
+    };
+
+    struct Contact
+    {
+        ContactRow* row = nullptr;
+        Side a;
+        Side b;
     };
 
     struct PushedLine
     {
-        PushedSide a;
-        PushedSide b;
-        float mass = 0; ///< effective
+        Side a;
+        Side b;
+        Triple ja{};
+        Triple jb{};
     };
 
     void find_figures();
     void find_anchors();
     [[nodiscard]] int free_figure_of(std::int32_t state) const;
-    [[nodiscard]] PushedSide pushed_side(std::int32_t state, int figure, Triple jacobian);
-    [[nodiscard]] const PushedLine& pushed_line(const ContactRow& row, std::size_t number, Triple ja, Triple jb);
-    void push_whole(const PushedLine& line, float impulse);
-    void push_whole(const PushedSide& side, double impulse);
-    void solve_contact(ContactRow& row, std::size_t number, bool use_bias);
+    void find_responses(PushedBody& body);
+    [[nodiscard]] Side side_of(std::int32_t state);
+    [[nodiscard]] Triple response(const Side& side, const Triple& impulse);
+    [[nodiscard]] Triple response_alone(const Side& side, const Triple& impulse) const;
+    [[nodiscard]] float mass_along(const PushedLine& line);
+    void begin_pushes();
+    void push_whole(const PushedLine& line, float mass, float impulse);
+    void push_whole(const Side& side, const Triple& impulse);
+    void solve_contact(const Contact& contact, bool use_bias);
+    void take_pushes(const Figure& figure);
     void take_answers();
 
     [[nodiscard]] bool find_edges();
@@ -240,14 +281,15 @@ private:
     std::vector<Figure> m_figures;
     std::vector<int> m_figure_of; ///< by node
     bool m_has_free_figures = false;
-    std::vector<PushedLine> m_lines; ///< of the contacts, as they are needed
-    std::vector<int> m_line_of;
-    std::vector<Triple> m_changes;
-    std::vector<double> m_answers;
-    std::vector<double> m_answer;   ///< of one line, by row
+    std::vector<Contact> m_contacts;
+    std::vector<PushedBody> m_pushed;
+    std::vector<int> m_pushed_of; ///< by node
+    std::vector<Response> m_responses;
+    std::vector<Triple> m_answers;
+    std::vector<Triple> m_answer;   ///< to unit impulses on one body, by row
     std::vector<double> m_answered; ///< to all contacts so far, by row
-    std::vector<Triple> m_kept;
-    float m_largest_push = 0; ///< change of a speed
+    std::vector<Triple> m_before;   ///< changes of a figure
+    float m_largest_push = 0;       ///< change of a speed
 
     std::vector<Item> m_items;
     std::vector<Axis> m_axes; ///< in the present stage

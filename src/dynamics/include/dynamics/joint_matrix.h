@@ -25,6 +25,13 @@ struct Triple
         turn += b.turn;
         return *this;
     }
+    Triple& operator-=(const Triple& b)
+    {
+        x -= b.x;
+        y -= b.y;
+        turn -= b.turn;
+        return *this;
+    }
 };
 
 [[nodiscard]] constexpr double dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.turn * b.turn; }
@@ -72,8 +79,8 @@ public:
     void factor(std::span<const double> compliances, double of_all = 0);
     /// A^-1 values, in place.
     void solve(std::span<double> values) const;
-    /// The same for rows, in order, that no other row depends on; the other values are left alone.
-    void solve(std::span<double> values, std::span<const int> rows) const;
+    /// The same for three columns of values, and for rows, in order, that no other row depends on; the other values are left alone.
+    void solve(std::span<Triple> values, std::span<const int> rows) const;
 
 private:
     /// Two edges that share a body that moves.
@@ -96,8 +103,10 @@ private:
 
     using Neighbors = std::vector<std::vector<int>>; ///< by edge, sorted
 
-    void eliminate(std::span<double> values, std::size_t column) const;
-    void substitute(std::span<double> values, std::size_t column) const;
+    template <class T>
+    void eliminate(std::span<T> values, std::size_t column) const;
+    template <class T>
+    void substitute(std::span<T> values, std::size_t column) const;
     void find_loops(int nodes);
     [[nodiscard]] Neighbors couple_edges(int nodes);
     void order(Neighbors& neighbors);
