@@ -391,13 +391,18 @@ public:
     {
         for (UnitTally& t : scratch.tallies)
             t.longest_way = 0;
+        set_size(scratch.may_meet, state.awake_bodies.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
                               const std::int32_t place = scratch.flying[i];
-                              const float way = scratch.motion[static_cast<std::size_t>(place)];
-                              if (way <= ctx.scene.tolerances.speculation || !may_meet(place))
+                              if (!flies_far(place))
                                   return;
+                              const bool meets = may_meet(place);
+                              scratch.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
+                              if (!meets)
+                                  return;
+                              const float way = scratch.motion[static_cast<std::size_t>(place)];
                               const std::atomic_ref longest(tally_of(place).longest_way);
                               float before = longest.load(std::memory_order_relaxed);
                               while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
@@ -415,7 +420,7 @@ public:
             const std::int32_t item = scratch.flying[i];
             const auto place = static_cast<std::size_t>(item);
             const float way = scratch.tallies[static_cast<std::size_t>(scratch.unit_of[place])].longest_way;
-            if (way == 0 || !may_meet(item))
+            if (way == 0 || !(flies_far(item) ? scratch.may_meet[place] != 0 : may_meet(item)))
                 continue;
             scratch.is_deflected[place] = 1;
             const int body = body_at(item);
@@ -425,6 +430,11 @@ public:
             some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
             for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });
         }
+    }
+
+    [[nodiscard]] bool flies_far(std::int32_t place) const
+    {
+        return scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
     }
 
     [[nodiscard]] bool may_meet(std::int32_t place) const

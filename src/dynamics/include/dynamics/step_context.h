@@ -460,6 +460,7 @@ struct Scratch
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
     std::vector<std::uint8_t> is_loaded;     ///< by a contact, by place in awake_bodies; the last is nobody's
+    std::vector<std::uint8_t> may_meet;      ///< of what flies far: something that it touches or comes near
     bool has_kinematic = false;              ///< a kinematic body is awake
     bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
