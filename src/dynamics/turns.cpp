@@ -53,6 +53,13 @@ HingeTurn hinge_turn(const SceneState& state, const JointRecord& joint)
     return {angle, nearest_turns(whole_angle(b) - whole_angle(a) - static_cast<double>(joint.reference_angle) - angle)};
 }
 
+// Of a turn by less than a quarter: at the angle where another turn begins, or nowhere, it goes from one half plane to the other.
+std::int32_t turns_across(Rotation before, Rotation after)
+{
+    const int change = (after.s < 0 ? 1 : 0) - (before.s < 0 ? 1 : 0);
+    return before.c + after.c < 0 ? change : 0;
+}
+
 } // namespace
 
 std::int32_t whole_turns(Rotation before, Rotation after, double way)
@@ -73,7 +80,9 @@ void count_turns(std::int32_t& turns, Rotation before, Rotation after)
 
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, const BodyState& s)
 {
-    if (before.c < 0 || after.c < 0 || s.delta_rotation.c < 0)
+    if (s.delta_rotation.c > 0)
+        add_turns(turns, turns_across(before, after));
+    else
         count_turns(turns, before, after, angle_of(s.delta_rotation));
     add_turns(turns, s.turns);
 }
