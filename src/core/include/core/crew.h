@@ -63,23 +63,7 @@ public:
     template <class Work>
     void in_parts(const Work& work)
     {
-        ++m_round;
-        for (int p = 1; p < m_members; ++p)
-        {
-            Part& part = m_parts[p];
-            part.context = &work;
-            part.work = [](const void* context, int i, int count) { (*static_cast<const Work*>(context))(i, count); };
-            part.offered.store(m_round, std::memory_order_release);
-        }
-        work(0, m_members);
-        for (int p = 1; p < m_members; ++p)
-            take(p);
-        for (int p = 1; p < m_members; ++p)
-        {
-            while (m_parts[p].done.load(std::memory_order_acquire) != m_round)
-            {
-            }
-        }
+        in_parts(&work, call_of<Work>, m_members);
     }
 
     /// Calls work(piece) for each of 0 ... pieces. A member begins with its own slice of them, from either end, and then takes what others have
@@ -110,13 +94,10 @@ public:
     template <class Work>
     void share(int count, int enough, const Work& work)
     {
-        if (!has_helpers() || count < enough)
-        {
-            if (count > 0)
-                work(0, count);
+        if (count == 0)
             return;
-        }
-        in_parts([&](int part, int parts) { work(bound(count, part, parts), bound(count, part + 1, parts)); });
+        const auto slice = [&](int part, int parts) { work(bound(count, part, parts), bound(count, part + 1, parts)); };
+        in_parts(&slice, call_of<decltype(slice)>, count < enough ? 1 : m_members);
     }
 
     /// Where the slice of a part begins.
@@ -130,7 +111,14 @@ private:
     static constexpr int looks_at_own = 64;   // before a member looks for parts of others
     static constexpr int looks_at_all = 1024; // before it takes what is to be done aside: some microseconds
 
+    // By its address, as in run_tasks.
     using Call = void (*)(const void*, int, int);
+
+    template <class Work>
+    static void call_of(const void* work, int part, int parts)
+    {
+        (*static_cast<const Work*>(work))(part, parts);
+    }
 
     struct alignas(64) Part
     {
@@ -140,17 +128,8 @@ private:
         const void* context = nullptr;
     };
 
-    // Who has taken a part keeps its round from ending.
-    bool take(int p)
-    {
-        Part& part = m_parts[p];
-        std::uint32_t round = part.offered.load(std::memory_order_relaxed);
-        if (round == 0 || !part.offered.compare_exchange_strong(round, 0, std::memory_order_acquire))
-            return false;
-        part.work(part.context, p, m_members);
-        part.done.store(round, std::memory_order_release);
-        return true;
-    }
+    void in_parts(const void* work, Call call, int parts);
+    bool take(int p);
 
     template <class TakeAside>
     void serve(int member, const TakeAside& take_aside)

@@ -4,7 +4,6 @@
 // user's workers, the result is the same, because each task writes only what is its own.
 
 #include "carom/scene.h"
-#include "core/rounding.h"
 
 #include <atomic>
 #include <cstddef>
@@ -13,23 +12,16 @@
 
 namespace carom::internal {
 
+/// A task by its address: whether tasks run here or on workers, the compiler makes one function of them.
+using TaskCall = void (*)(const void* task, int index);
+
+void run_tasks(const TaskHooks& hooks, int count, const void* task, TaskCall call);
+
+/// Calls task(i) for each of 0 ... count.
 template <class Task>
 void run_tasks(const TaskHooks& hooks, int count, const Task& task)
 {
-    if (hooks.run == nullptr || hooks.worker_count <= 1 || count <= 1)
-    {
-        for (int i = 0; i < count; ++i)
-            task(i);
-        return;
-    }
-    hooks.run(
-        hooks.user, count,
-        [](void* context, int index)
-        {
-            const RoundToNearest rounding; // the worker's is what its thread began with
-            (*static_cast<const Task*>(context))(index);
-        },
-        const_cast<Task*>(&task));
+    run_tasks(hooks, count, &task, [](const void* context, int index) { (*static_cast<const Task*>(context))(index); });
 }
 
 /// Of tasks that run side by side any may raise a flag. Written once: threads that read it do not wait for each other.

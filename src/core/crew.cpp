@@ -1,0 +1,43 @@
+#include "core/crew.h"
+
+namespace carom::internal {
+
+void Crew::in_parts(const void* work, Call call, int parts)
+{
+    if (parts == 1)
+    {
+        call(work, 0, 1);
+        return;
+    }
+    ++m_round;
+    for (int p = 1; p < parts; ++p)
+    {
+        Part& part = m_parts[p];
+        part.context = work;
+        part.work = call;
+        part.offered.store(m_round, std::memory_order_release);
+    }
+    call(work, 0, parts);
+    for (int p = 1; p < parts; ++p)
+        take(p);
+    for (int p = 1; p < parts; ++p)
+    {
+        while (m_parts[p].done.load(std::memory_order_acquire) != m_round)
+        {
+        }
+    }
+}
+
+// Who has taken a part keeps its round from ending.
+bool Crew::take(int p)
+{
+    Part& part = m_parts[p];
+    std::uint32_t round = part.offered.load(std::memory_order_relaxed);
+    if (round == 0 || !part.offered.compare_exchange_strong(round, 0, std::memory_order_acquire))
+        return false;
+    part.work(part.context, p, m_members);
+    part.done.store(round, std::memory_order_release);
+    return true;
+}
+
+} // namespace carom::internal
