@@ -28,7 +28,7 @@ void Crew::in_parts(const void* work, Call call, int parts)
     }
 }
 
-// Who has taken a part keeps its round from ending.
+// A round does not end before the member that has taken a part is done with it.
 bool Crew::take(int p)
 {
     Part& part = m_parts[p];

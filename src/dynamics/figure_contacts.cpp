@@ -187,21 +187,22 @@ Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) cons
     return product(as_triple(c.inverse_mass, c.inverse_inertia), impulse);
 }
 
-// 0 where joints leave no more than rounding of the bodies' own answer, as of a turn that another body's lock forbids.
-float DirectSolve::mass_along(const PushedLine& line)
+// Its mass is 0 where joints leave no more than rounding of the bodies' own answer, as of a turn that another body's lock forbids.
+DirectSolve::PushedLine DirectSolve::pushed_line(const Contact& contact, const Triple& ja, const Triple& jb)
 {
-    const double k = dot(line.ja, response(line.a, line.ja)) + dot(line.jb, response(line.b, line.jb));
-    const double alone = dot(line.ja, response_alone(line.a, line.ja)) + dot(line.jb, response_alone(line.b, line.jb));
-    return k > least_answer * alone ? static_cast<float>(1 / k) : 0;
+    const auto& [row, a, b] = contact;
+    const double k = dot(ja, response(a, ja)) + dot(jb, response(b, jb));
+    const double alone = dot(ja, response_alone(a, ja)) + dot(jb, response_alone(b, jb));
+    return {a, b, ja, jb, k > least_answer * alone ? static_cast<float>(1 / k) : 0};
 }
 
-void DirectSolve::push_whole(const PushedLine& line, float mass, float impulse)
+void DirectSolve::push_whole(const PushedLine& line, float impulse)
 {
-    if (impulse == 0 || mass == 0)
+    if (impulse == 0 || line.mass == 0)
         return;
     push_whole(line.a, static_cast<double>(impulse) * line.ja);
     push_whole(line.b, static_cast<double>(impulse) * line.jb);
-    m_largest_push = std::max(m_largest_push, std::fabs(impulse) / mass);
+    m_largest_push = std::max(m_largest_push, std::fabs(impulse) / line.mass);
 }
 
 void DirectSolve::push_whole(const Side& side, const Triple& impulse)
@@ -261,19 +262,17 @@ void DirectSolve::begin_pushes()
 
 void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
 {
-    const auto& [which, a, b] = contact;
-    ContactRow& row = *which;
+    ContactRow& row = *contact.row;
     float load = 0;
     for (int i = 0; i < row.count; ++i)
         load += row.points[i].normal_impulse;
     const auto line = [&](Vec2 d, const RowPoint& p)
-    { return PushedLine{a, b, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))}; };
+    { return pushed_line(contact, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))); };
     if (row.rolling > 0 && (load > 0 || row.rolling_impulse != 0))
     {
-        const PushedLine turn{a, b, {0, 0, -1}, {0, 0, 1}};
-        const float mass = mass_along(turn);
+        const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
         const float slip = m_view.states[row.b].angular_velocity - m_view.states[row.a].angular_velocity;
-        push_whole(turn, mass, clamped_change(row.rolling_impulse, -mass * slip, -row.rolling * load, row.rolling * load));
+        push_whole(turn, clamped_change(row.rolling_impulse, -turn.mass * slip, -row.rolling * load, row.rolling * load));
     }
     for (int i = 0; i < row.count; ++i)
     {
@@ -283,9 +282,8 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
         if (p.normal_impulse == 0 && lacking >= 0)
             continue;
         const PushedLine normal = line(row.n, p);
-        const float mass = mass_along(normal);
-        const float change = -mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
-        push_whole(normal, mass, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
+        const float change = -normal.mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
+        push_whole(normal, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
     }
     for (int i = 0; i < row.count; ++i)
     {
@@ -294,8 +292,7 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
         if (limit == 0 && p.tangent_impulse == 0)
             continue;
         const PushedLine along = line(perp(row.n), p);
-        const float mass = mass_along(along);
-        push_whole(along, mass, clamped_change(p.tangent_impulse, -mass * row_slip(m_view, row, p), -limit, limit));
+        push_whole(along, clamped_change(p.tangent_impulse, -along.mass * row_slip(m_view, row, p), -limit, limit));
     }
 }
 

@@ -53,7 +53,7 @@ HingeTurn hinge_turn(const SceneState& state, const JointRecord& joint)
     return {angle, nearest_turns(whole_angle(b) - whole_angle(a) - static_cast<double>(joint.reference_angle) - angle)};
 }
 
-// Of a turn by less than a quarter: at the angle where another turn begins, or nowhere, it goes from one half plane to the other.
+// A turn by less than a quarter passes pi, where another turn begins, if it changes the half plane on the negative side.
 std::int32_t turns_across(Rotation before, Rotation after)
 {
     const int change = (after.s < 0 ? 1 : 0) - (before.s < 0 ? 1 : 0);

@@ -185,6 +185,7 @@ private:
         Side b;
         Triple ja{};
         Triple jb{};
+        float mass = 0; ///< effective
     };
 
     void find_figures();
@@ -194,9 +195,9 @@ private:
     [[nodiscard]] Side side_of(std::int32_t state);
     [[nodiscard]] Triple response(const Side& side, const Triple& impulse);
     [[nodiscard]] Triple response_alone(const Side& side, const Triple& impulse) const;
-    [[nodiscard]] float mass_along(const PushedLine& line);
+    [[nodiscard]] PushedLine pushed_line(const Contact& contact, const Triple& ja, const Triple& jb);
     void begin_pushes();
-    void push_whole(const PushedLine& line, float mass, float impulse);
+    void push_whole(const PushedLine& line, float impulse);
     void push_whole(const Side& side, const Triple& impulse);
     void solve_contact(const Contact& contact, bool use_bias);
     void take_pushes(const Figure& figure);
