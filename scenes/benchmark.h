@@ -25,4 +25,7 @@ inline SceneDef sleepless_def(const SceneDef& base)
     return def;
 }
 
+/// Rows of boxes, one fewer in each; left is the outer edge of the lowest row.
+void add_pyramid(Scene& scene, int rows, float half, float left, float bottom);
+
 } // namespace carom::scenes

@@ -6,9 +6,7 @@
 #include <algorithm>
 
 namespace carom::scenes {
-namespace {
 
-/// Rows of boxes, one fewer in each; left is the outer edge of the lowest row.
 void add_pyramid(Scene& scene, int rows, float half, float left, float bottom)
 {
     for (int row = 0; row < rows; ++row)
@@ -19,6 +17,8 @@ void add_pyramid(Scene& scene, int rows, float half, float left, float bottom)
             add_dynamic(scene, Vec2{along * half + left, up * half + bottom}, box(half, half));
         }
 }
+
+namespace {
 
 BuiltScene large_pyramid(const SceneDef& base)
 {

@@ -20,13 +20,7 @@ BuiltScene pyramid(const SceneDef& base)
     constexpr int rows = 20;
     BuiltScene built{Scene(sleepless_def(base))};
     add_static(built.scene, box(40, 1), {}, {0, -1});
-    for (int row = 0; row < rows; ++row)
-    {
-        for (int i = 0; i < rows - row; ++i)
-            add_dynamic(built.scene,
-                        Vec2{static_cast<float>(i) - 0.5f * static_cast<float>(rows - row - 1), static_cast<float>(row) + 0.5f},
-                        box(0.5f, 0.5f));
-    }
+    carom::scenes::add_pyramid(built.scene, rows, 0.5f, -0.5f * rows, 0);
     return built;
 }
 
