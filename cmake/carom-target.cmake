@@ -88,7 +88,7 @@ function(carom_fuzzed target)
 endfunction()
 
 # carom_kernels(<folder>): the kernels in it are one source, compiled for what the machine may have; the choice falls at run time
-# (src/dynamics/wide/kernels.cpp). Sets CAROM_WITH_AVX where there are such for AVX2 and AVX-512. -Wno-psabi: vectors are passed to inlined functions
+# (src/dynamics/solver/simd/kernels.cpp). Sets CAROM_WITH_AVX where there are such for AVX2 and AVX-512. -Wno-psabi: vectors are passed to inlined functions
 # only. -Wa,...: g++ for Windows aligns the stack to 16 bytes. -O1 in debug builds: nothing that the linker could take for another machine's is left
 # out of line.
 function(carom_kernels folder)

@@ -1,22 +1,22 @@
 // Stage 6, commit: the step's result goes back into the records, in the order of the units; deferred impulses, triggers; then bodies come to rest or
-// fall asleep (settle.cpp).
+// fall asleep (sleep.cpp).
 
 #include "core/grow.h"
 #include "core/refuse.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
-#include "dynamics/body_store.h"
-#include "dynamics/contact_store.h"
-#include "dynamics/contact_update.h"
-#include "dynamics/flight/motion.h"
-#include "dynamics/force_laws.h"
-#include "dynamics/quarantine.h"
+#include "dynamics/continuous/motion.h"
+#include "dynamics/continuous/safety_sweep.h"
+#include "dynamics/islands/wake.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/solver/force_laws.h"
+#include "dynamics/solver/island_constraints.h"
 #include "dynamics/stages.h"
-#include "dynamics/stop_at_wall.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/state/quarantine.h"
+#include "dynamics/state/turns.h"
 #include "dynamics/task_sizes.h"
-#include "dynamics/turns.h"
-#include "dynamics/unit_rows.h"
-#include "dynamics/wake.h"
 
 #include <algorithm>
 #include <atomic>

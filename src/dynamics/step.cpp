@@ -4,7 +4,7 @@
 // user hears what happened (events): only force laws are called in the middle of a step.
 
 #include "core/clock.h"
-#include "dynamics/fields.h"
+#include "dynamics/sensors/fields.h"
 #include "dynamics/stages.h"
 #include "dynamics/uneven_steps.h"
 

@@ -2,7 +2,7 @@
 
 #include "dynamics/step_context.h"
 
-#include "dynamics/joint_direct.h"
+#include "dynamics/solver/joint/direct/direct_solver.h"
 
 namespace carom::internal {
 

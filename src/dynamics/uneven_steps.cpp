@@ -1,6 +1,6 @@
 #include "dynamics/uneven_steps.h"
 
-#include "dynamics/scene_data.h"
+#include "dynamics/state/scene_data.h"
 
 #include <algorithm>
 #include <utility>

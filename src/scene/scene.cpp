@@ -2,9 +2,9 @@
 
 #include "core/clock.h"
 #include "core/rounding.h"
-#include "dynamics/body_store.h"
+#include "dynamics/islands/wake.h"
 #include "dynamics/stages.h"
-#include "dynamics/wake.h"
+#include "dynamics/state/body_store.h"
 #include "scene/access.h"
 
 #include <algorithm>

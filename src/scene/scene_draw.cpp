@@ -1,9 +1,9 @@
 // Debug draw: the scene as primitives, for the user's DebugDraw.
 
 #include "carom/scene.h"
-#include "dynamics/body_store.h"
-#include "dynamics/kept_manifold.h"
-#include "dynamics/wake.h"
+#include "dynamics/islands/wake.h"
+#include "dynamics/narrowphase/manifold_cache.h"
+#include "dynamics/state/body_store.h"
 #include "geometry/bounds.h"
 #include "scene/access.h"
 

@@ -3,9 +3,9 @@
 #include "carom/scene.h"
 #include "core/rounding.h"
 #include "core/trigonometry.h"
-#include "dynamics/body_store.h"
-#include "dynamics/turns.h"
-#include "dynamics/wake.h"
+#include "dynamics/islands/wake.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/turns.h"
 #include "scene/access.h"
 
 namespace carom {

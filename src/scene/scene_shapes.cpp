@@ -1,9 +1,9 @@
 // Shapes: making, changing, destroying.
 
 #include "carom/scene.h"
-#include "dynamics/body_store.h"
-#include "dynamics/fields.h"
-#include "dynamics/wake.h"
+#include "dynamics/islands/wake.h"
+#include "dynamics/sensors/fields.h"
+#include "dynamics/state/body_store.h"
 #include "geometry/limits.h"
 #include "geometry/surface.h"
 #include "scene/access.h"

@@ -1,9 +1,9 @@
 // A frame: fixed steps as its time asks for them, the events of all of them, and forces that act for its time.
 
 #include "core/grow.h"
-#include "dynamics/body_store.h"
-#include "dynamics/contact_store.h"
-#include "dynamics/wake.h"
+#include "dynamics/islands/wake.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
 #include "scene/access.h"
 
 #include <algorithm>

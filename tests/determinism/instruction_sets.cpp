@@ -1,7 +1,7 @@
 // The ten scenes of the benchmark: the same bits with every instruction set and any number of threads.
 
 #include "carom/carom.h"
-#include "dynamics/wide_kernels.h"
+#include "dynamics/solver/simd/kernels.h"
 #include "scenes/scenes.h"
 #include "support/slow_build.h"
 #include "support/threads.h"

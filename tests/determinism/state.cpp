@@ -4,7 +4,7 @@
 #include "support/test_scene.h"
 #include "support/threads.h"
 
-#include "dynamics/scene_data.h"
+#include "dynamics/state/scene_data.h"
 #include "scenes/scenes.h"
 
 #include <atomic>

@@ -2,7 +2,7 @@
 
 // Two worlds alike, of which the second never keeps rows or hinges: they must come out the same, whatever happens between steps.
 
-#include "dynamics/scene_data.h"
+#include "dynamics/state/scene_data.h"
 #include "support/test_scene.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 
 // Eight floats that are calculated with at once, in one register or in two (core/lanes/registers.h). The same source gives the same bits everywhere:
 // each lane is computed by itself, with the operations written. Only kernels that are compiled once per instruction set include this file (see
-// dynamics/wide/): everything in it is inlined, so that no copy made for one machine is called on another.
+// dynamics/solver/simd/): everything in it is inlined, so that no copy made for one machine is called on another.
 
 #include "core/float4.h"
 #include "core/lane_storage.h"

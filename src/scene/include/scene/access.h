@@ -3,8 +3,8 @@
 // From public ids to slots, refusing stale ones; shared by the files of the public API.
 
 #include "core/refuse.h"
-#include "dynamics/contact_store.h"
-#include "dynamics/scene_data.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/state/scene_data.h"
 
 #include <string>
 

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace carom::internal {
+
+/// Exact. Written out, because conversions by themselves are warned of.
+[[nodiscard]] constexpr double as_double(float x) { return static_cast<double>(x); }
+
+} // namespace carom::internal

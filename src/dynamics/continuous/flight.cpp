@@ -1,0 +1,347 @@
+// A body in flight is not a pile. Its path is exact until it meets something (motion.cpp); when that will be is found on both true paths
+// (next_impact.cpp); the impact is resolved there, with all that touches at that moment (impact.cpp, reflect.cpp), and the rest of the
+// sub-step is flown from there: no time is lost and no gap is left. What comes to rest is handed to the solver (landing.cpp).
+
+#include "dynamics/continuous/flight.h"
+
+#include "core/float4.h"
+#include "dynamics/continuous/impact/impact.h"
+#include "dynamics/continuous/landing.h"
+#include "dynamics/continuous/next_impact.h"
+#include "dynamics/continuous/trace.h"
+#include "dynamics/state/contact_store.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+
+namespace carom::internal {
+
+namespace {
+
+// Eight side by side: one comparison after the other would each wait for the last.
+double least_of(std::span<const double> times)
+{
+    constexpr std::size_t side_by_side = 4;
+    D2 least_pairs[side_by_side];
+    std::ranges::fill(least_pairs, D2(1e300));
+    std::size_t i = 0;
+    for (; i + 2 * side_by_side <= times.size(); i += 2 * side_by_side)
+    {
+        for (std::size_t k = 0; k < side_by_side; ++k)
+            least_pairs[k] = least(load2(&times[i + 2 * k]), least_pairs[k]);
+    }
+    double best = 1e300;
+    for (const D2 pair : least_pairs)
+    {
+        double two[2];
+        store2(two, pair);
+        best = std::min({best, two[0], two[1]});
+    }
+    for (; i < times.size(); ++i)
+        best = std::min(best, times[i]);
+    return best;
+}
+
+// The first by time; of equals the first in the unit.
+Flier* earliest(const FlightSpan& span)
+{
+    const std::span<const double> times =
+        std::span(span.scratch.event_times)
+            .subspan(static_cast<std::size_t>(span.unit.first_flier), static_cast<std::size_t>(span.unit.flier_count));
+    const double best = least_of(times);
+    if (best > span.h)
+        return nullptr;
+    return &span.fliers()[static_cast<std::size_t>(std::ranges::find(times, best) - times.begin())];
+}
+
+// A deflected body is off on another way.
+void note_reach(const FlightSpan& span, std::int32_t state)
+{
+    const std::vector<std::int32_t>& deflected = span.output.deflected;
+    const std::int32_t f = span.scratch.flier_of_state[static_cast<std::size_t>(state)];
+    const auto place = std::lower_bound(deflected.begin(), deflected.end(), f);
+    if (place != deflected.end() && *place == f)
+        span.output.reaches[static_cast<std::size_t>(place - deflected.begin())] =
+            reach_of(span, span.scratch.fliers[static_cast<std::size_t>(f)].body);
+}
+
+// Others near a struck body of the solver's may now meet it sooner: of two bodies of one shape, in their contact. What has changed as well looks for
+// itself.
+void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::span<const std::int32_t> changed)
+{
+    const int body = span.scratch.state_bodies[static_cast<std::size_t>(struck)];
+    const SceneState& state = span.state;
+    const auto has_one_shape = [&](int b) { return state.bodies[b].first_shape == state.bodies[b].last_shape; };
+    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    {
+        Flier* f = span.flier_at(span.state_in_unit(other_body(state.contacts[edge >> 1], body)));
+        if (f != nullptr && std::ranges::find(changed, f->state) == changed.end())
+            has_one_shape(body) && has_one_shape(f->body) ? reconsider(span, *f, struck, edge >> 1) : find_next_event(span, *f);
+    }
+}
+
+// What stays where it is looks for nothing: who may come there must see it.
+void reconsider_those_near(const FlightSpan& span, const Flier& capped)
+{
+    const Reach place = reach_of(span, capped.body);
+    for (Flier& f : span.fliers())
+    {
+        if (!f.landed && first_meeting(reach_of(span, f.body), place) <= span.h)
+            find_next_event(span, f);
+    }
+}
+
+void process(const FlightSpan& span, Flier& f)
+{
+    if (f.event_version != version_of(span, f.event_state))
+    {
+        find_next_event(span, f);
+        return;
+    }
+    std::vector<std::int32_t> changed;
+    resolve_impact(span, f, changed);
+    for (const std::int32_t s : changed)
+    {
+        ++span.scratch.versions[static_cast<std::size_t>(s)];
+        trace(span, s, f.time);
+        note_reach(span, s);
+    }
+    for (const std::int32_t s : changed)
+    {
+        if (Flier* flier = span.flier_at(s))
+            is_capped(span, *flier) ? reconsider_those_near(span, *flier) : find_next_event(span, *flier);
+        else
+            reconsider_neighbours(span, s, changed);
+    }
+}
+
+void note_all_reaches(const FlightSpan& span)
+{
+    for (std::size_t i = 0; i < span.output.deflected.size(); ++i)
+        span.output.reaches[i] = reach_of(span, span.scratch.fliers[static_cast<std::size_t>(span.output.deflected[i])].body);
+}
+
+// In a sub-step: what is left over then stays where it is until the next. Some milliseconds; impacts that come out take a hundredth.
+constexpr std::int64_t work_of_unit = 20'000;
+constexpr std::int64_t work_of_flier = 500;
+
+constexpr std::int64_t looks_of_unit = 200'000; // sixteen times what scenes and experiments take
+constexpr std::int64_t looks_of_flier = 100;
+
+constexpr int fliers_per_share = 16;
+constexpr int enough_fliers = 32; // to share
+
+// The looks are spent: who has an event left stays where it is until the next sub-step, and so does who would come there. All stop at the moment up to
+// which every event is known: none has met another by then.
+void stop_who_would_meet(const FlightSpan& span)
+{
+    const Flier* next = earliest(span);
+    if (next == nullptr)
+        return;
+    const double now = next->event_time;
+    std::vector<Flier*> moving;
+    std::vector<Flier*> stopped;
+    for (Flier& f : span.fliers())
+    {
+        if (!f.landed && !is_capped(span, f))
+            (f.event_time <= span.h ? stopped : moving).push_back(&f);
+    }
+    for (std::size_t i = 0; i < stopped.size(); ++i)
+    {
+        Flier& f = *stopped[i];
+        advance(span, f, now);
+        f.impacts = span.most_impacts;
+        trace(span, f.state, now);
+        const Reach place = reach_of(span, f.body);
+        const auto passes = [&](const Flier* other) { return first_meeting(reach_of(span, other->body), place) > span.h; };
+        const auto meets = std::stable_partition(moving.begin(), moving.end(), passes);
+        stopped.insert(stopped.end(), meets, moving.end());
+        moving.erase(meets, moving.end());
+    }
+    span.output.capped = true;
+}
+
+// Where nothing has happened yet each looks for itself.
+void find_first_events(const FlightSpan& span, Crew& crew)
+{
+    const std::span<Flier> fliers = span.fliers();
+    const auto count = static_cast<int>(fliers.size());
+    const auto look = [&](int first, int last)
+    {
+        for (int i = first; i < std::min(last, count); ++i)
+            static_cast<void>(try_find_next_event(span, fliers[static_cast<std::size_t>(i)]));
+    };
+    if (count < enough_fliers)
+    {
+        look(0, count);
+    }
+    else
+    { // some take far longer than others
+        std::atomic<int> next{0};
+        crew.in_parts(
+            [&](int, int)
+            {
+                for (int first = 0; (first = next.fetch_add(fliers_per_share)) < count;)
+                    look(first, first + fliers_per_share);
+            });
+    }
+    for (Flier& f : fliers)
+    {
+        if (f.passes == none)
+            continue;
+        span.state.contacts[f.passes].flags |= contact_flag::passing;
+        find_next_event(span, f);
+    }
+}
+
+} // namespace
+
+void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier)
+{
+    Flier& f = scratch.fliers[static_cast<std::size_t>(flier)];
+    if (f.deflected)
+        return;
+    f.deflected = true;
+    const auto place = std::lower_bound(output.deflected.begin(), output.deflected.end(), flier);
+    output.reaches.insert(output.reaches.begin() + (place - output.deflected.begin()), Reach{});
+    output.deflected.insert(place, flier);
+}
+
+namespace {
+
+// Rows of the unit with a load, and of it the state on the other side.
+template <class Visit>
+void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
+{
+    const auto look = [&](std::span<const ContactRow> rows)
+    {
+        for (const ContactRow& row : rows)
+        {
+            if (bears_load(row) && (row.a == state || row.b == state))
+                visit(row.a == state ? row.b : row.a);
+        }
+    };
+    look(rows_of(span.scratch, span.unit));
+    look(span.output.late_rows);
+}
+
+// With a bat that presses it: without the ball in its way the solver would swing it through.
+void take_off_with_bats(const FlightSpan& span, Flier& f)
+{
+    std::vector<Flier*> bats;
+    for_each_pressed_by(span, f.state,
+                        [&](std::int32_t other)
+                        {
+                            const std::int32_t i = span.scratch.flier_of_state[static_cast<std::size_t>(other)];
+                            if (i == none)
+                                return;
+                            Flier& bat = span.scratch.fliers[static_cast<std::size_t>(i)];
+                            if (bat.landed && bat.joint != none)
+                                bats.push_back(&bat);
+                        });
+    take_off(span, f, span.h); // where the sub-step before has left it
+    for (Flier* bat : bats)
+    {
+        if (bat->landed)
+            take_off(span, *bat, span.h);
+    }
+}
+
+} // namespace
+
+void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    if (unit.flier_count == 0)
+        return;
+    const FlightSpan span(ctx, unit, k, output);
+    for (Flier& f : span.fliers())
+    {
+        const BodyState& s = span.state_of(f.state);
+        const bool was_struck = unit.precise || f.crowded || f.deflected;
+        if (f.landed && was_struck &&
+            (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
+            take_off_with_bats(span, f);
+    }
+}
+
+namespace {
+
+// All of it is in the air, and its path through the step is one parabola.
+bool flies_freely(const StepContext& ctx, const Unit& unit)
+{
+    const bool alike = unit.flier_count == unit.dynamic_count && unit.row_count == 0 && unit.wide_count == 0 &&
+                       unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.law_count == 0 && unit.slices == 1;
+    if (!alike || unit.traced || ctx.scene.def.record_substeps)
+        return false;
+    const auto falls = [&](const Flier& f)
+    {
+        const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(f.state)];
+        return !f.landed && f.joint == none && c.linear_decay == 1 && c.angular_decay == 1;
+    };
+    return std::ranges::all_of(fliers_of(ctx.scratch, unit), falls);
+}
+
+} // namespace
+
+bool glide(const StepContext& ctx, const Unit& unit, UnitOutput& output)
+{
+    if (!flies_freely(ctx, unit))
+        return false;
+    StepContext whole = ctx;
+    whole.h = ctx.dt;
+    whole.substeps = 1;
+    const FlightSpan span(whole, unit, 0, output);
+    for (Flier& f : span.fliers())
+        start_flight(span, f);
+    const auto meets_nothing = [&](Flier& f) { return try_find_next_event(span, f) && f.event_time > span.h; };
+    if (!std::ranges::all_of(span.fliers(), meets_nothing))
+        return false;
+    for (Flier& f : span.fliers())
+        finish_flight(span, f);
+    return true;
+}
+
+void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    if (unit.traced)
+        trace_all(FlightSpan(ctx, unit, k, output));
+}
+
+namespace {
+
+// Slices of a sub-step share what is given to it; where the first have spent all, each still has its part of as much again.
+void share_budget(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+{
+    const bool starts = k % ctx.slices == 0;
+    const std::int64_t work = work_of_unit + work_of_flier * unit.flier_count;
+    const std::int64_t looks = looks_of_unit + looks_of_flier * unit.flier_count;
+    const std::int64_t work_left = starts ? work : std::max(output.impact_work.left, work / ctx.slices);
+    output.impact_work = {.left = work_left, .whole = work_left};
+    output.looks_left = starts ? looks : std::max(output.looks_left, looks / ctx.slices);
+}
+
+} // namespace
+
+void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output, Crew& crew)
+{
+    if (unit.flier_count == 0)
+        return;
+    const FlightSpan span(ctx, unit, k, output);
+    share_budget(ctx, unit, k, output);
+    output.struck_states.clear();
+    for (Flier& f : span.fliers())
+        start_flight(span, f);
+    trace_all(span);
+    note_all_reaches(span);
+    find_first_events(span, crew);
+    for (Flier& f : span.fliers())
+        f.looks = f.union_looks = 0; // the first cannot be left out
+    while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)
+        process(span, *next);
+    stop_who_would_meet(span);
+    for (Flier& f : span.fliers())
+        finish_flight(span, f);
+}
+
+} // namespace carom::internal

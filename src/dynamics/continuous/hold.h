@@ -1,0 +1,15 @@
+#pragma once
+
+// Resting contacts within a sub-step of flight.
+
+#include "dynamics/continuous/motion.h"
+
+namespace carom::internal {
+
+/// Changes the velocity of a body that the solver has already moved to the end of the sub-step, as of `left` before that.
+void correct_state(const FlightSpan& span, std::int32_t state, double left, double dvx, double dvy, double dw);
+
+/// Ends the flier's holds at a time: what they pushed against, of the solver's bodies, gets its share. The accelerations are free again.
+void release_holds(const FlightSpan& span, Flier& f, double time);
+
+} // namespace carom::internal

@@ -1,0 +1,250 @@
+// An impact in flight. Gathered are all contacts that touch at this moment and hang together through bodies in flight; reflect.cpp gives
+// their impulses; then they are told, and what is left pressing is held.
+//
+// Resting is an outcome: a bounce so small that the pressing acceleration would end it within half a sub-step (e u <= a_n h / 2) and low is none.
+// Zero gravity never rests by that rule, nor does a slow body with room to bounce; but of two that both give way and lean on each other a bounce of
+// the blows that this is taken in is none either (Press). What is held takes the part of the acceleration that
+// presses, for the rest of the sub-step, and is then the solver's.
+
+#include "dynamics/continuous/impact/impact.h"
+#include "dynamics/continuous/flight.h"
+#include "dynamics/continuous/hold.h"
+#include "dynamics/continuous/impact/impact_set.h"
+#include "dynamics/narrowphase/material.h"
+#include "dynamics/state/body_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t work_of_an_impact = 50; // beside its rows: who takes part, and when they meet next
+constexpr int crowd_limit = 8;                // impacts of a body in a sub-step
+constexpr double deep_in = 0.002;             // of the size
+constexpr double low_hop = 1e-3;              // of the size
+constexpr double soon_turned = 0.5;           // rad
+
+} // namespace
+
+ImpactSet::ImpactSet(const FlightSpan& span, Flier& first)
+    : m_span(span), m_state(span.state), m_first(first),
+      m_renews(first.held_count > 0 && first.event_shape == none && first.event_time == first.hold_until),
+      m_time(first.event_time), m_origin(span.sim_of(first.body).center)
+{}
+
+void ImpactSet::run(std::vector<std::int32_t>& changed)
+{
+    gather();
+    note_before();
+    ImpactWork& work = m_span.output.impact_work;
+    const bool has_all_work = work.is_whole();
+    work.spend(work_of_an_impact);
+    bool is_jammed =
+        !reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, work, m_blows);
+    if (is_jammed && (has_all_work || !work.is_spent()))
+        is_jammed = !unite_jammed(); // the next sub-step would not get any further
+    note_stopped_joints();
+    for (std::size_t i = 0; i < m_members.size(); ++i)
+        write_back(i, changed);
+    for (std::size_t i = 0; i < m_rows.size(); ++i)
+        tell_touch(i);
+    tell_blows();
+    hold_what_presses(changed);
+    if (is_jammed)
+        stop_until_next();
+}
+
+// What is jammed would strike and strike again at the same moment.
+void ImpactSet::stop_until_next()
+{
+    for (Member& m : m_members)
+    {
+        if (m.flier != nullptr)
+            m.flier->impacts = m_span.most_impacts;
+    }
+    m_span.output.capped = true;
+}
+
+void ImpactSet::note_before()
+{
+    for (std::size_t i = 0; i < m_members.size(); ++i)
+        m_members[i].before = m_bodies[i];
+    for (std::size_t i = 0; i < m_rows.size(); ++i)
+    {
+        const ImpactRow& r = m_rows[i];
+        const ContactVelocities v = contact_velocities(m_bodies, r);
+        const ImpactBody& b = m_bodies[static_cast<std::size_t>(r.b)];
+        m_sources[i].slide = (b.vx - v.ax) * -r.ny + (b.vy - v.ay) * r.nx;
+    }
+}
+
+Bounce ImpactSet::law(int index, double u)
+{
+    const ImpactRow& row = m_rows[static_cast<std::size_t>(index)];
+    Source& s = m_sources[static_cast<std::size_t>(index)];
+    Bounce bounce;
+    if (row.kind == ImpactRow::Kind::Limit)
+    {
+        const Flier* f = m_members[static_cast<std::size_t>(row.a)].flier;
+        bounce.restitution = f != nullptr ? static_cast<double>(m_state.joints[f->joint].limit_restitution) : 0;
+    }
+    else
+    {
+        const auto speed = static_cast<float>(u);
+        bounce.restitution = mixed_restitution(m_span.ctx.scene, s.own, s.other, speed);
+        if (!s.kicked)
+            bounce.kick = kick(s, speed);
+    }
+    // What is held elsewhere may press here.
+    const double pressing = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_held, row), 0.0});
+    const double rest =
+        std::max({hop_speed(s, pressing), last_bounces(row, pressing, bounce.restitution), both_give_way(row) ? blow_of(s) : 0}) +
+        m_span.least_approach;
+    if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
+    {
+        s.rests = true;
+        bounce.restitution = is_small_blow(row, s, u) ? 1 : 0;
+    }
+    return bounce;
+}
+
+// A hop this slow is none: it is over within a sub-step, and low. What turns fast has accelerations that last no sub-step.
+double ImpactSet::hop_speed(const Source& s, double pressing) const
+{
+    const double within_time = 0.5 * pressing * m_span.h;
+    const bool is_limit = s.own == none;
+    return is_limit ? within_time : std::min(within_time, std::sqrt(2 * pressing * low_hop * size_of(s)));
+}
+
+// A blow this slow is the last: it and all lower bounces after it are over within a sub-step, and before the bodies have turned to press elsewhere.
+double ImpactSet::last_bounces(const ImpactRow& row, double pressing, double restitution) const
+{
+    const auto turning = [&](int member) { return std::fabs(m_members[static_cast<std::size_t>(member)].path.w); };
+    const double time = std::min(m_span.h, soon_turned / std::max({turning(row.a), turning(row.b), 1e-300}));
+    return 0.5 * pressing * time * (1 - restitution);
+}
+
+// They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.
+bool ImpactSet::is_small_blow(const ImpactRow& row, const Source& s, double u) const
+{
+    return both_give_way(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s);
+}
+
+double ImpactSet::size_of(const Source& s) const
+{
+    return std::min(probe_size(leaf_view(m_state, s.own)), probe_size(leaf_view(m_state, s.other)));
+}
+
+// As fast as what presses two that both give way is let become.
+double ImpactSet::blow_of(const Source& s) const
+{
+    const Press press = m_span.press(m_state.shapes[s.own].body, m_state.shapes[s.other].body);
+    return pressed_speed(s.touch.acceleration, press, size_of(s));
+}
+
+// Bodies that go on striking each other, as in a heap that collapses, come to rest against each other.
+bool ImpactSet::is_crowded(const ImpactRow& row) const
+{
+    const Member& a = m_members[static_cast<std::size_t>(row.a)];
+    const Member& b = m_members[static_cast<std::size_t>(row.b)];
+    return a.flier != nullptr && b.flier != nullptr && std::max(a.flier->impacts, b.flier->impacts) >= crowd_limit;
+}
+
+double ImpactSet::kick(Source& s, float speed)
+{
+    const KickResult result = kick_speed(m_span.ctx.scene, s.own, s.other, speed);
+    s.kicked = result.a_fired || result.b_fired;
+    if (result.a_fired)
+        m_span.output.kicked_shapes.push_back(s.own);
+    if (result.b_fired)
+        m_span.output.kicked_shapes.push_back(s.other);
+    return static_cast<double>(result.speed);
+}
+
+void ImpactSet::note_stopped_joints()
+{
+    for (const ImpactRow& r : m_rows)
+    {
+        const std::int32_t a = m_members[static_cast<std::size_t>(r.a)].state;
+        const std::int32_t b = m_members[static_cast<std::size_t>(r.b)].state;
+        if (r.kind == ImpactRow::Kind::Hold && r.energy_lost != 0)
+            m_span.output.stopped_joints.push_back({a != none ? a : b, r.energy_lost});
+    }
+}
+
+void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
+{
+    Member& m = m_members[i];
+    const ImpactBody& now = m_bodies[i];
+    const double dvx = now.vx - m.before.vx;
+    const double dvy = now.vy - m.before.vy;
+    const double dw = now.w - m.before.w;
+    const bool struck = m.flier == &m_first || dvx != 0 || dvy != 0 || dw != 0;
+    m.changed = m.changed || struck;
+    if (!m.changed || m.body == none || (m.state == none && !struck))
+        return;
+    if (m.flier != nullptr)
+        deflect(*m.flier, now, struck);
+    else if (Flier* f = grounded(m); f != nullptr && is_fast(m_span, *f, now.vx, now.vy, now.w))
+    {
+        take_off(m_span, *f, m_time);
+        m.flier = f;
+        deflect(*f, now, struck);
+    }
+    else if (m.state != none)
+    {
+        correct_state(m_span, m.state, m_span.h - m_time, dvx, dvy, dw);
+    }
+    else
+        defer(static_cast<int>(i));
+    if (m.state != none)
+        changed.push_back(m.state);
+}
+
+// What the solver has now but could fly.
+Flier* ImpactSet::grounded(const Member& m) const
+{
+    const std::int32_t f = m.state == none ? none : m_span.scratch.flier_of_state[static_cast<std::size_t>(m.state)];
+    return f == none ? nullptr : &m_span.scratch.fliers[static_cast<std::size_t>(f)];
+}
+
+void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
+{
+    f.vx = now.vx;
+    f.vy = now.vy;
+    f.w = now.w;
+    f.alpha = turning_acceleration(m_span, f, f.angle);
+    if (!struck)
+        return;
+    note_deflected(m_span.scratch, m_span.output, m_span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
+    if (m_renews)
+        return;
+    f.crowded |= !m_span.unit.precise || f.impacts >= crowd_limit;
+    ++f.impacts;
+    m_span.output.capped |= is_capped(m_span, f);
+}
+
+// Of another unit, or asleep: it takes effect at the end of the step.
+void ImpactSet::defer(int index) const
+{
+    for (const ImpactRow& r : m_rows)
+    {
+        if (r.a != index)
+            continue;
+        const double px = -r.normal * r.nx + r.tangent * r.ny;
+        const double py = -r.normal * r.ny - r.tangent * r.nx;
+        m_span.output.deferred.push_back({m_members[static_cast<std::size_t>(index)].body,
+                                          {static_cast<float>(px), static_cast<float>(py)},
+                                          {static_cast<float>(r.arm_a_x), static_cast<float>(r.arm_a_y)},
+                                          m_span.time_of_step(m_time)});
+    }
+}
+
+void resolve_impact(const FlightSpan& span, Flier& first, std::vector<std::int32_t>& changed)
+{
+    ImpactSet(span, first).run(changed);
+}
+
+} // namespace carom::internal

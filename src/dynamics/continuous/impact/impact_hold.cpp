@@ -1,0 +1,233 @@
+// What goes on pressing after an impact is held: by a force for the rest of the sub-step, where one of the two does not give way.
+
+#include "dynamics/continuous/hold.h"
+#include "dynamics/continuous/impact/impact_set.h"
+#include "dynamics/narrowphase/flush_pair.h"
+#include "dynamics/state/body_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr double hold_turn = 0.05;       // rad: so far a hold is followed before it is looked at again
+constexpr double at_once = 0.002;        // of a sub-step
+constexpr double at_once_held = 0.01;    // for what was held already
+constexpr double least_hold = 1.0 / 256; // of a sub-step
+
+} // namespace
+
+// Contacts that no longer part press, on all bodies of this unit.
+void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
+{
+    std::vector<ImpactBody> accelerations(m_bodies.size());
+    for (std::size_t i = 0; i < m_members.size(); ++i)
+    {
+        if (m_members[i].flier == nullptr)
+            continue;
+        accelerations[i] = m_bodies[i];
+        accelerations[i].vx = accelerations[i].vy = accelerations[i].w = 0;
+    }
+    std::vector<Pressing> pressing;
+    for (std::size_t i = 0; i < m_rows.size(); ++i)
+    {
+        if (m_rows[i].kind == ImpactRow::Kind::Hold || !has_stopped(i))
+            continue;
+        if (both_give_way(m_rows[i]))
+            rest_on_each_other(m_rows[i], m_sources[i]);
+        else
+            pressing.push_back({static_cast<int>(i), gap_acceleration(i), slip_acceleration(i)});
+    }
+    press(accelerations, m_rows, pressing);
+    for (Member& m : m_members)
+    {
+        if (m.flier != nullptr)
+            m.flier->hold_until = 1e300;
+    }
+    for (const Pressing& p : pressing)
+    {
+        if (p.force <= 0)
+            continue;
+        hold(p);
+        set_hold_time(static_cast<std::size_t>(p.row));
+    }
+    for (std::size_t i = 0; i < m_members.size(); ++i)
+        accelerate(m_members[i], accelerations[i], changed);
+}
+
+// Friction on an arm may lift what rests, and the way along a bend what is held: where the pressing acceleration ends that at once, it is no hop.
+bool ImpactSet::has_stopped(std::size_t i)
+{
+    const double rate = std::fabs(gap_rate(m_bodies, m_rows[i]));
+    if (rate <= 2 * m_span.least_approach)
+        return true;
+    const Source& s = m_sources[i];
+    const double part = was_held(s.own, s.other) ? at_once_held : s.rests ? at_once : 0;
+    return part > 0 && rate < -part * m_span.h * gap_acceleration(i);
+}
+
+bool ImpactSet::both_give_way(const ImpactRow& row) const
+{
+    const auto gives = [&](int member)
+    {
+        const int body = m_members[static_cast<std::size_t>(member)].body;
+        return body != none && m_state.bodies[body].type == BodyType::Dynamic;
+    };
+    return row.kind == ImpactRow::Kind::Contact && gives(row.a) && gives(row.b);
+}
+
+// A force over a time on two that turn about each other would feed them energy: they are the solver's when the sub-step is over.
+void ImpactSet::rest_on_each_other(const ImpactRow& row, const Source& s)
+{
+    if (!s.rests)
+        return;
+    for (const int member : {row.a, row.b})
+    {
+        if (Flier* f = m_members[static_cast<std::size_t>(member)].flier)
+            f->rests = true;
+    }
+}
+
+void ImpactSet::accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const
+{
+    if (m.flier == nullptr || (a.vx == 0 && a.vy == 0 && a.w == 0))
+        return; // the solver's bodies get their share when the hold ends
+    if (!m.changed)
+        changed.push_back(m.state);
+    m.changed = true;
+    m.flier->ax += a.vx;
+    m.flier->ay += a.vy;
+    m.flier->alpha += a.w;
+}
+
+// What friction has to make up for: the slip, by the end of the sub-step, and what accelerates it.
+double ImpactSet::slip_acceleration(std::size_t i) const
+{
+    const ImpactRow& r = m_rows[i];
+    if (r.kind == ImpactRow::Kind::Limit)
+        return 0;
+    const auto along = [&](int member, double arm_x, double arm_y)
+    {
+        const Flier* f = m_members[static_cast<std::size_t>(member)].flier;
+        if (f == nullptr)
+            return 0.0;
+        const double x = f->ax - f->alpha * arm_y - f->w * f->w * arm_x;
+        const double y = f->ay + f->alpha * arm_x - f->w * f->w * arm_y;
+        return y * r.nx - x * r.ny;
+    };
+    const double left = std::max(m_span.h - m_time, 1e-3 * m_span.h);
+    return slip_rate(m_bodies, r) / left + along(r.b, r.arm_b_x, r.arm_b_y) - along(r.a, r.arm_a_x, r.arm_a_y);
+}
+
+// Of the paths as they are now: the velocities have changed.
+double ImpactSet::gap_acceleration(std::size_t i)
+{
+    const ImpactRow& row = m_rows[i];
+    const Source& s = m_sources[i];
+    if (row.kind == ImpactRow::Kind::Limit)
+    {
+        const Flier* f = m_members[static_cast<std::size_t>(row.a)].flier;
+        return f != nullptr ? -row.turn_a * f->alpha : 0;
+    }
+    const FramePath other = path_from(m_span, m_members[static_cast<std::size_t>(row.a)].body, m_time, m_origin);
+    const FramePath own = path_from(m_span, m_members[static_cast<std::size_t>(row.b)].body, m_time, m_origin);
+    const LeafView own_leaf = leaf_view(m_state, s.own);
+    const LeafView other_leaf = leaf_view(m_state, s.other);
+    const double size = std::min(probe_size(own_leaf), probe_size(other_leaf));
+    double g = 0;
+    double nearest = 1e300;
+    const FlushPair flush(m_state, s.other, s.own);
+    for (const Touch& t : touches_now(other_leaf, other, own_leaf, own, 2 * still_held * size, flush.flush()))
+    {
+        const double d = length_of(t.x - s.touch.x, t.y - s.touch.y);
+        if (d < nearest)
+        {
+            nearest = d;
+            g = t.acceleration;
+        }
+    }
+    return g;
+}
+
+void ImpactSet::hold(const Pressing& p)
+{
+    const ImpactRow& row = m_rows[static_cast<std::size_t>(p.row)];
+    const Source& s = m_sources[static_cast<std::size_t>(p.row)];
+    Flier* a = m_members[static_cast<std::size_t>(row.a)].flier;
+    Flier* b = m_members[static_cast<std::size_t>(row.b)].flier;
+    for (Flier* f : {a, b})
+    {
+        if (f != nullptr)
+            f->constrained = true;
+    }
+    if (row.kind == ImpactRow::Kind::Limit)
+        return;
+    const Vec2 point = to_vec2(m_origin) + Vec2{static_cast<float>(s.touch.x), static_cast<float>(s.touch.y)};
+    Hold h{s.own,
+           s.other,
+           point,
+           {static_cast<float>(row.nx), static_cast<float>(row.ny)},
+           static_cast<float>(p.force),
+           static_cast<float>(p.friction),
+           m_time,
+           a == nullptr ? m_members[static_cast<std::size_t>(row.a)].state : none,
+           s.touch.probes.of_b,
+           s.touch.probes.of_a};
+    if (b != nullptr)
+        add_hold(*b, h);
+    std::swap(h.own, h.other);
+    h.normal = -h.normal;
+    std::swap(h.own_corners, h.other_corners);
+    h.solved = b == nullptr ? m_members[static_cast<std::size_t>(row.b)].state : none;
+    if (a != nullptr)
+        add_hold(*a, h);
+}
+
+void ImpactSet::add_hold(Flier& f, const Hold& h) const
+{
+    const bool firm = m_state.bodies[m_state.shapes[h.other].body].type != BodyType::Dynamic;
+    f.led = firm && (f.led || f.held_count == 0);
+    const BodySim& holder = m_span.sim_of(m_state.shapes[h.other].body);
+    const bool drifts =
+        firm && m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Kinematic && holder.angular_velocity == 0;
+    f.lead_x = drifts ? static_cast<double>(holder.velocity.x) : 0;
+    f.lead_y = drifts ? static_cast<double>(holder.velocity.y) : 0;
+    const bool conveys = m_state.shapes[h.other].surface_speed != 0 || m_state.shapes[h.own].surface_speed != 0;
+    const bool moves = holder.velocity != Vec2{} || holder.angular_velocity != 0;
+    const std::int32_t carrier = !firm || conveys ? none : moves ? m_state.shapes[h.other].body : held_by_world;
+    f.carrier = f.held_count == 0 || f.carrier == carrier ? carrier : none;
+    if (f.held_count == Flier::most_held)
+        return;
+    std::vector<HoldSet>& sets = m_span.output.hold_sets;
+    if (f.hold_set == none)
+    {
+        f.hold_set = static_cast<std::int32_t>(sets.size());
+        sets.emplace_back();
+    }
+    sets[static_cast<std::size_t>(f.hold_set)][static_cast<std::size_t>(f.held_count++)] = h;
+}
+
+// Whatever turns under it: the bend of the surface, what carries the surface, and the body itself where it is no ball.
+void ImpactSet::set_hold_time(std::size_t i)
+{
+    const ImpactRow& row = m_rows[i];
+    const Source& s = m_sources[i];
+    if (row.kind != ImpactRow::Kind::Contact)
+        return;
+    const ImpactBody& a = m_bodies[static_cast<std::size_t>(row.a)];
+    const ImpactBody& b = m_bodies[static_cast<std::size_t>(row.b)];
+    const double bend = std::fabs(s.touch.curvature * s.slide);
+    const double turn = bend + std::fabs(a.w) + (m_state.shapes[s.own].leaf.type == LeafType::Circle ? 0 : std::fabs(b.w));
+    for (const int member : {row.a, row.b})
+    {
+        Flier* f = m_members[static_cast<std::size_t>(member)].flier;
+        if (f == nullptr || turn == 0)
+            continue;
+        f->bend_rate = std::max(f->bend_rate, bend + std::fabs(a.w));
+        f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
+    }
+}
+
+} // namespace carom::internal

@@ -1,0 +1,130 @@
+#pragma once
+
+// All contacts that touch at one moment and hang together through bodies in flight.
+
+#include "collision/time_of_impact.h"
+#include "dynamics/continuous/impact/reflect.h"
+#include "dynamics/continuous/motion.h"
+#include "dynamics/solver/joint/joint_rows.h"
+
+#include <vector>
+
+namespace carom::internal {
+
+/// Of the size: what was held or is in the solver's hands touches with its overlap or gap.
+inline constexpr double still_held = 1e-3;
+
+class ImpactSet
+{
+public:
+    ImpactSet(const FlightSpan& span, Flier& first);
+    void run(std::vector<std::int32_t>& changed);
+
+private:
+    struct Member
+    {
+        int body = none; ///< none: the world, as the other side of a limit
+        std::int32_t state = none;
+        Flier* flier = nullptr;
+        FramePath path{};
+        ImpactBody before{};
+        bool changed = false;
+    };
+
+    /// Where a row comes from; none of the shapes: a limit of a hinge.
+    struct Source
+    {
+        std::int32_t own = none; ///< on body b of the row
+        std::int32_t other = none;
+        std::int32_t contact = none;
+        std::int32_t joint = none;
+        Touch touch{};
+        double slide = 0; ///< speed of the own center along perp(n) before
+        bool kicked = false;
+        bool rests = false; ///< its bounce was none
+    };
+
+    // Who takes part: impact_gather.cpp
+    void gather();
+    [[nodiscard]] std::int32_t contact_between(std::int32_t own, std::int32_t other) const;
+    int member_of(int body);
+    void look_again(Hold h);
+    void set_masses(const Member& m, ImpactBody& b) const;
+    void expand(int index);
+    void add_joints(int body);
+    [[nodiscard]] JointPose pose_of_joint(const JointRecord& joint, int a, int b) const;
+    [[nodiscard]] bool is_known(int contact) const;
+    void add_touches(int member, std::int32_t own, std::int32_t other, std::int32_t contact);
+    [[nodiscard]] double nearness(int member, std::int32_t own, std::int32_t other, int other_body) const;
+    [[nodiscard]] bool was_held(std::int32_t own, std::int32_t other) const;
+    [[nodiscard]] ImpactRow row_of(const Touch& t, int a, int b) const;
+    void add_limits(int index);
+    void add_limit(int index, double turn);
+
+    // What they do, and back into the bodies: impact.cpp
+    void stop_until_next();
+    void note_before();
+    Bounce law(int index, double u);
+    [[nodiscard]] double hop_speed(const Source& s, double pressing) const;
+    [[nodiscard]] double last_bounces(const ImpactRow& row, double pressing, double restitution) const;
+    [[nodiscard]] bool is_small_blow(const ImpactRow& row, const Source& s, double u) const;
+    [[nodiscard]] double size_of(const Source& s) const;
+    [[nodiscard]] double blow_of(const Source& s) const;
+    [[nodiscard]] bool is_crowded(const ImpactRow& row) const;
+    double kick(Source& s, float speed);
+    void note_stopped_joints();
+    void write_back(std::size_t i, std::vector<std::int32_t>& changed);
+    [[nodiscard]] Flier* grounded(const Member& m) const;
+    void deflect(Flier& f, const ImpactBody& now, bool struck) const;
+    void defer(int index) const;
+
+    // The last resort in a jam: impact_jam.cpp
+    class Jam;
+    [[nodiscard]] bool unite_jammed();
+
+    // What the user hears: impact_tell.cpp
+    /// A blow of one contact, or of both that two flat faces have.
+    struct Strike
+    {
+        Blow blow{};
+        ImpactRow row{};
+        double x = 0; ///< where it acts
+        double y = 0;
+    };
+    void tell_touch(std::size_t i);
+    void tell_blows();
+    [[nodiscard]] Strike strike_of(const Blow& blow) const;
+    [[nodiscard]] bool are_one(const Blow& first, const Blow& second) const;
+    void sum_impulse(const ImpactRow& r);
+    [[nodiscard]] bool is_worth_telling(const Blow& blow) const;
+    [[nodiscard]] bool own_is_a(const Source& s) const;
+    [[nodiscard]] ImpactEvent event_of(const Strike& strike) const;
+
+    // What goes on pressing: impact_hold.cpp
+    void hold_what_presses(std::vector<std::int32_t>& changed);
+    [[nodiscard]] bool has_stopped(std::size_t i);
+    [[nodiscard]] bool both_give_way(const ImpactRow& row) const;
+    void rest_on_each_other(const ImpactRow& row, const Source& s);
+    void accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const;
+    [[nodiscard]] double slip_acceleration(std::size_t i) const;
+    [[nodiscard]] double gap_acceleration(std::size_t i);
+    void hold(const Pressing& p);
+    void add_hold(Flier& f, const Hold& h) const;
+    void set_hold_time(std::size_t i);
+
+    const FlightSpan& m_span;
+    SceneState& m_state;
+    Flier& m_first;
+    bool m_renews; ///< a hold, and nothing strikes
+    double m_time;
+    Position m_origin;
+    std::vector<Hold> m_released{};
+    std::vector<Member> m_members{}; ///< beside m_bodies
+    std::vector<ImpactBody> m_bodies{};
+    std::vector<ImpactBody> m_held{}; ///< what held them up to now, as accelerations
+    std::vector<Source> m_sources{};  ///< beside m_rows
+    std::vector<ImpactRow> m_rows{};
+    std::vector<Blow> m_blows{};
+};
+
+} // namespace carom::internal

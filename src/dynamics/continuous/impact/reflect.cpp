@@ -1,0 +1,504 @@
+#include "dynamics/continuous/impact/reflect.h"
+
+#include "dynamics/solver/rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace carom::internal {
+
+namespace {
+
+using Bodies = std::vector<ImpactBody>;
+
+// Impulses along a direction change the velocities by (d, turn) on b and its opposite on a.
+struct Direction
+{
+    double x;
+    double y;
+    double turn_a;
+    double turn_b;
+};
+
+Direction normal_of(const ImpactRow& r) { return {r.nx, r.ny, r.turn_a, r.turn_b}; }
+
+Direction tangent_of(const ImpactRow& r)
+{
+    const double x = -r.ny;
+    const double y = r.nx;
+    return {x, y, r.arm_a_x * y - r.arm_a_y * x, r.arm_b_x * y - r.arm_b_y * x};
+}
+
+double rate_along(const Bodies& bodies, const ImpactRow& r, const Direction& d)
+{
+    const ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
+    const ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
+    return d.x * (b.vx - a.vx) + d.y * (b.vy - a.vy) + d.turn_b * b.w - d.turn_a * a.w;
+}
+
+void push_along(Bodies& bodies, const ImpactRow& r, const Direction& d, double impulse)
+{
+    ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
+    ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
+    a.vx -= a.inverse_mass_x * impulse * d.x;
+    a.vy -= a.inverse_mass_y * impulse * d.y;
+    a.w -= a.inverse_inertia * impulse * d.turn_a;
+    b.vx += b.inverse_mass_x * impulse * d.x;
+    b.vy += b.inverse_mass_y * impulse * d.y;
+    b.w += b.inverse_inertia * impulse * d.turn_b;
+}
+
+// 1 / m of the direction: J M^-1 J^T; 0 where nothing gives way, as through the pivot of a body that only turns.
+double compliance(const Bodies& bodies, const ImpactRow& r, const Direction& d)
+{
+    const ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
+    const ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
+    const auto of = [&](const ImpactBody& body, double turn)
+    { return d.x * d.x * body.inverse_mass_x + d.y * d.y * body.inverse_mass_y + turn * turn * body.inverse_inertia; };
+    const double k = of(a, d.turn_a) + of(b, d.turn_b);
+    const double at_most = (r.arm_a_x * r.arm_a_x + r.arm_a_y * r.arm_a_y) * a.inverse_inertia +
+                           (r.arm_b_x * r.arm_b_x + r.arm_b_y * r.arm_b_y) * b.inverse_inertia;
+    return exceeds_rounding(k, at_most) ? k : 0;
+}
+
+/// A row in a round: its rate is to grow by at least `wanted`; joints' rows by exactly that.
+struct Demand
+{
+    int row = 0;
+    double wanted = 0;
+    double impulse = 0;
+};
+
+constexpr int pass_limit = 100;
+constexpr int least_passes = 4; // when the work is spent
+
+bool are_a_pair(const std::vector<ImpactRow>& rows, int i, int j)
+{
+    const ImpactRow& p = rows[static_cast<std::size_t>(i)];
+    const ImpactRow& q = rows[static_cast<std::size_t>(j)];
+    return p.kind == ImpactRow::Kind::Contact && q.kind == p.kind && p.a == q.a && p.b == q.b;
+}
+
+double couple(const Bodies& bodies, const ImpactRow& p, const ImpactRow& q)
+{
+    const auto of = [&](const ImpactBody& body, double turn_p, double turn_q)
+    { return p.nx * q.nx * body.inverse_mass_x + p.ny * q.ny * body.inverse_mass_y + turn_p * turn_q * body.inverse_inertia; };
+    return of(bodies[static_cast<std::size_t>(p.a)], p.turn_a, q.turn_a) +
+           of(bodies[static_cast<std::size_t>(p.b)], p.turn_b, q.turn_b);
+}
+
+struct Two
+{
+    double x;
+    double y;
+};
+
+// K (x, y) + b >= 0, x >= 0, y >= 0, complementary; two corners of a box are one question, and mirrored ones get the same answer.
+std::optional<Two> solve_two(double k11, double k12, double k22, double b1, double b2)
+{
+    const double det = k11 * k22 - k12 * k12;
+    if (!(det > 1e-9 * k11 * k22))
+        return std::nullopt;
+    const double x = (k12 * b2 - k22 * b1) / det;
+    const double y = (k12 * b1 - k11 * b2) / det;
+    if (x >= 0 && y >= 0)
+        return Two{x, y};
+    const double alone = std::max(-b1 / k11, 0.0);
+    if (k12 * alone + b2 >= 0)
+        return Two{alone, 0};
+    return Two{0, std::max(-b2 / k22, 0.0)};
+}
+
+// Projected Gauss-Seidel to the rounding of a double: one row or two are done in one pass, a few in some, and rows that say the same twice do
+// no harm. `change` are bodies at rest: the change of the velocities so far.
+class Passes
+{
+public:
+    Passes(Bodies& change, const std::vector<ImpactRow>& rows) : m_change(change), m_rows(rows) {}
+
+    /// One row, or it and the next: the impulses are to bring their rates to `wanted` at least. Says how many it took.
+    std::size_t take(std::vector<Demand>& demands, std::size_t i)
+    {
+        if (i + 1 < demands.size() && are_a_pair(m_rows, demands[i].row, demands[i + 1].row) &&
+            take_two(demands[i], demands[i + 1]))
+            return 2;
+        take_one(demands[i]);
+        return 1;
+    }
+
+    double worst = 0; ///< change of a rate in this pass
+
+private:
+    [[nodiscard]] const ImpactRow& row(const Demand& d) const { return m_rows[static_cast<std::size_t>(d.row)]; }
+
+    void take_one(Demand& d)
+    {
+        const Direction n = normal_of(row(d));
+        const double k = compliance(m_change, row(d), n);
+        if (!(k > 0))
+            return;
+        double impulse = d.impulse - (rate_along(m_change, row(d), n) - d.wanted) / k;
+        if (row(d).kind != ImpactRow::Kind::Hold)
+            impulse = std::max(impulse, 0.0);
+        set(d, impulse, k);
+    }
+
+    bool take_two(Demand& p, Demand& q)
+    {
+        const double k11 = compliance(m_change, row(p), normal_of(row(p)));
+        const double k22 = compliance(m_change, row(q), normal_of(row(q)));
+        const double k12 = couple(m_change, row(p), row(q));
+        const double b1 = gap_rate(m_change, row(p)) - p.wanted - (k11 * p.impulse + k12 * q.impulse);
+        const double b2 = gap_rate(m_change, row(q)) - q.wanted - (k12 * p.impulse + k22 * q.impulse);
+        const std::optional<Two> both = solve_two(k11, k12, k22, b1, b2);
+        if (!both)
+            return false;
+        set(p, both->x, k11);
+        set(q, both->y, k22);
+        return true;
+    }
+
+    void set(Demand& d, double impulse, double k)
+    {
+        push_along(m_change, row(d), normal_of(row(d)), impulse - d.impulse);
+        worst = std::max(worst, std::fabs(impulse - d.impulse) * k);
+        d.impulse = impulse;
+    }
+
+    Bodies& m_change;
+    const std::vector<ImpactRow>& m_rows;
+};
+
+constexpr double agreed = 1e-6; // of what is demanded: rates that change by less from pass to pass give no energy to speak of
+
+// False where the rows have not come to agree, or the work was spent before.
+bool satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
+{
+    double scale = 0;
+    for (const Demand& d : demands)
+        scale = std::max(scale, std::fabs(d.wanted));
+    Passes passes(change, rows);
+    for (int pass = 0; pass < pass_limit; ++pass)
+    {
+        passes.worst = 0;
+        for (std::size_t i = 0; i < demands.size();)
+            i += passes.take(demands, i);
+        work.spend(demands.size());
+        if (passes.worst <= 1e-12 * scale)
+            return true;
+        if (work.is_spent() && pass + 1 >= least_passes)
+            return false;
+    }
+    return passes.worst <= agreed * scale;
+}
+
+// v M u
+double product(const Bodies& v, const Bodies& u)
+{
+    double sum = 0;
+    const auto over = [](double value, double inverse_mass) { return inverse_mass > 0 ? value / inverse_mass : 0; };
+    for (std::size_t i = 0; i < v.size(); ++i)
+        sum += over(v[i].vx * u[i].vx, v[i].inverse_mass_x) + over(v[i].vy * u[i].vy, v[i].inverse_mass_y) +
+               over(v[i].w * u[i].w, v[i].inverse_inertia);
+    return sum;
+}
+
+// A change that is not exact goes as far in its direction as it gives no energy: beyond twice the way to the least energy it would. The whole way is the
+// reflection without loss.
+double part_without_gain(const Bodies& bodies, const Bodies& change)
+{
+    const double square = product(change, change);
+    return square > 0 ? std::clamp(-2 * product(bodies, change) / square, 0.0, 1.0) : 0;
+}
+
+Bodies at_rest(const Bodies& bodies)
+{
+    Bodies rest = bodies;
+    for (ImpactBody& b : rest)
+        b.vx = b.vy = b.w = 0;
+    return rest;
+}
+
+void give(Bodies& bodies, std::vector<ImpactRow>& rows, const std::vector<Demand>& demands)
+{
+    const auto half_the_work = [&]
+    {
+        for (const Demand& d : demands)
+        {
+            ImpactRow& row = rows[static_cast<std::size_t>(d.row)];
+            row.energy_lost -= 0.5 * d.impulse * gap_rate(bodies, row);
+        }
+    };
+    half_the_work();
+    for (const Demand& d : demands)
+    {
+        ImpactRow& row = rows[static_cast<std::size_t>(d.row)];
+        row.normal += d.impulse;
+        push_along(bodies, row, normal_of(row), d.impulse);
+    }
+    half_the_work();
+}
+
+// What brings the rates that are demanded.
+void answer(Bodies& bodies, std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
+{
+    Bodies change = at_rest(bodies);
+    if (!satisfy(change, rows, demands, work))
+    {
+        const double part = part_without_gain(bodies, change);
+        for (Demand& d : demands)
+            d.impulse *= part;
+    }
+    give(bodies, rows, demands);
+}
+
+enum class Asked : std::uint8_t
+{
+    Approaching, ///< reflections: those, and nothing else
+    All          ///< none may be made to approach either
+};
+
+// An impact that is being resolved, round after round.
+struct Impact
+{
+    Bodies& bodies;
+    std::vector<ImpactRow>& rows;
+    double least;
+    ImpactWork& work;
+    std::vector<Blow>& blows;
+    int round = 0;
+    bool is_rubbing = false; ///< what friction does is part of the blows before it
+};
+
+ContactVelocities plus(const ContactVelocities& v, const ContactVelocities& u, double sign)
+{
+    return {v.ax + sign * u.ax, v.ay + sign * u.ay, v.bx + sign * u.bx, v.by + sign * u.by};
+}
+
+// Until it is closed, a blow takes whatever its row gives.
+void open(const Impact& impact, const ImpactRow& row, Blow& blow)
+{
+    blow.normal -= row.normal;
+    blow.tangent -= row.tangent;
+    blow.after = plus(blow.after, contact_velocities(impact.bodies, row), -1);
+}
+
+void close(const Impact& impact, const ImpactRow& row, Blow& blow)
+{
+    blow.normal += row.normal;
+    blow.tangent += row.tangent;
+    blow.after = plus(blow.after, contact_velocities(impact.bodies, row), 1);
+}
+
+template <class Change>
+void for_each_last_blow(const Impact& impact, const Change& change)
+{
+    for (const ImpactRow& row : impact.rows)
+    {
+        if (row.last_blow >= 0)
+            change(impact, row, impact.blows[static_cast<std::size_t>(row.last_blow)]);
+    }
+}
+
+void begin_blow(const Impact& impact, int index, double approach, const Bounce& bounce)
+{
+    ImpactRow& row = impact.rows[static_cast<std::size_t>(index)];
+    if (impact.is_rubbing && row.last_blow >= 0)
+        return;
+    row.last_blow = static_cast<int>(impact.blows.size());
+    const ContactVelocities before = contact_velocities(impact.bodies, row);
+    impact.blows.push_back({.row = index,
+                            .round = impact.round,
+                            .approach = approach,
+                            .restitution = bounce.restitution,
+                            .kick = bounce.kick,
+                            .before = before,
+                            .after = before});
+    open(impact, row, impact.blows.back());
+}
+
+double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& rows)
+{
+    double greatest = 0;
+    for (const ImpactRow& row : rows)
+    {
+        if (row.kind != ImpactRow::Kind::Hold)
+            greatest = std::max(greatest, -gap_rate(bodies, row));
+    }
+    return greatest;
+}
+
+constexpr double slow =
+    1e-3; // of the fastest approach: such a contact is at rest, and is struck in a later round by what this one does
+
+// A round of reflections; false where nothing approaches.
+bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::Approaching)
+{
+    std::vector<Demand> demands;
+    const std::size_t first_blow = impact.blows.size();
+    ++impact.round;
+    bool approaching = false;
+    const double least = std::max(impact.least, slow * greatest_approach(impact.bodies, impact.rows));
+    for (std::size_t i = 0; i < impact.rows.size(); ++i)
+    {
+        const ImpactRow& row = impact.rows[i];
+        if (row.kind == ImpactRow::Kind::Hold)
+        {
+            demands.push_back({static_cast<int>(i)});
+            continue;
+        }
+        const double u = -gap_rate(impact.bodies, row);
+        if (u <= least)
+        { // what leans on a limit does not get past it: it is as hard as the world
+            if (row.kind == ImpactRow::Kind::Limit && u > -impact.least)
+                demands.push_back({static_cast<int>(i)});
+            else if (asked == Asked::All)
+                demands.push_back({static_cast<int>(i), u});
+            continue;
+        }
+        approaching = true;
+        const Bounce bounce = law(static_cast<int>(i), u);
+        begin_blow(impact, static_cast<int>(i), u, bounce);
+        demands.push_back({static_cast<int>(i), (1 + bounce.restitution) * u + bounce.kick});
+    }
+    if (!approaching)
+        return false;
+    answer(impact.bodies, impact.rows, demands, impact.work);
+    if (!impact.is_rubbing)
+    {
+        for (std::size_t i = first_blow; i < impact.blows.size(); ++i)
+            close(impact, impact.rows[static_cast<std::size_t>(impact.blows[i].row)], impact.blows[i]);
+    }
+    return true;
+}
+
+// Coulomb's law on the whole normal impulse, row after row: each takes energy or none.
+void rub(Bodies& bodies, std::vector<ImpactRow>& rows)
+{
+    for (int round = 0; round < 8; ++round)
+    {
+        for (ImpactRow& row : rows)
+        {
+            if (row.kind != ImpactRow::Kind::Contact || row.normal <= 0 || row.friction <= 0)
+                continue;
+            const Direction t = tangent_of(row);
+            const double k = compliance(bodies, row, t);
+            if (!(k > 0))
+                continue;
+            const double slip = rate_along(bodies, row, t);
+            const double limit = row.friction * row.normal;
+            const double wanted = std::clamp(row.tangent - (slip - row.surface_speed) / k, -limit, limit);
+            const double change = wanted - row.tangent;
+            row.energy_lost -= change * (slip + 0.5 * k * change);
+            row.tangent = wanted;
+            push_along(bodies, row, t, change);
+        }
+    }
+}
+
+// Friction of what presses: towards no slip at the end of the time looked at.
+void rub_pressed(Bodies& accelerations, const std::vector<ImpactRow>& rows, Pressing& p)
+{
+    const ImpactRow& row = rows[static_cast<std::size_t>(p.row)];
+    const Direction t = tangent_of(row);
+    const double k = compliance(accelerations, row, t);
+    const double along = k > 0 ? p.friction - (p.slip + rate_along(accelerations, row, t)) / k : 0;
+    const double friction = p.limit > 0 ? std::clamp(along, -p.limit, p.limit) : 0;
+    push_along(accelerations, row, t, friction - p.friction);
+    p.friction = friction;
+}
+
+constexpr int round_limit = 64;
+constexpr int one_by_one = 8; // rounds in which only what approaches is asked: more, and they pass it to and fro
+
+// Joints that the solver pulls together close at some rate; kept through an impact, it would do work.
+void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
+{
+    std::vector<Demand> demands;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+        if (rows[i].kind == ImpactRow::Kind::Hold)
+            demands.push_back({static_cast<int>(i), -gap_rate(bodies, rows[i])});
+    }
+    if (!demands.empty())
+        answer(bodies, rows, demands, work);
+}
+
+} // namespace
+
+double gap_rate(const Bodies& bodies, const ImpactRow& row) { return rate_along(bodies, row, normal_of(row)); }
+double slip_rate(const Bodies& bodies, const ImpactRow& row)
+{
+    return rate_along(bodies, row, tangent_of(row)) - row.surface_speed;
+}
+
+ContactVelocities contact_velocities(const Bodies& bodies, const ImpactRow& row)
+{
+    const ImpactBody& a = bodies[static_cast<std::size_t>(row.a)];
+    const ImpactBody& b = bodies[static_cast<std::size_t>(row.b)];
+    return {a.vx - a.w * row.arm_a_y, a.vy + a.w * row.arm_a_x, b.vx - b.w * row.arm_b_y, b.vy + b.w * row.arm_b_x};
+}
+
+bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work,
+             std::vector<Blow>& blows)
+{
+    Impact impact{bodies, rows, least, work, blows};
+    const BounceLaw still = [](int, double) { return Bounce{}; };
+    stop_holds(bodies, rows, work);
+    int round = 0;
+    while (round < round_limit && reflect_once(impact, law) && !work.is_spent())
+        ++round;
+    // A ball between two that close in bounces for ever: what is left is taken without bounce.
+    // A long row only takes its time; what is jammed gets nowhere.
+    double half_way = 0;
+    while (round < 2 * round_limit && !work.is_spent() && reflect_once(impact, still, Asked::All))
+    {
+        if (++round == round_limit + round_limit / 2)
+            half_way = greatest_approach(bodies, rows);
+    }
+    if (work.is_spent())
+        return false;
+    if (round == 2 * round_limit && greatest_approach(bodies, rows) > 0.99 * half_way)
+        return false;
+    for_each_last_blow(impact, open);
+    impact.is_rubbing = true;
+    rub(bodies, rows);
+    // Friction on an arm may press another point in.
+    for (round = 0; round < round_limit; ++round)
+    {
+        if (!reflect_once(impact, still, round < one_by_one ? Asked::Approaching : Asked::All))
+            break;
+    }
+    for_each_last_blow(impact, close);
+    return !work.is_spent();
+}
+
+// In a wedge steep enough to hold by friction alone force and friction raise each other without end; with limits that stay, they agree.
+constexpr int jammed_from = 20;
+
+void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vector<Pressing>& pressing)
+{
+    std::vector<Demand> demands;
+    for (const Pressing& p : pressing)
+        demands.push_back({p.row, -p.gap});
+    Passes passes(accelerations, rows);
+    for (int pass = 0; pass < pass_limit; ++pass)
+    {
+        passes.worst = 0;
+        for (std::size_t i = 0; i < demands.size();)
+            i += passes.take(demands, i);
+        for (std::size_t i = 0; i < pressing.size(); ++i)
+        {
+            Pressing& p = pressing[i];
+            p.force = demands[i].impulse;
+            if (pass < jammed_from)
+                p.limit = rows[static_cast<std::size_t>(p.row)].friction * p.force;
+            rub_pressed(accelerations, rows, p);
+        }
+        if (passes.worst <= 1e-10)
+            return;
+    }
+}
+
+} // namespace carom::internal

@@ -1,0 +1,173 @@
+#include "dynamics/continuous/landing.h"
+
+#include "dynamics/continuous/hold.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/solver/contact/prepare.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/state/turns.h"
+
+#include <cmath>
+#include <span>
+
+namespace carom::internal {
+
+namespace {
+
+// rad: what runs through a tighter bend in a sub-step would leave it before the solver knows, and in the rest of the step come to what has no row.
+constexpr double most_bend = 0.25;
+constexpr double most_bend_in_step = 1;
+
+// Between two points of one shape, as a plank in a narrow bowl.
+bool is_wedged(std::span<const Hold> holds)
+{
+    for (const Hold& a : holds)
+    {
+        for (const Hold& b : holds)
+        {
+            if (a.own == b.own && a.other == b.other && dot(a.normal, b.normal) < one_normal)
+                return true;
+        }
+    }
+    return false;
+}
+
+class Landing
+{
+public:
+    Landing(const FlightSpan& span, const Flier& f) : m_span(span), m_flier(f) {}
+
+    // Rows for everything near it.
+    void run()
+    {
+        const BodyState& s = m_span.state_of(m_flier.state);
+        const float turn = std::fabs(s.angular_velocity) * m_span.sim_of(m_flier.body).extent;
+        const float margin = m_span.ctx.scene.tolerances.speculation + (length(s.velocity) + turn) * m_span.ctx.dt;
+        const SceneState& state = m_span.state;
+        for (int edge = state.bodies[m_flier.body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) == 0)
+                add_row(edge >> 1, margin);
+        }
+    }
+
+private:
+    void add_row(int index, float margin) const
+    {
+        const Contact& contact = m_span.state.contacts[index];
+        const int body = other_body(contact, m_flier.body);
+        const std::int32_t other = state_for_rows(m_span.ctx, m_span.unit, body);
+        if (other == none || m_span.flier_at(other) != nullptr || has_row(index))
+            return; // another unit's, or still in flight: the next step links them
+        const Manifold manifold = world_manifold(m_span.state, contact, pose_now(contact.body_a, other),
+                                                 pose_now(contact.body_b, other), margin + motion_of(m_span.ctx, body));
+        if (manifold.count == 0 && !may_come_to_face(contact, m_span.unit))
+            return;
+        m_span.state.contacts[index].manifold = manifold; // the row's points are these
+        impulses_of(m_span.state, index) = {};
+        m_span.state.contacts[index].flags &= ~contact_flag::kept;
+        const bool flier_is_a = contact.body_a == m_flier.body;
+        ContactRow row =
+            prepare_row(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other, flier_is_a ? other : m_flier.state);
+        hand_over(contact, row);
+        follow_closely(contact, m_span.unit, row);
+        m_span.state_of(other).flags &= ~body_flag::unbound;
+        m_span.output.late_rows.push_back(row);
+    }
+
+    // What held the body goes on bearing it.
+    void hand_over(const Contact& contact, ContactRow& row) const
+    {
+        const bool is_a = contact.body_a == m_flier.body;
+        const std::int32_t own = is_a ? contact.shape_a : contact.shape_b;
+        const std::int32_t other = is_a ? contact.shape_b : contact.shape_a;
+        const BodyState& a = m_span.state_of(row.a);
+        const Vec2 center = to_vec2(m_span.sim_of(contact.body_a).center + a.delta_position);
+        for (const Hold& h : m_span.holds_of(m_flier))
+        {
+            if (h.own != own || h.other != other)
+                continue;
+            const auto distance = [&](const RowPoint& p) { return length(center + p.ra - h.point); };
+            RowPoint& p = row.points[row.count == 2 && distance(row.points[1]) < distance(row.points[0])];
+            p.normal_impulse += m_span.ctx.h * h.force;
+            p.tangent_impulse += m_span.ctx.h * h.friction;
+        }
+    }
+
+    [[nodiscard]] bool has_row(int contact) const
+    {
+        for (const ContactRow& row : m_span.output.late_rows)
+        {
+            if (row.contact == contact && !is_dropped(row))
+                return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] BodyPose pose_now(int body, std::int32_t other) const
+    {
+        const BodySim& sim = m_span.sim_of(body);
+        const BodyState& s = m_span.state_of(body == m_flier.body ? m_flier.state : other);
+        return {sim.center + s.delta_position, s.delta_rotation * sim.rotation, sim.local_center};
+    }
+
+    const FlightSpan& m_span;
+    const Flier& m_flier;
+};
+
+void land(const FlightSpan& span, Flier& f)
+{
+    f.landed = true;
+    span.output.disturbed = true;
+    const Flier held = f;
+    release_holds(span, f, span.h);
+    span.state_of(f.state).flags &= ~(body_flag::flier | body_flag::unbound);
+    Landing(span, held).run();
+}
+
+// m dv = reaction + contacts + m a h
+void sum_reaction(const FlightSpan& span, Flier& f, const CenterMotion& center)
+{
+    const auto m = static_cast<double>(span.sim_of(f.body).mass);
+    const Vec2 a = span.constants_of(f.state).acceleration;
+    f.reaction += {static_cast<float>(m * (center.vx - f.start_vx - span.h * static_cast<double>(a.x)) - f.impulse_x),
+                   static_cast<float>(m * (center.vy - f.start_vy - span.h * static_cast<double>(a.y)) - f.impulse_y)};
+    if (f.lower > -1e200)
+        f.limit_reaction += static_cast<float>(
+            (f.w - f.start_w - span.h * turning_acceleration(span, f, f.angle)) / f.inverse_inertia - f.turn_impulse);
+}
+
+} // namespace
+
+void finish_flight(const FlightSpan& span, Flier& f)
+{
+    if (f.landed)
+        return;
+    if (is_capped(span, f))
+        f.time = span.h; // where and as it is: what forces did to it on no way at all would be energy from nowhere
+    else
+        advance(span, f, span.h);
+    const CenterMotion center = center_of(f);
+    BodyState& s = span.state_of(f.state);
+    s.velocity = {static_cast<float>(center.vx), static_cast<float>(center.vy)};
+    s.angular_velocity = static_cast<float>(f.w);
+    s.delta_position = {static_cast<float>(center.x), static_cast<float>(center.y)};
+    turn_from_start(s, f.angle);
+    if (f.joint != none)
+        sum_reaction(span, f, center);
+    if (f.held_count == 0 && !f.rests)
+        return;
+    const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
+    // Along what turns or moves, whose other sides come to meet it: a slice is short, the rest of the sub-step is not.
+    const bool goes_far =
+        f.carrier != none && f.carrier != held_by_world && span.ctx.slices * span.h * speed_over_carrier(span, f) > 0.5 * f.size;
+    const bool is_beyond_rows =
+        f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || goes_far || is_wedged(span.holds_of(f));
+    if (is_beyond_rows || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
+        release_holds(span, f, span.h);
+    else
+        land(span, f);
+}
+
+} // namespace carom::internal

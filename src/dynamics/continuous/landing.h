@@ -1,0 +1,13 @@
+#pragma once
+
+// The end of a sub-step in flight.
+
+#include "dynamics/continuous/motion.h"
+
+namespace carom::internal {
+
+/// Flies to the end of the sub-step and writes the body's state. What is held becomes the solver's from the next sub-step on; its rows go to
+/// output.late_rows.
+void finish_flight(const FlightSpan& span, Flier& f);
+
+} // namespace carom::internal

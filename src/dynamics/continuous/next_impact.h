@@ -1,0 +1,28 @@
+#pragma once
+
+// What a body in flight will hit next.
+
+#include "dynamics/continuous/motion.h"
+
+namespace carom::internal {
+
+void find_next_event(const FlightSpan& span, Flier& f);
+
+/// The same, but writes to the flier alone: false where it goes through a one-way shape, which must be noted before the search goes on.
+[[nodiscard]] bool try_find_next_event(const FlightSpan& span, Flier& f);
+
+/// The same where all that has changed is the way of a state that this contact is with.
+void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact);
+
+/// How often the path of a state has changed in this sub-step.
+[[nodiscard]] inline std::int32_t version_of(const FlightSpan& span, std::int32_t state)
+{
+    return state == none ? 0 : span.scratch.versions[static_cast<std::size_t>(state)];
+}
+
+/// Of a dynamic body of the unit, whether it flies or not, for the rest of the sub-step.
+[[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
+/// Before that time the two cannot meet; 1e300: they do not.
+[[nodiscard]] double first_meeting(const Reach& a, const Reach& b);
+
+} // namespace carom::internal

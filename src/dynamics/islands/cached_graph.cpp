@@ -1,0 +1,60 @@
+// Who is solved with whom, in which colour and in which lane, depends on bodies, links and joints alone where units are large and nothing flies: slices,
+// heaps and flight, which depend on speeds as well, are for small units. Where all of these are what they were, so is the plan of the last step. It is
+// compared, not assumed: whatever a user has changed shows there.
+
+#include "dynamics/islands/cached_graph.h"
+
+#include "core/grow.h"
+#include "dynamics/islands/island_graph.h"
+#include "dynamics/solver/island_energy.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+namespace {
+
+// Large enough for everything in them to go by links alone.
+bool is_plain(const Unit& unit)
+{
+    const bool has_joints = unit.joint_count > 0 || unit.joint_lane_count > 0;
+    return unit.dynamic_count > (has_joints ? UnitEnergy::most_bodies : precise_limit) && unit.row_count == 0 &&
+           unit.core_count == 0 && !unit.heap && !unit.alone;
+}
+
+} // namespace
+
+bool bodies_stay(const StepContext& ctx)
+{
+    const KeptUnits& kept = ctx.scratch.kept_units;
+    return std::equal(kept.bodies.begin(), kept.bodies.end(), ctx.state.awake_bodies.begin(), ctx.state.awake_bodies.end(),
+                      [&](const KeptBody& k, std::int32_t body)
+                      { return k.body == body && k.cell == ctx.state.bodies[body].plane_cell; });
+}
+
+bool units_stay(const StepContext& ctx)
+{
+    const Scratch& scratch = ctx.scratch;
+    const KeptUnits& kept = scratch.kept_units;
+    return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() && kept.links_stay &&
+           (kept.joints_stay || kept.joints == scratch.joint_links);
+}
+
+void keep_units(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    KeptUnits& kept = scratch.kept_units;
+    kept.are_plain = ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flier_seeds.empty() &&
+                     std::all_of(scratch.units.begin(), scratch.units.end(), is_plain);
+    if (!kept.are_plain)
+        return;
+    kept.bodies.clear();
+    for (const std::int32_t body : ctx.state.awake_bodies)
+        kept.bodies.push_back({body, ctx.state.bodies[body].plane_cell});
+    set_size(kept.bound, scratch.states.size());
+    for (std::size_t s = 0; s < scratch.states.size(); ++s)
+        kept.bound[s] = (scratch.states[s].flags & body_flag::unbound) == 0 ? 1 : 0;
+}
+
+} // namespace carom::internal

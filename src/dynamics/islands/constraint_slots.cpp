@@ -1,0 +1,383 @@
+// Rows of a unit stand sorted by colour, those of a large unit eight to a group and part of the plane by part, see partitions.h. What had a row in the last
+// step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Links are counted by tasks, each its own, and
+// then put where the counts of all say.
+
+#include "dynamics/islands/constraint_slots.h"
+
+#include "core/grow.h"
+#include "core/index.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/island_layout.h"
+#include "dynamics/islands/sort_by_island.h"
+#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/solver/contact/prepare.h"
+#include "dynamics/state/scene_data.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int links_to_a_part = 2048;      // of few
+constexpr int links_to_a_huge_part = 8192; // their rows stay in a cache from solving to relaxing
+constexpr std::size_t most_tasks = 64;     // of a unit: each counts all of its bins
+constexpr std::uint16_t no_part = 65535;   // of what does not give way
+
+class RowPlaces
+{
+public:
+    RowPlaces(StepContext& ctx, Unit& unit) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit) {}
+
+    void find()
+    {
+        m_unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
+        m_unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
+        m_unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
+        m_unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
+        m_is_uniform = m_unit.wide && is_uniform(m_ctx, m_unit);
+        find_parts();
+        name_copies();
+        const std::span<SomePlaces> tasks = count_links();
+        color_new_rows(tasks);
+        give_out_places(tasks);
+        run_tasks(m_ctx.scene.def.tasks, static_cast<int>(tasks.size()),
+                  [&](int t) { place(as_index(t) * links_of_task(), tasks[as_index(t)]); });
+        gather(tasks);
+        m_unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - m_unit.first_wide;
+        m_unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - m_unit.first_row;
+        m_unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_unit.first_core;
+        m_unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - m_unit.first_impact_row;
+    }
+
+private:
+    // --- parts of the plane -----------------------------------------------------------------------------------------------------------
+
+    // Of whole cells of the plane, and about as much work to each.
+    void find_parts()
+    {
+        if (m_unit.parts == 0)
+            return;
+        std::fill_n(m_scratch.parts.begin() + m_unit.first_state, m_unit.state_count, no_part);
+        const std::vector<CellOfUnit>& cells = find_cells();
+        std::int64_t all = 0;
+        for (const CellOfUnit& cell : cells)
+            all += cell.work;
+        std::int64_t before = 0;
+        auto to = m_scratch.parts.begin() + m_unit.first_state + 1;
+        for (const CellOfUnit& cell : cells)
+        {
+            to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_unit.parts / all));
+            before += cell.work;
+        }
+    }
+
+    // In the order in which the states stand; on all threads, and then those that lie in two tasks become one.
+    [[nodiscard]] const std::vector<CellOfUnit>& find_cells() const
+    {
+        using Some = std::vector<CellOfUnit>;
+        const std::span<Some> tasks =
+            find_in_parts(m_ctx.scene.def.tasks, as_index(m_unit.dynamic_count), bodies_per_task, m_scratch.cells_of_task,
+                          [&](std::size_t first, std::size_t last, Some& cells)
+                          {
+                              cells.clear();
+                              for (std::size_t i = first; i < last; ++i)
+                              {
+                                  const int body = m_scratch.state_bodies[as_index(m_unit.first_state + 1) + i];
+                                  add_to_cells(cells, {m_state.bodies[body].plane_cell, 1, work_of(body)});
+                              }
+                          });
+        for (const Some& cells : tasks.subspan(1))
+        {
+            for (const CellOfUnit& cell : cells)
+                add_to_cells(tasks[0], cell);
+        }
+        return tasks[0];
+    }
+
+    static void add_to_cells(std::vector<CellOfUnit>& cells, const CellOfUnit& more)
+    {
+        if (cells.empty() || cells.back().cell != more.cell)
+        {
+            append(cells, more);
+            return;
+        }
+        cells.back().states += more.states;
+        cells.back().work += more.work;
+    }
+
+    // As many rows as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
+    [[nodiscard]] std::int64_t work_of(int body) const
+    {
+        return m_unit.parts > few_parts ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
+    }
+
+    // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
+    [[nodiscard]] int part_of(const Link& l) const
+    {
+        if (m_unit.parts == 0)
+            return 0;
+        const std::uint16_t a = m_scratch.parts[as_index(l.a)];
+        const std::uint16_t b = m_scratch.parts[as_index(l.b)];
+        return a == b || b == no_part ? a : a == no_part ? b : m_unit.parts;
+    }
+
+    // --- states -----------------------------------------------------------------------------------------------------------------------
+
+    // Of kinematic bodies each unit has its own.
+    void name_copies()
+    {
+        for (std::int32_t s = m_unit.first_state + 1 + m_unit.dynamic_count; s < m_unit.first_state + m_unit.state_count; ++s)
+        {
+            const int body = m_scratch.state_bodies[as_index(s)];
+            m_scratch.state_of[as_index(m_state.bodies[body].awake_index)] = s;
+        }
+    }
+
+    // Of a place as in Link.
+    [[nodiscard]] std::int32_t state_at(std::int32_t place) const
+    {
+        return place == none ? m_unit.first_state : m_scratch.state_of[as_index(place >= 0 ? place : -2 - place)];
+    }
+
+    // --- colours and counts -----------------------------------------------------------------------------------------------------------
+
+    [[nodiscard]] std::span<Link> links() const
+    {
+        return std::span(m_scratch.solved_links).subspan(as_index(m_unit.first_link), as_index(m_unit.link_count));
+    }
+
+    // A small unit is one task.
+    [[nodiscard]] std::size_t links_of_task() const
+    {
+        return m_unit.parts > 0 ? std::max(links_per_task, links().size() / most_tasks)
+                                : std::max<std::size_t>(links().size(), 1);
+    }
+
+    // They name states from here on.
+    [[nodiscard]] std::span<SomePlaces> count_links()
+    {
+        return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), links_of_task(),
+                             m_scratch.places_of_task,
+                             [&](std::size_t first, std::size_t last, SomePlaces& some)
+                             {
+                                 some.lanes.resize(std::max(some.lanes.size(), as_index((m_unit.parts + 1) * bins_to_a_part)));
+                                 some.uncolored.clear();
+                                 some.cores.clear();
+                                 some.colors = 0;
+                                 for (std::size_t i = first; i < std::min(last, links().size()); ++i)
+                                 {
+                                     Link& l = links()[i];
+                                     l.a = state_at(l.a);
+                                     l.b = state_at(l.b);
+                                     if (l.color() == none || l.color() == color_limit)
+                                         some.uncolored.push_back(static_cast<std::int32_t>(i));
+                                     else
+                                         count(l, some);
+                                 }
+                             });
+    }
+
+    void color_new_rows(std::span<SomePlaces> tasks)
+    {
+        for (SomePlaces& some : tasks)
+        {
+            for (std::size_t u = 0; u < some.uncolored.size(); ++u)
+            {
+                prefetch_uncolored(some.uncolored, u);
+                Link& l = links()[as_index(some.uncolored[u])];
+                Contact& contact = m_state.contacts[l.contact];
+                take_color(m_state, contact);
+                l.about = about_link(l.about & link_flag::all, l.points(), contact.color);
+                if (contact.color == color_limit)
+                    m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
+                count(l, some);
+            }
+        }
+    }
+
+    // First the contact, then its bodies.
+    [[gnu::always_inline]] void prefetch_uncolored(std::span<const std::int32_t> uncolored, std::size_t u) const
+    {
+        const auto contact_of = [&](std::size_t i) -> const Contact&
+        { return m_state.contacts[links()[as_index(uncolored[i])].contact]; };
+        if (u + 2 * turns_ahead < uncolored.size())
+            prefetch_line(&contact_of(u + 2 * turns_ahead));
+        if (u + turns_ahead >= uncolored.size())
+            return;
+        for (const std::int32_t body : {contact_of(u + turns_ahead).body_a, contact_of(u + turns_ahead).body_b})
+            prefetch(m_state.bodies[body]);
+    }
+
+    void count(Link& l, SomePlaces& some) const
+    {
+        const int color = l.color();
+        const bool in_lane =
+            m_unit.wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
+        l.about = static_cast<std::uint16_t>(l.about | (in_lane ? link_flag::in_lane : 0));
+        l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
+        ++some.place_for(l);
+        some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
+    }
+
+    // Of a lane, by part, color and number of points.
+    [[nodiscard]] int bin_of(const Link& l) const
+    {
+        return part_of(l) * bins_to_a_part + 2 * l.color() + (l.points() == 2 ? 0 : 1);
+    }
+
+    // --- places -----------------------------------------------------------------------------------------------------------------------
+
+    // Eight lanes to a group, each of one part, one colour and one number of points.
+    void give_out_places(std::span<SomePlaces> tasks)
+    {
+        std::uint64_t colors = 0;
+        for (const SomePlaces& some : tasks)
+            colors |= some.colors;
+        m_unit.colors = static_cast<std::int32_t>(std::bit_width(colors));
+        auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
+        m_unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
+        m_unit.bin_count = 2 * m_unit.colors;
+        for (std::int32_t part = 0; part <= m_unit.parts; ++part)
+        {
+            for (std::int32_t bin = 0; bin < m_unit.bin_count; ++bin)
+            {
+                m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
+                give_out(
+                    tasks, [&](SomePlaces& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
+                    lane);
+                lane = (lane + lane_count - 1) / lane_count * lane_count;
+            }
+        }
+        m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
+        auto row = m_unit.first_row;
+        for_each_row_bin(
+            [&](int color)
+            {
+                give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.rows[color]; }, row);
+            });
+        make_room(m_scratch.lane_links, as_index(lane));
+        m_scratch.lane_links.resize(as_index(lane), none);
+        set_size(m_scratch.row_links, as_index(row));
+    }
+
+    // From how many of a bin each task has to where its first goes.
+    template <class Count>
+    static void give_out(std::span<SomePlaces> tasks, const Count& count_of, std::int32_t& place)
+    {
+        for (SomePlaces& some : tasks)
+            place += std::exchange(count_of(some), place);
+    }
+
+    template <class Visit>
+    void for_each_row_bin(const Visit& visit) const
+    {
+        for (int color = 0; color < m_unit.colors; ++color)
+            visit(color);
+        visit(color_limit);
+    }
+
+    void place(std::size_t first, SomePlaces& some)
+    {
+        for (std::size_t i = first; i < std::min(first + links_of_task(), links().size()); ++i)
+        {
+            const Link& l = links()[i];
+            const std::int32_t at = some.place_for(l)++;
+            (l.has(link_flag::in_lane) ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
+                m_unit.first_link + static_cast<std::int32_t>(i);
+            if (l.has(link_flag::in_lane) && l.points() > 0)
+                add_core(l, at, some);
+        }
+        for (std::int32_t part = 0; part <= m_unit.parts; ++part)
+            std::fill_n(some.lanes.begin() + part * bins_to_a_part, m_unit.bin_count, 0);
+        for_each_row_bin([&](int color) { some.rows[color] = 0; });
+    }
+
+    // Balls and bodies in joints have a core against walls.
+    void add_core(const Link& l, std::int32_t lane, SomePlaces& some) const
+    {
+        const bool a_gives = is_dynamic(m_unit, l.a);
+        if (a_gives && is_dynamic(m_unit, l.b))
+            return;
+        const Contact& contact = m_state.contacts[l.contact];
+        const ShapeRecord& shape = m_state.shapes[a_gives ? contact.shape_a : contact.shape_b];
+        if (shape.leaf.type == LeafType::Circle || m_state.bodies[shape.body].first_joint != none)
+            some.cores.push_back(
+                {lane - m_unit.first_wide * lane_count, l.points(), core_depth(m_state, contact, contact.manifold, a_gives)});
+    }
+
+    // Cores of one body are of different colours: in the order of lanes wherever in a bin these are.
+    void gather(std::span<SomePlaces> tasks)
+    {
+        for (const SomePlaces& some : tasks)
+            append_all(m_scratch.cores, some.cores);
+        std::ranges::sort(m_scratch.cores.begin() + m_unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
+        for (auto row = m_unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
+        {
+            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].has(link_flag::bears))
+                m_scratch.impact_rows.push_back(row);
+        }
+    }
+
+    StepContext& m_ctx;
+    SceneState& m_state;
+    Scratch& m_scratch;
+    Unit& m_unit;
+    bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
+};
+
+// Whatever the number of threads: the order in which rows are solved depends on it.
+int parts_of(const Unit& unit)
+{
+    const int few = std::min(unit.link_count / links_to_a_part, few_parts);
+    const int many = std::min({unit.link_count / links_to_a_huge_part, unit.dynamic_count / bodies_to_a_cell, most_parts});
+    const int parts = std::max(few, many);
+    return unit.wide && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
+}
+
+} // namespace
+
+void sort_links(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    sort_by_unit(
+        {}, scratch, scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
+        [](Unit& unit, int first, int count)
+        {
+            unit.first_link = first;
+            unit.link_count = count;
+        });
+}
+
+void place_rows_of_small_units(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    set_size(scratch.parts, scratch.state_bodies.size());
+    scratch.row_links.clear();
+    scratch.lane_links.clear();
+    scratch.impact_rows.clear();
+    scratch.cores.clear();
+    scratch.bin_starts.clear();
+    for (Unit& unit : scratch.units)
+    {
+        unit.parts = parts_of(unit);
+        if (unit.parts == 0)
+            RowPlaces(ctx, unit).find();
+    }
+}
+
+void place_rows_of_large_units(StepContext& ctx)
+{
+    for (Unit& unit : ctx.scratch.units)
+    {
+        if (unit.parts > 0)
+            RowPlaces(ctx, unit).find();
+    }
+}
+
+} // namespace carom::internal

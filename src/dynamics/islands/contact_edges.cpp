@@ -1,0 +1,226 @@
+// Links stand in the order of the awake contacts, but for those with pieces of chains and with what sleeps: others have more to say about these, and they come
+// behind.
+
+#include "dynamics/islands/contact_edges.h"
+
+#include "core/grow.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/joint_edges.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <vector>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t parts_joined_at_once = 8;
+
+// Who bears a load matters to rows and heaps only.
+bool is_same(const Link& a, const Link& b)
+{
+    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.about ^ b.about) & ~link_flag::bears) == 0;
+}
+
+// A walk over contacts. Copies, not references: to a compiler every store might change where vectors are.
+class ContactWalk
+{
+public:
+    ContactWalk(const StepContext& ctx, SomeLinks& some)
+        : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.places.data()),
+          m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.is_loaded.data()),
+          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(some.links.data() + some.count),
+          m_old_end(some.links.data() + some.to_compare), m_stay(some.stay), m_touching(some.touching)
+    {}
+
+    // Links it where it takes part in the step. Whom it loads does not fly.
+    void visit(std::int32_t index)
+    {
+        Contact& contact = m_contacts[index];
+        m_lane_marks[index] = LaneMark::None;
+        contact.wide = none;
+        const bool touching = (contact.flags & contact_flag::touching) != 0;
+        const bool solved = is_solved(contact);
+        if (!solved)
+            leave_row(m_ctx.state, index);
+        if (!touching && !solved)
+            return;
+        const std::int32_t a = m_places[contact.body_a];
+        const std::int32_t b = m_places[contact.body_b];
+        if (a < 0 && b < 0)
+        {
+            leave_color(m_ctx.state, contact);
+            return;
+        }
+        const bool loaded = solved && is_loaded(m_ctx, contact, least_separation(contact.manifold));
+        note_load(a, loaded);
+        note_load(b, loaded);
+        link(index, a, b, about(contact, solved));
+        m_touching += touching ? 1 : 0;
+    }
+
+    void leave(SomeLinks& some) const
+    {
+        some.count = static_cast<std::size_t>(m_next - some.links.data());
+        some.stay = m_stay;
+        some.touching = m_touching;
+    }
+
+private:
+    [[nodiscard]] static std::uint16_t about(const Contact& contact, bool solved)
+    {
+        const bool plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
+        const std::uint32_t flags = contact.flags & (link_flag::touching | link_flag::round | link_flag::bears);
+        return about_link(flags | (solved ? link_flag::solved : 0) | (plain ? link_flag::plain : 0), contact.manifold.count,
+                          contact.color);
+    }
+
+    // Filled where it stands: a copy would wait for its bytes.
+    void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t about)
+    {
+        Link& l = *m_next;
+        if (m_stay)
+            m_stay = m_next < m_old_end && is_same(l, {contact, a, b, about});
+        l.contact = contact;
+        l.a = a;
+        l.b = b;
+        l.about = about;
+        l.bin = 0;
+        ++m_next;
+    }
+
+    // Others may do so as well. The last mark is nobody's: a branch here would be guessed wrong.
+    void note_load(std::int32_t place, bool loaded) const
+    {
+        const std::int32_t marked = loaded && place >= 0 ? place : m_nobody;
+        std::atomic_ref(m_is_loaded[marked]).store(1, std::memory_order_relaxed);
+    }
+
+    const StepContext& m_ctx;
+    Contact* m_contacts;
+    const std::int32_t* m_places;
+    LaneMark* m_lane_marks;
+    std::uint8_t* m_is_loaded;
+    std::int32_t m_nobody;
+    Link* m_next;
+    const Link* m_old_end;
+    bool m_stay;
+    int m_touching;
+};
+
+} // namespace
+
+ContactLinks::ContactLinks(StepContext& ctx, std::size_t contacts_to_a_task)
+    : m_ctx(ctx), m_contacts_to_a_task(contacts_to_a_task), m_alone(ctx.scene.def.tasks.worker_count <= 1)
+{
+    Scratch& scratch = ctx.scratch;
+    forget_bodies(ctx);
+    place_bodies(ctx);
+    if (!m_alone)
+    {
+        add_tasks(ctx.state.awake_contacts.size(), contacts_to_a_task);
+        return;
+    }
+    add_tasks(1, 1);
+    // Links of the last step are compared with these, and give their place to them.
+    SomeLinks& all = links_of(0);
+    all.links.swap(scratch.links);
+    all.stay = scratch.kept_units.are_plain;
+    all.to_compare = all.stay ? all.links.size() : 0;
+    set_size(all.links, std::max(all.links.size(), ctx.state.awake_contacts.size()));
+}
+
+// That have asked nothing yet.
+void ContactLinks::add_tasks(std::size_t contacts, std::size_t contacts_to_a_task)
+{
+    std::vector<SomeLinks>& all = m_ctx.scratch.links_of_task;
+    const std::size_t first = m_tasks;
+    m_tasks += (contacts + contacts_to_a_task - 1) / contacts_to_a_task;
+    all.resize(std::max(all.size(), m_tasks));
+    for (std::size_t task = first; task < m_tasks; ++task)
+    {
+        SomeLinks& some = all[task];
+        set_size(some.links, std::max(some.links.size(), contacts_to_a_task));
+        some.count = some.to_compare = 0;
+        some.stay = false;
+        some.touching = 0;
+    }
+}
+
+SomeLinks& ContactLinks::links_of(std::size_t task) { return m_ctx.scratch.links_of_task[m_alone ? 0 : task]; }
+
+void ContactLinks::ask(std::size_t first, std::size_t last, std::vector<std::int32_t>& later)
+{
+    SomeLinks& some = links_of(first / m_contacts_to_a_task);
+    ContactWalk walk(m_ctx, some);
+    later.clear();
+    for (const std::int32_t contact : std::span(m_ctx.state.awake_contacts).subspan(first, last - first))
+    {
+        if (concerns_no_other(m_ctx.state.contacts[contact]))
+            walk.visit(contact);
+        else
+            append(later, contact);
+    }
+    walk.leave(some);
+}
+
+void ContactLinks::ask_later(std::span<const std::int32_t> contacts)
+{
+    place_bodies(m_ctx);
+    const std::size_t first_task = m_tasks;
+    if (m_alone)
+        set_size(links_of(0).links, std::max(links_of(0).links.size(), m_ctx.state.awake_contacts.size()));
+    else
+        add_tasks(contacts.size(), contacts_per_task);
+    run_parts(m_ctx.scene.def.tasks, contacts.size(), contacts_per_task,
+              [&](std::size_t first, std::size_t last)
+              {
+                  SomeLinks& some = links_of(first_task + first / contacts_per_task);
+                  ContactWalk walk(m_ctx, some);
+                  for (std::size_t i = first; i < last; ++i)
+                  {
+                      if (i + turns_ahead < last)
+                          prefetch(m_ctx.state.contacts[contacts[i + turns_ahead]]);
+                      walk.visit(contacts[i]);
+                  }
+                  walk.leave(some);
+              });
+}
+
+void ContactLinks::join()
+{
+    Scratch& scratch = m_ctx.scratch;
+    const std::span<SomeLinks> parts = std::span(scratch.links_of_task).first(m_tasks);
+    std::size_t count = 0;
+    for (SomeLinks& some : parts)
+    {
+        some.first = count;
+        count += some.count;
+        m_ctx.report.touching += some.touching;
+    }
+    if (m_alone)
+    {
+        parts[0].links.resize(count);
+        scratch.links.swap(parts[0].links);
+        scratch.kept_units.links_stay = parts[0].stay && count == parts[0].to_compare;
+        return;
+    }
+    const bool may_stay = scratch.kept_units.are_plain && scratch.links.size() == count;
+    set_size(scratch.links, count);
+    for_each_in_parts(m_ctx.scene.def.tasks, parts.size(), parts_joined_at_once,
+                      [&](std::size_t i)
+                      {
+                          const auto found = std::span(parts[i].links).first(parts[i].count);
+                          const auto to = scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
+                          parts[i].stay = may_stay && std::equal(found.begin(), found.end(), to, is_same);
+                          std::ranges::copy(found, to);
+                      });
+    scratch.kept_units.links_stay = may_stay && std::ranges::all_of(parts, &SomeLinks::stay);
+}
+
+} // namespace carom::internal

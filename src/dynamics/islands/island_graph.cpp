@@ -1,0 +1,656 @@
+// Units are what touches, is joined or may come to touch in this step, through dynamic bodies, joined further where flight paths may meet. A unit's kind
+// depends on its content alone, never on threads or the order of other units.
+
+#include "dynamics/islands/island_graph.h"
+
+#include "core/grow.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/joint_edges.h"
+#include "dynamics/islands/sort_by_island.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/solver/force_laws.h"
+#include "dynamics/solver/island_energy.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float slice_turn = 0.02f;  // rad
+constexpr float slice_swing = 0.25f; // rad, of a joint's arm
+constexpr int slice_limit = 32;
+constexpr int hinge_slice_limit = 64; // between bodies that move by themselves: what they err by is their own energy
+constexpr std::size_t fliers_per_task = 128;
+constexpr std::size_t reaches_per_task = 4; // blocks of eight
+constexpr float calm_swing = 0.1f;          // rad, in a step
+constexpr int enough_bodies = 256;          // in a unit of heaps, or of bodies that are alone
+constexpr std::size_t enough_joints = 8;    // in a heap
+constexpr int most_sets = 4;                // that are linked side by side
+
+// --- what is solved in this step --------------------------------------------------------------------------------------------------
+
+bool gets_rows(const SceneState& state, const Contact& contact)
+{
+    return is_solved(contact) && (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
+}
+
+// --- the graph --------------------------------------------------------------------------------------------------------------------
+
+class UnitGraph
+{
+public:
+    explicit UnitGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+
+    // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
+    void link_units()
+    {
+        const int worth = 1 + static_cast<int>((scratch.links.size() + scratch.joint_links.size()) / links_per_task);
+        const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, std::min(worth, most_sets));
+        if (scratch.more_sets.size() + 1 < static_cast<std::size_t>(parts))
+            scratch.more_sets.resize(static_cast<std::size_t>(parts) - 1);
+        const auto sets_of = [&](int part) -> UnionFind&
+        { return part == 0 ? scratch.sets : scratch.more_sets[static_cast<std::size_t>(part) - 1]; };
+        run_tasks(ctx.scene.def.tasks, parts, [&](int part) { link_part(part, parts, sets_of(part)); });
+        for (int part = 1; part < parts; ++part)
+            scratch.sets.link_all(sets_of(part));
+    }
+
+    void link_part(int part, int parts, UnionFind& sets)
+    {
+        const auto over_both_ends = [&](const auto& links, const auto& visit)
+        {
+            const auto bound = [&](int p)
+            { return links.size() * static_cast<std::size_t>(p) / static_cast<std::size_t>(parts); };
+            for (const auto& l : std::span(links).subspan(bound(part), bound(part + 1) - bound(part)))
+                visit(l.a, l.b); // what is not dynamic has no place: it is negative
+        };
+        const auto guess = [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); };
+        const auto link = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
+        sets.reset(state.awake_bodies.size());
+        over_both_ends(scratch.links, guess);
+        over_both_ends(scratch.joint_links, guess);
+        sets.flatten();
+        over_both_ends(scratch.links, link);
+        over_both_ends(scratch.joint_links, link);
+        sets.flatten();
+    }
+
+    // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
+    // way.
+    void ground_crowds()
+    {
+        for (const std::int32_t place : scratch.flying)
+            ++tally_of(place).unloaded;
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
+                              if (tally_of(place).unloaded > precise_limit && !shoots(body_at(place)))
+                                  scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
+                          });
+        std::erase_if(scratch.flying,
+                      [&](std::int32_t place) { return scratch.flight[static_cast<std::size_t>(place)] == earthbound; });
+        for (const std::int32_t place : scratch.flying)
+            ++tally_of(place).fliers;
+    }
+
+    // Goes half its size or more in a sub-step, also as its neighbours see it.
+    [[nodiscard]] bool shoots(int body) const
+    {
+        const float limit = 0.5f * state.sims[static_cast<std::size_t>(body)].size / ctx.h;
+        const Vec2 v = state.sims[static_cast<std::size_t>(body)].velocity;
+        bool shoots = length(v) > limit;
+        for (int edge = state.bodies[body].first_contact; shoots && edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            const int other = other_body(contact, body);
+            shoots = !gets_rows(state, contact) || state.bodies[other].type != BodyType::Dynamic ||
+                     length(v - state.sims[static_cast<std::size_t>(other)].velocity) > limit;
+        }
+        return shoots;
+    }
+
+    // Who bears matters to heaps.
+    void count_contacts()
+    {
+        if (scratch.joint_links.size() < enough_joints)
+            return;
+        for (const Link& l : scratch.links)
+        {
+            if (!l.has(link_flag::solved))
+                continue;
+            UnitTally& t = tally(unit_of_link(l));
+            ++t.contacts;
+            t.bearing += l.has(link_flag::bears) ? 1 : 0;
+        }
+    }
+
+    [[nodiscard]] UnitTally& tally(std::int32_t unit) { return scratch.tallies[static_cast<std::size_t>(unit)]; }
+    [[nodiscard]] UnitTally& tally_of(std::int32_t place) { return tally(scratch.unit_of[static_cast<std::size_t>(place)]); }
+    [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
+    template <class AnyLink>
+    [[nodiscard]] std::int32_t unit_of_link(const AnyLink& l) const
+    {
+        return scratch.unit_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
+    }
+
+    // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
+    void choose_slices()
+    {
+        const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
+                              std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
+                                          [](const UnitTally& t) { return t.bodies <= precise_limit; });
+        if (may_turn)
+            for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+                              [&](std::size_t place) { slice_at_contacts_of(static_cast<std::int32_t>(place)); });
+        find_swings();
+        for (std::size_t i = 0; i < scratch.joint_links.size(); ++i)
+        {
+            const JointLink& j = scratch.joint_links[i];
+            UnitTally& t = tally(unit_of_link(j));
+            ++t.joints;
+            t.hangs |= j.a < 0 || j.b < 0;
+            t.damped += j.damped ? 1 : 0;
+            t.swing = std::max(t.swing, scratch.swings[i]);
+        }
+        for (UnitTally& t : scratch.tallies)
+            t.slices = std::max(t.slices, slices_for(t.swing, slice_swing, slice_limit));
+    }
+
+    [[nodiscard]] std::int32_t slices_for(float rate, float most_turn, int limit) const
+    {
+        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
+    }
+
+    // Of a small unit.
+    void slice_at_contacts_of(std::int32_t place)
+    {
+        const std::int32_t unit = scratch.unit_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
+        if (unit == none || tally(unit).bodies > precise_limit)
+            return;
+        for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
+                slice_at_contact(contact, unit);
+        }
+    }
+
+    // Others may do so as well: the most that anyone wants.
+    void slice_at_contact(const Contact& contact, std::int32_t unit)
+    {
+        const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
+        const std::int32_t wanted = slices_for(turn_rate(contact), slice_turn, both_move ? hinge_slice_limit : slice_limit);
+        const std::atomic_ref slices(tally(unit).slices);
+        std::int32_t before = slices.load(std::memory_order_relaxed);
+        while (before < wanted && !slices.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
+        {
+        }
+    }
+
+    // Of joints in small units, on all threads.
+    void find_swings()
+    {
+        set_size(scratch.swings, scratch.joint_links.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_links.size(), joints_per_task,
+                          [&](std::size_t i)
+                          {
+                              const JointLink& j = scratch.joint_links[i];
+                              const bool small = tally(unit_of_link(j)).bodies <= UnitEnergy::most_bodies;
+                              scratch.swings[i] = small ? swing_rate(state.joints[j.joint]) : 0;
+                          });
+    }
+
+    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So are bodies that are alone, for they are many.
+    void form_units()
+    {
+        find_alone();
+        std::vector<std::int32_t>& unit_of_group = scratch.order;
+        unit_of_group.clear();
+        scratch.units.clear();
+        Batch heaps;
+        Batch lone;
+        for (const UnitTally& t : scratch.tallies)
+        {
+            const bool heap = is_heap(t);
+            const bool alone = t.bodies == 1 && t.fliers == 1 && scratch.is_alone[static_cast<std::size_t>(t.first)] != 0;
+            Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
+            if (batch == nullptr || batch->unit == none || batch->bodies >= enough_bodies)
+            {
+                append(scratch.units, {});
+                Unit& unit = scratch.units.back();
+                unit.slices = heap ? 1 : t.slices;
+                unit.heap = heap;
+                unit.alone = alone;
+                if (batch != nullptr)
+                    *batch = {static_cast<std::int32_t>(scratch.units.size()) - 1, 0};
+            }
+            if (batch != nullptr)
+                batch->bodies += t.bodies;
+            unit_of_group.push_back(batch != nullptr ? batch->unit : static_cast<std::int32_t>(scratch.units.size()) - 1);
+        }
+        ctx.report.units = static_cast<int>(scratch.tallies.size());
+        if (scratch.units.size() == scratch.tallies.size())
+            return;
+        for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+                          [&](std::size_t place)
+                          {
+                              std::int32_t& u = scratch.unit_of[place];
+                              u = u == none ? none : unit_of_group[static_cast<std::size_t>(u)];
+                          });
+    }
+
+    struct Batch
+    {
+        std::int32_t unit = none;
+        int bodies = 0;
+    };
+
+    // Of what flies.
+    void find_alone()
+    {
+        set_size(scratch.is_alone, state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              const bool alone = tally_of(place).bodies == 1 && is_alone(place);
+                              scratch.is_alone[static_cast<std::size_t>(place)] = alone ? 1 : 0;
+                          });
+    }
+
+    [[nodiscard]] bool is_alone(std::int32_t place) const
+    {
+        const int body = body_at(place);
+        const BodyRecord& record = state.bodies[body];
+        return scratch.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none && meets_nothing(record) &&
+               is_free_of_loads(body) && !ctx.scene.def.record_substeps;
+    }
+
+    [[nodiscard]] bool is_free_of_loads(int body) const
+    {
+        const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+        return sim.force == Vec2{} && sim.torque == 0 && force_law_of(ctx, body) == nullptr;
+    }
+
+    // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
+    [[nodiscard]] bool meets_nothing(const BodyRecord& record) const
+    {
+        for (int edge = record.first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if (contact.manifold.count > 0 || !tells_apart(contact) || (contact.flags & contact_flag::trigger) != 0)
+                return false;
+        }
+        return true;
+    }
+
+    // What joints hold exactly otherwise is held softly here, as in piles: where it lies on something, for four joints a contact bears a load; and where
+    // all joints brake or damp what they hold, and none of it turns fast near something that it may meet. None holds to what does not move.
+    [[nodiscard]] bool is_heap(const UnitTally& t) const
+    {
+        const bool calm = t.slices == 1;
+        const bool lies = 4 * t.bearing >= t.joints && calm;
+        const bool wearies = t.damped == t.joints && (t.contacts == 0 || (calm && ctx.dt * t.swing < calm_swing));
+        return static_cast<std::size_t>(t.joints) >= enough_joints && t.bodies <= UnitEnergy::most_bodies && !t.hangs &&
+               t.fliers == 0 && (lies || wearies);
+    }
+
+    // How fast a joint's arms turn, in rad/s.
+    [[nodiscard]] float swing_rate(const JointRecord& joint) const
+    {
+        if (joint.kind == JointType::Spring)
+            return 0;
+        const auto spin = [&](int body, Vec2 anchor)
+        {
+            const bool turns = body != none && (anchor != state.sims[static_cast<std::size_t>(body)].local_center ||
+                                                joint.kind == JointType::Prismatic);
+            return turns ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
+        };
+        return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
+    }
+
+    // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
+    // is followed exactly in flight.
+    [[nodiscard]] float turn_rate(const Contact& contact) const
+    {
+        const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));
+        if (driven * ctx.h < 0.1f * slice_turn)
+            return 0;
+        const BodySim& a = state.sims[static_cast<std::size_t>(contact.body_a)];
+        const BodySim& b = state.sims[static_cast<std::size_t>(contact.body_b)];
+        const Vec2 arm = b.center - a.center;
+        const Vec2 slide = b.velocity - a.velocity - cross(a.angular_velocity, arm);
+        const float radius = std::max(state.shapes[contact.shape_a].leaf.r0, state.shapes[contact.shape_b].leaf.r0);
+        return driven + ((contact.flags & contact_flag::round) != 0 && radius > 0 ? length(slide) / radius : 0);
+    }
+
+    [[nodiscard]] float driven_spin(int body) const
+    {
+        const bool driven =
+            state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
+        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
+                      : 0;
+    }
+
+    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
+    // two would meet in different times. True where units have become one.
+    bool link_deflected()
+    {
+        find_deflected();
+        scratch.may_be_struck = scratch.is_deflected;
+        if (scratch.reaches.empty())
+            return false;
+        scratch.reach_tree.build(ctx.scene.def.tasks, scratch.reaches);
+        using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
+        const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
+        const std::span<Meetings> parts =
+            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings_of_task,
+                          [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
+        scratch.sets.reset(scratch.tallies.size());
+        bool linked = false;
+        for (const Meetings& some : parts)
+        {
+            for (const auto& [unit, other] : some)
+                linked |= scratch.sets.link(unit, other, false);
+        }
+        return linked;
+    }
+
+    // What flies and may be deflected by what it meets on its way; where it may come then, and whose boxes keep their way.
+    void find_deflected()
+    {
+        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
+        find_fastest();
+        const std::span<SomeReaches> parts =
+            find_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
+                          [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
+        scratch.reaches.clear();
+        std::vector<std::int32_t>& shapes = scratch.order;
+        shapes.clear();
+        for (const SomeReaches& some : parts)
+        {
+            append_all(scratch.reaches, some.reaches);
+            append_all(shapes, some.shapes);
+        }
+        if (!shapes.empty())
+            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
+    }
+
+    // A struck body may leave as fast as the one that strikes it comes. So each unit notes the longest way of its fliers that may still meet something.
+    void find_fastest()
+    {
+        for (UnitTally& t : scratch.tallies)
+            t.longest_way = 0;
+        set_size(scratch.may_meet, state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              if (!flies_far(place))
+                                  return;
+                              const bool meets = may_meet(place);
+                              scratch.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
+                              if (!meets)
+                                  return;
+                              const float way = scratch.motion[static_cast<std::size_t>(place)];
+                              const std::atomic_ref longest(tally_of(place).longest_way);
+                              float before = longest.load(std::memory_order_relaxed);
+                              while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
+                              {
+                              }
+                          });
+    }
+
+    void find_reaches(std::size_t first, std::size_t last, SomeReaches& some) const
+    {
+        some.reaches.clear();
+        some.shapes.clear();
+        for (std::size_t i = first; i < last; ++i)
+        {
+            const std::int32_t item = scratch.flying[i];
+            const auto place = static_cast<std::size_t>(item);
+            const float way = scratch.tallies[static_cast<std::size_t>(scratch.unit_of[place])].longest_way;
+            if (way == 0 || !(flies_far(item) ? scratch.may_meet[place] != 0 : may_meet(item)))
+                continue;
+            scratch.is_deflected[place] = 1;
+            const int body = body_at(item);
+            const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+            const double r = static_cast<double>(way) + static_cast<double>(sim.extent);
+            const Position c = sim.center;
+            some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
+            for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });
+        }
+    }
+
+    [[nodiscard]] bool flies_far(std::int32_t place) const
+    {
+        return scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
+    }
+
+    [[nodiscard]] bool may_meet(std::int32_t place) const
+    {
+        const auto deflects = [&](int edge)
+        { return is_solved(state.contacts[edge >> 1]) && !stays_apart(ctx, state.contacts[edge >> 1]); };
+        int edge = state.bodies[body_at(place)].first_contact;
+        while (edge != none && !deflects(edge))
+            edge = state.contacts[edge >> 1].next[edge & 1];
+        return edge != none;
+    }
+
+    // Units that meet; notes what else may be struck.
+    void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
+    {
+        const BoxTree& tree = scratch.reach_tree;
+        meetings.clear();
+        const auto note = [&](std::int32_t place, std::int32_t other)
+        {
+            const std::pair units(scratch.unit_of[static_cast<std::size_t>(place)],
+                                  scratch.unit_of[static_cast<std::size_t>(other)]);
+            const bool is_known = !meetings.empty() && meetings.back() == units;
+            if (units.second != none && units.first != units.second && !is_known) // kinematic bodies have none
+                meetings.push_back(units);
+        };
+        for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
+        {
+            const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
+            state.broad_phase.for_each_overlap(
+                tree, k, lanes, Layer::Moving, scratch.keeps_its_way,
+                [&](std::int32_t place, int shape)
+                {
+                    const std::size_t other = place_of_shape(shape);
+                    std::atomic_ref(scratch.may_be_struck[other]).store(1, std::memory_order_relaxed);
+                    if (scratch.is_deflected[other] == 0) // what no tree holds yet is not chosen
+                        note(place, static_cast<std::int32_t>(other));
+                });
+            // of two that are both deflected the first finds the second
+            tree.for_each_overlap(
+                k, lanes, tree, [&](int other) { return other < k ? 0 : BoxTree::all_lanes; },
+                [&](int own, int other)
+                {
+                    if (own < other)
+                        note(tree.item(own), tree.item(other));
+                });
+        }
+    }
+
+    // In awake_bodies.
+    [[nodiscard]] std::size_t place_of_shape(int shape) const
+    {
+        return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
+    }
+
+    // What must be solved together, in the order of its first body; every dynamic body gets its unit, and is counted there. Who is first is not asked by a
+    // branch: it would be guessed wrong.
+    void number_units()
+    {
+        const std::size_t n = state.awake_bodies.size();
+        std::vector<std::int32_t>& firsts = scratch.order;
+        set_size(firsts, n + 1);
+        set_size(scratch.unit_of, n);
+        std::int32_t count = 0;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            const auto before = static_cast<std::size_t>(scratch.sets.before(i));
+            const bool moves = !scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic;
+            const bool is_first = before == i;
+            firsts[static_cast<std::size_t>(count)] = static_cast<std::int32_t>(i);
+            scratch.unit_of[i] = is_first ? (moves ? count : none) : scratch.unit_of[before];
+            count += is_first && moves ? 1 : 0;
+        }
+        scratch.tallies.clear();
+        set_size(scratch.tallies, static_cast<std::size_t>(count));
+        for (std::int32_t unit = 0; unit < count; ++unit)
+            tally(unit).first = firsts[static_cast<std::size_t>(unit)];
+        for_each_run(
+            0, n, [&](std::size_t i) { return scratch.unit_of[i]; },
+            [&](const UnitRun& run) { tally(run.unit).bodies += run.count; });
+    }
+
+    // After units have become one: those that are left keep their order.
+    void renumber_units()
+    {
+        std::vector<std::int32_t>& numbers = scratch.order;
+        set_size(numbers, scratch.tallies.size());
+        std::int32_t count = 0;
+        for (std::size_t u = 0; u < scratch.tallies.size(); ++u)
+        {
+            const UnitTally old{.first = scratch.tallies[u].first, .bodies = scratch.tallies[u].bodies};
+            const auto before = static_cast<std::size_t>(scratch.sets.before(u));
+            numbers[u] = before == u ? count++ : numbers[before];
+            if (before == u)
+                tally(numbers[u]) = old;
+            else
+                tally(numbers[u]).bodies += old.bodies;
+        }
+        scratch.tallies.resize(static_cast<std::size_t>(count));
+        for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+                          [&](std::size_t place)
+                          {
+                              std::int32_t& unit = scratch.unit_of[place]; // kinematic bodies have none
+                              unit = unit == none ? none : numbers[static_cast<std::size_t>(unit)];
+                          });
+    }
+
+    // Bodies in flight meet things at their own time; a row would stop them early.
+    [[nodiscard]] bool gets_row(const Link& l) const { return l.has(link_flag::solved) && !in_flight(l.a) && !in_flight(l.b); }
+    [[nodiscard]] bool in_flight(std::int32_t place) const
+    {
+        return place >= 0 && scratch.flight[static_cast<std::size_t>(place)] != earthbound;
+    }
+
+    // On all threads: what follows goes by these alone.
+    void find_units_of_links()
+    {
+        set_size(scratch.unit_of_link, scratch.links.size());
+        using Some = std::vector<KinematicMeeting>;
+        const std::span<Some> parts =
+            find_in_parts(ctx.scene.def.tasks, scratch.links.size(), links_per_task, scratch.meetings_with_kinematic_of_task,
+                          [&](std::size_t first, std::size_t last, Some& meetings)
+                          {
+                              meetings.clear();
+                              for (std::size_t i = first; i < last; ++i)
+                              {
+                                  const Link& l = scratch.links[i];
+                                  const std::int32_t unit = scratch.unit_of_link[i] = unit_of_row(l);
+                                  const std::int32_t kinematic = std::min(l.a, l.b); // if either is
+                                  if (kinematic < none && unit != none)
+                                      meetings.push_back({unit, static_cast<std::int32_t>(i), -2 - kinematic});
+                              }
+                          });
+        scratch.meetings_with_kinematic.clear();
+        for (const Some& some : parts)
+            append_all(scratch.meetings_with_kinematic, some);
+        std::ranges::sort(scratch.meetings_with_kinematic, {},
+                          [](const KinematicMeeting& m) { return std::pair(m.unit, m.link); });
+    }
+
+    void sort_joints()
+    {
+        sort_by_unit(
+            ctx.scene.def.tasks, scratch, scratch.joint_links, scratch.solved_joints, joints_per_task,
+            [&](std::size_t i) { return unit_of_link(scratch.joint_links[i]); },
+            [](Unit& unit, int first, int count)
+            {
+                unit.first_joint = first;
+                unit.joint_count = count;
+            });
+    }
+
+    // By unit, and of a unit by where they lie in the plane: threads that take parts of a unit seldom meet in one body.
+    void sort_bodies()
+    {
+        sort_by_unit(
+            ctx.scene.def.tasks, scratch, scratch.in_plane, scratch.solved_bodies, bodies_per_task,
+            [&](std::size_t i) { return scratch.unit_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
+            [](Unit& unit, int first, int count)
+            {
+                unit.first_state = first;
+                unit.dynamic_count = count;
+            });
+    }
+
+    // Places in awake_bodies, by counting.
+    void sort_by_cell()
+    {
+        std::vector<std::int32_t>& places = scratch.in_plane;
+        const auto cell_of = [&](std::int32_t body) { return static_cast<std::size_t>(state.bodies[body].plane_cell); };
+        std::int32_t starts[plane_cells + 1] = {};
+        for (const std::int32_t body : state.awake_bodies)
+            ++starts[cell_of(body) + 1];
+        scratch.fullest_cell = static_cast<std::size_t>(*std::ranges::max_element(starts));
+        for (int cell = 0; cell < plane_cells; ++cell)
+            starts[cell + 1] += starts[cell];
+        set_size(places, state.awake_bodies.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[static_cast<std::size_t>(starts[cell_of(state.awake_bodies[i])]++)] = static_cast<std::int32_t>(i);
+    }
+
+private:
+    // None where it gets no row.
+    [[nodiscard]] std::int32_t unit_of_row(const Link& l) const
+    {
+        if (gets_row(l))
+            return unit_of_link(l);
+        if (l.has(link_flag::solved))
+            leave_row(state, l.contact);
+        return none;
+    }
+
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+};
+
+} // namespace
+
+void build_unit_graph(StepContext& ctx)
+{
+    UnitGraph graph(ctx);
+    graph.link_units();
+    run_both(ctx.scene.def.tasks, [&] { graph.number_units(); }, [&] { graph.sort_by_cell(); });
+    graph.ground_crowds();
+    while (graph.link_deflected())
+    {
+        graph.renumber_units();
+        graph.ground_crowds();
+    }
+    graph.count_contacts();
+    graph.choose_slices();
+    graph.form_units();
+    graph.find_units_of_links();
+    graph.sort_joints();
+    graph.sort_bodies();
+    ctx.state.graph_dirty = false;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,241 @@
+// What takes part in a step: awake bodies, links of joints between them, and who may fly as far as single bodies and their contacts tell. Links of contacts are
+// found while these are updated (contact_edges.cpp). All that follows in the units stage goes by these.
+
+#include "dynamics/islands/joint_edges.h"
+
+#include "core/grow.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/cached_graph.h"
+#include "dynamics/solver/contact/prepare_wide.h"
+#include "dynamics/solver/joint/joint_bodies.h"
+#include "dynamics/solver/joint/joint_solver.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float limit_rounding = 1e-4f; // rad: flight stops a body that close to its limit
+
+// Flight keeps a hinge as it is: its two points must be in one place, and its angle within its limits.
+bool is_closed(const StepContext& ctx, int index, int body)
+{
+    const JointRecord& joint = ctx.state.joints[index];
+    if (joint.enable_limit)
+    {
+        const float angle = hinge_angle(ctx.state, joint);
+        if (angle < joint.lower - limit_rounding || angle > joint.upper + limit_rounding)
+            return false;
+    }
+    const auto world = [&](int b, Vec2 anchor)
+    { return b == none ? Position(anchor) : transform(ctx.state.sims[static_cast<std::size_t>(b)].pose(), anchor); };
+    const Vec2 gap = world(joint.body_b, joint.anchor_b) - world(joint.body_a, joint.anchor_a);
+    return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
+}
+
+class LinkGathering
+{
+public:
+    explicit LinkGathering(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+
+    void forget_bodies()
+    {
+        scratch.flight.clear();
+        scratch.grounded.clear();
+        scratch.is_loaded.clear();
+        scratch.has_uneven = scratch.has_kinematic = scratch.has_hung = false;
+        for (const std::int32_t body : scratch.placed) // of what was awake in the last step alone: what never moves costs nothing
+            scratch.places[static_cast<std::size_t>(body)] = none;
+        scratch.places.resize(std::max(scratch.places.size(), static_cast<std::size_t>(state.bodies.capacity())), none);
+        scratch.placed.clear();
+    }
+
+    // Those that have woken since it was last called.
+    void place_bodies()
+    {
+        const std::size_t first = scratch.placed.size();
+        const std::size_t count = state.awake_bodies.size();
+        scratch.placed.insert(scratch.placed.end(), state.awake_bodies.begin() + static_cast<std::ptrdiff_t>(first),
+                              state.awake_bodies.end());
+        scratch.flight.resize(count, earthbound);
+        scratch.grounded.resize(count, earthbound);
+        scratch.is_loaded.resize(first); // but for nobody's
+        scratch.is_loaded.resize(count + 1);
+        for_each_in_parts(ctx.scene.def.tasks, count - first, bodies_per_task,
+                          [&](std::size_t k)
+                          {
+                              const std::size_t i = first + k;
+                              prefetch_hinge_of(i + turns_ahead);
+                              const int body = state.awake_bodies[i];
+                              note_place(body, static_cast<std::int32_t>(i));
+                              note_uneven(body);
+                              if (ctx.scene.def.continuous)
+                                  scratch.flight[i] = kind_of_flight(body);
+                          });
+    }
+
+    // A body that a contact loads does not fly. No branch asks which do: it would be guessed wrong.
+    void list_fliers()
+    {
+        set_size(scratch.flying, scratch.flight.size());
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
+        {
+            const bool loaded = scratch.is_loaded[i] != 0;
+            const std::int32_t flight = scratch.flight[i];
+            scratch.grounded[i] = loaded ? flight : scratch.grounded[i];
+            scratch.flight[i] = loaded ? earthbound : flight;
+            scratch.flying[count] = static_cast<std::int32_t>(i);
+            count += scratch.flight[i] != earthbound ? 1 : 0;
+        }
+        scratch.flying.resize(count);
+    }
+
+    // But for what may fly, they say nothing that a step changes.
+    void gather_joints()
+    {
+        KeptUnits& kept = scratch.kept_units;
+        kept.stay_so = kept.are_plain && !state.graph_dirty && bodies_stay(ctx);
+        kept.joints_stay = kept.stay_so && !scratch.has_hung && !kept.has_hung;
+        kept.has_hung = scratch.has_hung;
+        if (kept.joints_stay)
+            return;
+        scratch.joint_links.swap(kept.joints);
+        using Some = std::vector<JointLink>;
+        const auto joints = static_cast<std::size_t>(state.joints.capacity());
+        const std::span<Some> parts =
+            find_in_parts(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.joints_of_task,
+                          [&](std::size_t first, std::size_t last, Some& some)
+                          {
+                              some.clear();
+                              for (auto j = static_cast<int>(first); j < static_cast<int>(last); ++j)
+                              {
+                                  if (state.joints.is_live(j))
+                                      gather_joint(j, some);
+                              }
+                          });
+        if (parts.size() == 1)
+        {
+            scratch.joint_links.swap(parts[0]);
+            return;
+        }
+        scratch.joint_links.clear();
+        for (const Some& some : parts)
+            append_all(scratch.joint_links, some);
+    }
+
+private:
+    // What may turn about the world hangs on one joint alone.
+    [[gnu::always_inline]] void prefetch_hinge_of(std::size_t place) const
+    {
+        if (place >= state.awake_bodies.size())
+            return;
+        const BodyRecord& record = state.bodies[state.awake_bodies[place]];
+        if (record.joint_count == 1)
+            prefetch(state.joints[record.first_joint >> 1]);
+    }
+
+    void note_place(int body, std::int32_t place) const
+    {
+        const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
+        scratch.places[static_cast<std::size_t>(body)] = dynamic ? place : -2 - place;
+        if (!dynamic)
+            std::atomic_ref(scratch.has_kinematic).store(true, std::memory_order_relaxed);
+    }
+
+    void note_uneven(int body) const
+    {
+        const MotionLocks locks = state.bodies[body].locks;
+        if (locks.linear_x != locks.linear_y)
+            std::atomic_ref(scratch.has_uneven).store(true, std::memory_order_relaxed);
+    }
+
+    [[nodiscard]] std::int32_t kind_of_flight(int body) const
+    {
+        if (state.bodies[body].type != BodyType::Dynamic)
+            return earthbound;
+        const std::int32_t kind = flight_of(state, body);
+        if (kind == earthbound || kind == none)
+            return kind;
+        if (!is_closed(ctx, kind, body))
+            return earthbound;
+        std::atomic_ref(scratch.has_hung).store(true, std::memory_order_relaxed);
+        return kind;
+    }
+
+    // One thread alone finds all in one place.
+    [[nodiscard]] std::size_t part_of(std::size_t count, std::size_t per_task) const
+    {
+        return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
+    }
+
+    void gather_joint(int index, std::vector<JointLink>& links) const
+    {
+        const JointRecord& joint = state.joints[index];
+        const auto place = [&](int body) { return body == none ? none : place_of(scratch, body); };
+        const auto takes_part = [&](int body, std::int32_t at)
+        { return at != none || body == none || state.bodies[body].enabled; };
+        const std::int32_t a = place(joint.body_a);
+        const std::int32_t b = place(joint.body_b);
+        if ((a < 0 && b < 0) || !takes_part(joint.body_a, a) || !takes_part(joint.body_b, b))
+            return;
+        JointLink& link = links.emplace_back();
+        link.joint = index;
+        link.a = a;
+        link.b = b;
+        link.hinge = fits_joint_lane(joint);
+        link.holds = only_holds(joint);
+        link.damped = loses_energy(joint);
+        link.binds = !link.holds && joint.kind != JointType::Spring;
+        link.flies = may_fly(a) || may_fly(b);
+    }
+
+    // About a hinge to the world.
+    [[nodiscard]] bool may_fly(std::int32_t place) const
+    {
+        return place >= 0 && (scratch.flight[static_cast<std::size_t>(place)] != earthbound ||
+                              scratch.grounded[static_cast<std::size_t>(place)] != earthbound);
+    }
+
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+};
+
+} // namespace
+
+std::int32_t flight_about_hinge(const SceneState& state, int body)
+{
+    const BodyRecord& record = state.bodies[body];
+    const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    const int edge = record.first_joint;
+    if (record.joint_count != 1)
+        return earthbound;
+    const JointRecord& joint = state.joints[edge >> 1];
+    const int other = joint.body_a == body ? joint.body_b : joint.body_a;
+    const bool hinged = joint.kind == JointType::Revolute && !joint.enable_motor && joint.hertz == 0 &&
+                        (other == none || state.bodies[other].type == BodyType::Static) && sim.inverse_inertia > 0;
+    if (!hinged)
+        return earthbound;
+    // A body that may not move along is held twice: it turns only if the pivot is its center of mass.
+    const Vec2 anchor = joint.body_a == body ? joint.anchor_a : joint.anchor_b;
+    const bool centered = anchor == sim.local_center;
+    return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
+}
+
+void forget_bodies(StepContext& ctx) { LinkGathering(ctx).forget_bodies(); }
+
+void place_bodies(StepContext& ctx) { LinkGathering(ctx).place_bodies(); }
+
+void list_fliers(StepContext& ctx) { LinkGathering(ctx).list_fliers(); }
+
+void gather_joints(StepContext& ctx) { LinkGathering(ctx).gather_joints(); }
+
+} // namespace carom::internal

@@ -1,0 +1,377 @@
+// What is walked together is kept together: every 32nd step contacts move, among the slots that they have, to the order in which their lanes were
+// last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
+// in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
+
+#include "core/grow.h"
+#include "core/index.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/island_graph.h"
+#include "dynamics/stages.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::uint64_t steps_between = 32;
+constexpr std::size_t fewest_cells = 32;
+constexpr std::size_t few_of = 8;     // less than one of so many
+constexpr std::size_t full_of = 4;    // a cell that holds more than one of so many is too full
+constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
+
+void sort_bodies(SceneState& state)
+{
+    if (std::is_sorted(state.awake_bodies.begin(), state.awake_bodies.end()))
+        return;
+    std::sort(state.awake_bodies.begin(), state.awake_bodies.end());
+    for (std::size_t i = 0; i < state.awake_bodies.size(); ++i)
+        state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
+}
+
+// Powers of two. As long as they have from half to twice the bodies that they should have, as many as there are.
+std::size_t cells_for(std::size_t bodies, std::size_t cells_now)
+{
+    const std::size_t each = bodies / cells_now;
+    if (each >= bodies_to_a_cell / 2 && each < 2 * bodies_to_a_cell)
+        return cells_now;
+    return std::clamp(std::bit_floor(bodies / bodies_to_a_cell), fewest_cells, std::size_t{plane_cells});
+}
+
+// Into 32 cells, or more of what no cache holds, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are
+// solved in another order then, and what is coming to rest is stirred by that.
+void part_bodies(StepContext& ctx)
+{
+    SceneState& state = ctx.state;
+    HilbertOrder& order = ctx.scratch.plane_order;
+    order.sort(ctx.scene.def.tasks, state.awake_bodies.size(),
+               [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
+    const std::span<const HilbertOrder::Key> keys = order.keys();
+    const auto body_of = [&](std::size_t rank) -> BodyRecord& { return state.bodies[state.awake_bodies[keys[rank].index]]; };
+    std::size_t cells_now = fewest_cells;
+    for (std::size_t rank = 0; rank < keys.size(); ++rank)
+        cells_now = std::max(cells_now, std::bit_ceil(body_of(rank).plane_cell + std::size_t{1}));
+    const std::size_t cells = cells_for(keys.size(), cells_now);
+    const auto cell_of = [&](std::size_t rank) { return static_cast<std::uint8_t>(rank * cells / keys.size()); };
+    std::size_t changed = 0;
+    for (std::size_t rank = 0; rank < keys.size(); ++rank)
+        changed += body_of(rank).plane_cell != cell_of(rank) ? 1 : 0;
+    if (changed * few_of < keys.size())
+        return;
+    for (std::size_t rank = 0; rank < keys.size(); ++rank)
+        body_of(rank).plane_cell = cell_of(rank);
+}
+
+class ContactOrder
+{
+public:
+    explicit ContactOrder(StepContext& ctx)
+        : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order), m_sorted(ctx.scratch.sorted_contacts),
+          m_bodies(ctx.scratch.moved_to), m_moved_to(ctx.scratch.moved_to), m_tasks(ctx.scene.def.tasks)
+    {}
+
+    void find()
+    {
+        find_bodies();
+        m_order.clear();
+        make_room(m_order, m_state.awake_contacts.size());
+        for (const Unit& unit : m_scratch.units)
+        {
+            const auto lanes = std::span(m_scratch.lane_links);
+            place(lanes.subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
+                                static_cast<std::size_t>(unit.wide_count) * lane_count));
+            const auto rows = std::span(m_scratch.row_links);
+            place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
+        }
+        ++m_color;
+        for (const std::int32_t contact : m_state.awake_contacts)
+            place(contact);
+        sort_by(m_state.awake_bodies.size(), [this](const ContactPlace& p) { return body_of(p); });
+        sort_by(m_color + 1, [](const ContactPlace& p) { return p.color; });
+        order_equals();
+    }
+
+    [[nodiscard]] bool is_kept_already() const
+    {
+        for (std::size_t i = 0; i < m_order.size(); ++i)
+        {
+            if (m_order[i].contact != m_state.awake_contacts[i] || (i > 0 && m_order[i].contact < m_order[i - 1].contact))
+                return false;
+        }
+        return true;
+    }
+
+    // Into the slots that these contacts have among them, the least first.
+    void apply()
+    {
+        std::vector<std::int32_t>& slots = m_scratch.order;
+        slots.clear();
+        make_room(slots, m_order.size());
+        m_moved_to.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
+        for (const ContactPlace& p : m_order)
+            m_moved_to[as_index(p.contact)] = p.contact;
+        for (std::size_t slot = 0; slot < m_moved_to.size(); ++slot)
+        {
+            if (m_moved_to[slot] != none)
+                slots.push_back(static_cast<std::int32_t>(slot));
+            m_moved_to[slot] = static_cast<std::int32_t>(slot);
+        }
+        m_state.awake_contacts = slots;
+        for (std::size_t i = 0; i < m_order.size(); ++i)
+            m_moved_to[as_index(m_order[i].contact)] = slots[i];
+        move_contacts(slots);
+        rename_others();
+    }
+
+private:
+    // Places in awake_bodies, by contact; negative: it is not awake.
+    void find_bodies()
+    {
+        m_bodies.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
+        for_each_in_parts(m_tasks, m_state.awake_contacts.size(), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t contact = m_state.awake_contacts[i];
+                              const Contact& c = m_state.contacts[contact];
+                              const std::int32_t body = is_moving_dynamic(m_state, c.body_a) ? c.body_a : c.body_b;
+                              m_bodies[as_index(contact)] = std::max(m_state.bodies[body].awake_index, 0);
+                          });
+    }
+
+    // Of links that are solved one colour after the other.
+    void place(std::span<const std::int32_t> links)
+    {
+        m_last = {};
+        for (const std::int32_t i : links)
+        {
+            if (i != none)
+                place(m_scratch.solved_links[static_cast<std::size_t>(i)]);
+        }
+    }
+
+    void place(const Link& l)
+    {
+        if (l.color() != m_last.color() || l.points() != m_last.points())
+            ++m_color;
+        m_last = l;
+        place(l.contact);
+    }
+
+    void place(std::int32_t contact)
+    {
+        std::int32_t& body = m_bodies[as_index(contact)];
+        if (body < 0)
+            return;
+        body = ~body; // it has been placed
+        m_order.push_back({m_color, contact});
+    }
+
+    // Of what has been placed.
+    [[nodiscard]] std::uint32_t body_of(const ContactPlace& p) const
+    {
+        return static_cast<std::uint32_t>(~m_bodies[as_index(p.contact)]);
+    }
+
+    // By counting; those with the same key stay in order.
+    template <class Key>
+    void sort_by(std::size_t keys, const Key& key)
+    {
+        std::vector<std::int32_t>& starts = m_scratch.order;
+        starts.assign(keys + 1, 0);
+        for (const ContactPlace& p : m_order)
+            ++starts[key(p) + 1];
+        for (std::size_t k = 0; k < keys; ++k)
+            starts[k + 1] += starts[k];
+        set_size(m_sorted, m_order.size());
+        for (const ContactPlace& p : m_order)
+            m_sorted[static_cast<std::size_t>(starts[key(p)]++)] = p;
+        m_order.swap(m_sorted);
+    }
+
+    // Bodies that have just fallen asleep have no place: whatever lanes their contacts had, they go by their slots.
+    void order_equals()
+    {
+        for (auto first = m_order.begin(); first != m_order.end();)
+        {
+            const std::uint32_t body = body_of(*first);
+            const auto last = std::find_if(first + 1, m_order.end(),
+                                           [&](const ContactPlace& p) { return p.color != first->color || body_of(p) != body; });
+            std::sort(first, last, [](const ContactPlace& a, const ContactPlace& b) { return a.contact < b.contact; });
+            first = last;
+        }
+    }
+
+    // With what they name renamed.
+    void move_contacts(const std::vector<std::int32_t>& slots)
+    {
+        std::ranges::fill(m_state.colors, 0); // chosen in the new order
+        find_cycles(slots);
+        run_tasks(m_tasks, 3,
+                  [&](int task)
+                  {
+                      switch (task)
+                      {
+                      case 0:
+                          move_items([&](int slot) -> Contact& { return m_state.contacts[slot]; });
+                          break;
+                      case 1:
+                          move_items([&](int slot) -> KeptManifold& { return m_state.kept_manifolds[as_index(slot)]; });
+                          break;
+                      default:
+                          move_items([&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); });
+                          break;
+                      }
+                  });
+        run_parts(m_tasks, slots.size(), contacts_per_task,
+                  [&](std::size_t first, std::size_t last)
+                  {
+                      for (std::size_t i = first; i < last; ++i)
+                      {
+                          prefetch_named(std::span(slots).subspan(i, last - i));
+                          Contact& contact = m_state.contacts[slots[i]];
+                          contact.awake_index = static_cast<std::int32_t>(i);
+                          contact.color = none;
+                          rename_edges(contact);
+                          if (contact.pair != none)
+                              m_state.box_pairs[as_index(contact.pair)].contact = slots[i];
+                      }
+                  });
+    }
+
+    // First a later contact, then what it names.
+    [[gnu::always_inline]] void prefetch_named(std::span<const std::int32_t> later) const
+    {
+        if (later.size() > 2 * turns_ahead)
+            prefetch_line(&m_state.contacts[later[2 * turns_ahead]]);
+        if (later.size() <= turns_ahead)
+            return;
+        const Contact& contact = m_state.contacts[later[turns_ahead]];
+        for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
+            prefetch_line(&m_moved_to[static_cast<std::size_t>(std::max(edge, 0) >> 1)]);
+        prefetch_line(m_state.box_pairs.data() + std::max(contact.pair, 0));
+    }
+
+    // What goes to another's slot, that to a third's, and so on until the first slot is free to be taken: one after the other, the first marked.
+    void find_cycles(const std::vector<std::int32_t>& slots)
+    {
+        std::vector<std::int32_t>& cycles = m_scratch.move_cycles;
+        cycles.clear();
+        for (const std::int32_t first : slots)
+        {
+            if (is_marked(m_moved_to[as_index(first)]) || m_moved_to[as_index(first)] == first)
+                continue;
+            append(cycles, marked(first));
+            for (std::int32_t slot = first;;)
+            {
+                const std::int32_t next = std::exchange(m_moved_to[as_index(slot)], marked(m_moved_to[as_index(slot)]));
+                if (next == first)
+                    break;
+                append(cycles, next);
+                slot = next;
+            }
+        }
+        for (std::int32_t& slot : m_moved_to)
+            slot = plain(slot);
+    }
+
+    static bool is_marked(std::int32_t slot) { return slot < 0; }
+    static std::int32_t marked(std::int32_t slot) { return ~slot; } // and back
+    static std::int32_t plain(std::int32_t slot) { return is_marked(slot) ? marked(slot) : slot; }
+
+    // From the last of each cycle to its first, so that there is always room.
+    template <class At>
+    void move_items(const At& at) const
+    {
+        static_assert(std::is_trivially_copyable_v<std::remove_reference_t<decltype(at(0))>>);
+        const std::vector<std::int32_t>& cycles = m_scratch.move_cycles;
+        for (std::size_t i = cycles.size(); i-- > 0;)
+        {
+            const auto last = at(cycles[i]);
+            for (; !is_marked(cycles[i]); --i)
+            {
+                if (i > turns_ahead)
+                    prefetch(at(plain(cycles[i - 1 - turns_ahead])));
+                at(cycles[i]) = at(plain(cycles[i - 1]));
+            }
+            at(marked(cycles[i])) = last;
+        }
+    }
+
+    void rename_others()
+    {
+        if (static_cast<std::size_t>(m_state.contacts.count()) != m_order.size())
+        { // asleep, or triggers'
+            for (int i = 0; i < m_state.contacts.capacity(); ++i)
+            {
+                const Contact& c = m_state.contacts[i];
+                if (m_state.contacts.is_live(i) && (c.awake_index == none || (c.flags & contact_flag::trigger) != 0))
+                    rename_edges(m_state.contacts[i]);
+            }
+        }
+        for_each_in_parts(m_tasks, static_cast<std::size_t>(m_state.bodies.capacity()), contacts_per_task,
+                          [&](std::size_t i)
+                          {
+                              if (m_state.bodies.is_live(static_cast<int>(i)))
+                                  rename(m_state.bodies[static_cast<int>(i)].first_contact);
+                          });
+    }
+
+    void rename_edges(Contact& contact) const
+    {
+        for (int side = 0; side < 2; ++side)
+        {
+            rename(contact.next[side]);
+            rename(contact.previous[side]);
+        }
+    }
+
+    void rename(std::int32_t& edge) const
+    {
+        if (edge != none)
+            edge = m_moved_to[static_cast<std::size_t>(edge >> 1)] * 2 + (edge & 1);
+    }
+
+    SceneState& m_state;
+    Scratch& m_scratch;
+    std::vector<ContactPlace>& m_order;
+    std::vector<ContactPlace>& m_sorted;
+    std::vector<std::int32_t>& m_bodies;   ///< by contact slot, while the order is found
+    std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, once it is
+    const TaskHooks& m_tasks;
+    std::uint32_t m_color = 0;
+    Link m_last; ///< placed among those of one unit
+};
+
+} // namespace
+
+void tidy(StepContext& ctx)
+{
+    if (ctx.state.awake_contacts.size() < worth_it)
+        return;
+    if (ctx.state.step_count % steps_between != 1)
+    { // who has woken since is in no cell of its own
+        if (ctx.scratch.fullest_cell * full_of > ctx.state.awake_bodies.size())
+            part_bodies(ctx);
+        return;
+    }
+    sort_bodies(ctx.state);
+    part_bodies(ctx);
+    if (ctx.scratch.kept_units.rows_stayed_for >= steps_between)
+        return; // in the order that they were left in
+    ContactOrder order(ctx);
+    order.find();
+    if (order.is_kept_already())
+        return;
+    order.apply();
+    ctx.state.rows_stamp = 0; // they name contacts
+}
+
+} // namespace carom::internal

@@ -1,0 +1,175 @@
+// A wide row holds all that its contacts are: in a crowd at rest, from step to step, the same contacts with the same number of points, in the same lanes.
+// Then the bodies' poses say the rest. That bodies and contacts are the same is compared; that nothing else has been done to a contact is said by its mark
+// (SceneState::lane_marks); what cannot be followed is found anew by itself, and its lane filled with that.
+
+#include "dynamics/narrowphase/cached_constraints.h"
+
+#include "core/index.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/cached_graph.h"
+#include "dynamics/narrowphase/constraint_refresh.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/narrowphase/manifold_cache.h"
+#include "dynamics/solver/contact/partitions.h"
+#include "dynamics/solver/contact/prepare_wide.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/state/scene_data.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t units_per_task = 4;
+
+bool are_in_place(const StepContext& ctx)
+{
+    const KeptUnits& kept = ctx.scratch.kept_units;
+    return kept.rows_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
+           ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx);
+}
+
+// What has no lane must go on needing none.
+bool look_at_loose(const StepContext& ctx, std::int32_t index)
+{
+    ctx.scratch.is_looked_at[as_index(index)] = 1;
+    Contact& contact = ctx.state.contacts[index];
+    const bool was_solved = is_solved(contact); // or would be, if what it touches moved
+    if (update_contact(ctx, index) != News::Nothing || is_solved(contact) != was_solved)
+        return false;
+    if (!was_solved)
+        forget_impulses(ctx.state, index);
+    return true;
+}
+
+bool loose_stay(const StepContext& ctx)
+{
+    const std::vector<std::int32_t>& loose = ctx.scratch.kept_units.loose;
+    std::atomic<bool> stay{true};
+    for_each_in_parts(ctx.scene.def.tasks, loose.size(), contacts_per_task,
+                      [&](std::size_t i)
+                      {
+                          if (stay.load(std::memory_order_relaxed) && !look_at_loose(ctx, loose[i]))
+                              stay.store(false, std::memory_order_relaxed);
+                      });
+    return stay;
+}
+
+bool are_marked(const SceneState& state, const WideNotes& notes)
+{
+    return std::ranges::all_of(notes.contact.v, [&](std::int32_t contact)
+                               { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InRow; });
+}
+
+// Those of a large unit by the threads that solve them, of small ones a few units to a task.
+bool rows_stay(const StepContext& ctx)
+{
+    const std::vector<Unit>& units = ctx.scratch.units;
+    std::atomic<bool> stay{true};
+    const auto follow = [&](const Unit& unit, int first, int last)
+    {
+        RowFollower follower(ctx);
+        WideRow* const rows = ctx.scratch.wide_rows.data() + unit.wide_store;
+        WideNotes* const all_notes = ctx.scratch.wide_notes.data() + unit.wide_store;
+        const bool asks_ahead = !is_large(unit); // a thread has much of a large one in its cache still
+        for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
+        {
+            WideNotes& notes = all_notes[g];
+            if (asks_ahead)
+            { // beyond the last there is nothing, which does no harm
+                prefetch(rows[g + 2]);
+                prefetch(all_notes[g + 2]);
+            }
+            const FollowNews news =
+                are_marked(ctx.state, notes) ? follower.follow(rows[g], notes) : FollowNews{.gone = filled_lanes(notes)};
+            if ((news.gone | news.told) != 0)
+                stay.store(false, std::memory_order_relaxed);
+        }
+    };
+    for (const Unit& unit : units)
+    {
+        if (is_large(unit))
+            Crew::run(ctx.scene.def.tasks, [&](Crew& crew)
+                      { contact_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { follow(unit, first, last); }); });
+    }
+    for_each_in_parts(ctx.scene.def.tasks, units.size(), units_per_task,
+                      [&](std::size_t u)
+                      {
+                          if (!is_large(units[u]))
+                              follow(units[u], 0, units[u].wide_count);
+                      });
+    return stay;
+}
+
+bool all_are_borne(const StepContext& ctx)
+{
+    const Scratch& scratch = ctx.scratch;
+    for (std::size_t s = 0; s < scratch.state_bodies.size(); ++s)
+    {
+        if (scratch.state_bodies[s] != none && scratch.borne[s] == 0)
+            return false;
+    }
+    return true;
+}
+
+// Of two the one that does not give way is static: what is kinematic or asleep has more to say, and so has what lets pass.
+bool leans_on_statics(const SceneState& state, const Link& l)
+{
+    const Contact& contact = state.contacts[l.contact];
+    const auto is_plain = [&](std::int32_t place, std::int32_t body)
+    { return place >= 0 || state.bodies[body].type == BodyType::Static; };
+    return (contact.flags & contact_flag::one_way) == 0 && is_plain(l.a, contact.body_a) && is_plain(l.b, contact.body_b);
+}
+
+} // namespace
+
+bool follow_rows(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    KeptUnits& kept = scratch.kept_units;
+    kept.rows_stay = false;
+    const std::uint64_t stayed_for = std::exchange(kept.rows_stayed_for, 0);
+    scratch.is_looked_at.clear();
+    const bool are_of_this_state = ctx.state.rows_stamp != 0 && kept.stamp == ctx.state.rows_stamp;
+    ctx.state.rows_stamp = 0; // until they have been solved
+    kept.are_plain = kept.are_plain && are_of_this_state;
+    if (!are_of_this_state || !kept.rows_apart)
+        return false;
+    scratch.borne.assign(scratch.state_bodies.size(), 0);
+    scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
+    kept.rows_stay = are_in_place(ctx) && loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
+    if (!kept.rows_stay)
+        return false;
+    scratch.is_looked_at.clear();
+    kept.rows_stayed_for = stayed_for + 1;
+    return true;
+}
+
+void keep_rows(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    KeptUnits& kept = scratch.kept_units;
+    const auto may_stay = [&](const Link& l)
+    { return !l.has(link_flag::solved) || (l.has(link_flag::plain) && leans_on_statics(ctx.state, l)); };
+    kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.units.empty() &&
+                      std::ranges::all_of(scratch.links, may_stay);
+    if (!kept.rows_apart)
+        return;
+    kept.contacts = ctx.state.awake_contacts;
+    kept.touching = ctx.report.touching;
+    std::vector<std::int32_t>& has_lane = scratch.order;
+    has_lane.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
+    for (const Link& l : scratch.solved_links)
+        has_lane[as_index(l.contact)] = 1;
+    kept.loose.clear();
+    std::copy_if(kept.contacts.begin(), kept.contacts.end(), std::back_inserter(kept.loose),
+                 [&](std::int32_t contact) { return has_lane[as_index(contact)] == 0; });
+}
+
+} // namespace carom::internal

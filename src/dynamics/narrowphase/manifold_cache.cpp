@@ -1,0 +1,375 @@
+#include "dynamics/narrowphase/manifold_cache.h"
+
+#include "collision/edge_rules.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is likely to be the same
+constexpr float surely_turned = 0.9801f;
+
+// An edge's normal belongs to the body of the edge, that of two corners or circles to none.
+bool can_keep(const SceneState& state, const Contact& contact, const LocalManifold& found)
+{
+    const auto has_edges = [&](int shape)
+    {
+        const LeafType type = state.shapes[shape].leaf.type;
+        const bool is_line = type == LeafType::Segment && (contact.flags & contact_flag::plain) != 0;
+        return type == LeafType::Polygon || type == LeafType::Capsule || type == LeafType::Circle || is_line;
+    };
+    return (contact.flags & contact_flag::one_way) == 0 && !found.is_of_union && has_edges(contact.shape_a) &&
+           has_edges(contact.shape_b) && (found.count == 0 || found.clipped.radius >= 0 || found.nearest.radii[0] >= 0);
+}
+
+const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
+
+Vec2 place_of(const BodySim& other, const BodySim& own) { return inverse_rotate(own.rotation, other.center - own.center); }
+
+// How far any point of the other has moved against the edge's body since the manifold was found, and the cosine of the angle that it has turned.
+struct Moved
+{
+    float way;
+    float cosine;
+};
+
+Rotation turned_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+{
+    return inverse(own.rotation) * other.rotation * inverse(kept.rotation);
+}
+
+// Of a circle of radius 1.
+float chord_of(Rotation turn) { return std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c)); }
+
+Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+{
+    const Rotation turn = turned_since(kept, own, other);
+    return {length(place_of(other, own) - kept.center) + other.extent * chord_of(turn), turn.c};
+}
+
+// Of two without a point: how far apart they still are for sure. Along the direction that parted them only what goes along it, and turns, takes from
+// their distance.
+float room(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+{
+    const Vec2 way = place_of(other, own) - kept.center;
+    const Vec2 direction = kept.found.parting.direction;
+    const float gain = direction == Vec2{} ? -length(way) : dot(direction, way);
+    return kept.reach + gain - kept.found.parting.arm * chord_of(turned_since(kept, own, other));
+}
+
+// How far the shape's corners are from the center that they turn about, at the most.
+float arm_of(const SceneState& state, int shape, const BodySim& sim)
+{
+    const Leaf& leaf = state.shapes[shape].leaf;
+    return sim.extent - (leaf.type == LeafType::Capsule ? std::min(leaf.r0, leaf.r1) : leaf.r0);
+}
+
+void keep_edge(KeptEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
+{
+    const bool of_b = found.clipped.of_b;
+    const auto on_a = [&](Vec2 p) { return p - a.local_center; };
+    const auto on_b = [&](Vec2 p) { return pose.to_b(p) - b.local_center; };
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+        const Vec2 edge = found.clipped.edge[i];
+        const Vec2 corner = found.clipped.corners[i];
+        kept.edge[i] = of_b ? on_b(edge) : on_a(edge);
+        kept.corners[i] = of_b ? on_a(corner) : on_b(corner);
+    }
+    kept.normal = of_b ? inverse_rotate(pose.rotation, found.normal) : found.normal;
+}
+
+void keep_corners(KeptCorners& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const NearestCorners& found)
+{
+    kept.corners[0] = found.at[0] - a.local_center;
+    kept.corners[1] = pose.to_b(found.at[1]) - b.local_center;
+    kept.cones[0] = found.cones[0];
+    kept.cones[1] = inverse_rotate(pose.rotation, found.cones[1]);
+    kept.radii[0] = found.radii[0];
+    kept.radii[1] = found.radii[1];
+}
+
+// What is kept is seen from b.
+bool is_of_b(const SceneState& state, const Contact& contact, const LocalManifold& found)
+{
+    if (found.count > 0)
+        return found.clipped.radius >= 0 && found.clipped.of_b;
+    return arm_of(state, contact.shape_a, sim_of(state, contact.body_a)) <
+           arm_of(state, contact.shape_b, sim_of(state, contact.body_b));
+}
+
+void keep(const SceneState& state, const Contact& contact, const LocalManifold& found, KeptManifold& kept)
+{
+    const BodySim& a = sim_of(state, contact.body_a);
+    const BodySim& b = sim_of(state, contact.body_b);
+    const bool of_b = keeps_edge_of_b(contact);
+    const BodySim& own = of_b ? b : a;
+    const BodySim& other = of_b ? a : b;
+    kept.center = place_of(other, own);
+    kept.rotation = inverse(own.rotation) * other.rotation;
+    kept.reach = found.reach;
+    kept.radius = found.clipped.radius;
+    const RelativePose pose = relative_pose(a.pose(), b.pose());
+    if (found.count == 0)
+        kept.found.parting = {of_b ? inverse_rotate(pose.rotation, -found.parting) : found.parting,
+                              arm_of(state, of_b ? contact.shape_a : contact.shape_b, other)};
+    else if (found.clipped.radius >= 0)
+        keep_edge(kept.found.edge, a, b, pose, found);
+    else
+        keep_corners(kept.found.nearest, a, b, pose, found.nearest);
+}
+
+// Within which there are points.
+float margin_of(const StepContext& ctx, const Contact& contact)
+{
+    return ctx.scene.tolerances.speculation + relative_motion(ctx.state, contact);
+}
+
+// The two corners before the edge, from the center of the edge's body.
+struct Facing
+{
+    float radius;
+    bool of_b;
+    Vec2 n;      ///< out of the edge
+    Vec2 offset; ///< from the center of the edge's body to the other's
+    Vec2 start;  ///< of the edge
+    Vec2 corners[2];
+    float along[2]; ///< how far along the edge, times its length
+    float end;      ///< as far is the edge's
+
+    Facing(const KeptManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : radius(k.radius), of_b(edge_of_b)
+    {
+        const KeptEdge& kept = k.found.edge;
+        const BodySim& own = of_b ? b : a;
+        const BodySim& other = of_b ? a : b;
+        const Vec2 apart = b.center - a.center;
+        const Vec2 normal = rotate(own.rotation, kept.normal);
+        n = of_b ? -normal : normal;
+        offset = of_b ? -apart : apart;
+        start = rotate(own.rotation, kept.edge[0]);
+        const Vec2 edge = rotate(own.rotation, kept.edge[1]) - start;
+        end = dot(edge, edge);
+        for (int i = 0; i < 2; ++i)
+        {
+            corners[i] = offset + rotate(other.rotation, kept.corners[i]);
+            along[i] = dot(edge, corners[i] - start);
+        }
+    }
+
+    // What of the edge between the corners is before the edge ends at its ends.
+    struct Foot
+    {
+        Vec2 on_edge;
+        Vec2 on_other;
+        float separation;
+        bool inside; ///< it is the corner itself
+    };
+
+    [[nodiscard]] Foot foot(int i) const
+    {
+        const float nearest = std::min(std::max(along[i], 0.0f), end);
+        const float beyond = nearest - along[i];
+        const float t = beyond != 0 ? beyond / (along[1 - i] - along[i]) : 0;
+        const Vec2 core = corners[i] + t * (corners[1 - i] - corners[i]);
+        Foot f;
+        f.separation = dot(n, core - start) - radius;
+        f.on_other = core - radius * n;
+        f.on_edge = f.on_other - f.separation * n;
+        f.inside = beyond == 0;
+        return f;
+    }
+
+    // Does any of the edge between the corners lie before the edge?
+    [[nodiscard]] bool meets() const { return !(along[0] < 0 && along[1] < 0) && !(along[0] > end && along[1] > end); }
+
+    // Clipping a steep edge at the end of the other may cut off its lowest corner, which is still the nearest just beside that end.
+    [[nodiscard]] bool is_steep() const
+    {
+        const float rise = dot(n, corners[1] - corners[0]);
+        const float run = along[1] - along[0];
+        return rise * rise * end > run * run;
+    }
+
+    [[nodiscard]] bool is_round() const { return corners[0].x == corners[1].x && corners[0].y == corners[1].y; }
+
+    void put(int i, ManifoldPoint& p) const
+    {
+        const Foot f = foot(i);
+        p.separation = f.separation;
+        p.anchor_a = of_b ? f.on_other - offset : f.on_edge;
+        p.anchor_b = of_b ? f.on_edge : f.on_other - offset;
+    }
+};
+
+// Is the edge the one still that faces best? Surely where the lowest corner is outside and before it, and else for a while.
+bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved& moved, float longest_way)
+{
+    const bool is_outside = lowest.inside && lowest.separation + facing.radius > 0;
+    return is_outside || (moved.way < longest_way && moved.cosine > least_cosine);
+}
+
+// One corner before the edge, the other too far away to be a second point.
+bool has_one_point(const KeptManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_way)
+{
+    const Facing::Foot near = facing.foot(0);
+    const bool is_alone = facing.is_round() || facing.foot(1).separation > margin;
+    return near.inside && near.separation <= margin && is_alone && margin + moved.way <= kept.reach &&
+           is_best_still(facing, near, moved, longest_way);
+}
+
+// Both corners before the edge, and no other has become one of them.
+bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
+{
+    const Facing::Foot first = facing.foot(0);
+    const Facing::Foot second = facing.foot(1);
+    const Facing::Foot& lowest = second.separation < first.separation ? second : first;
+    return facing.meets() && (lowest.inside || !facing.is_steep()) && lowest.separation <= longest_way &&
+           moved.way <= kept.reach && is_best_still(facing, lowest, moved, longest_way);
+}
+
+// The way from one corner to the other that is nearest to it.
+struct Nearest
+{
+    const KeptCorners& kept;
+    Vec2 from; ///< the center of a, and to that of b
+    Vec2 to;
+    Vec2 n;
+    float separation;
+    bool leads_out; ///< of both cones: nothing is nearer
+
+    Nearest(const KeptCorners& k, const BodySim& a, const BodySim& b) : kept(k)
+    {
+        from = rotate(a.rotation, kept.corners[0]);
+        to = rotate(b.rotation, kept.corners[1]);
+        const Vec2 gap = (b.center - a.center) + to - from;
+        const float distance = std::sqrt(dot(gap, gap));
+        n = {gap.x / distance, gap.y / distance};
+        separation = distance - (kept.radii[0] + kept.radii[1]);
+        leads_out = distance > KeptCorners::least_distance &&
+                    dot(n, rotate(a.rotation, kept.cones[0])) >= dot(kept.cones[0], kept.cones[0]) &&
+                    dot(-n, rotate(b.rotation, kept.cones[1])) >= dot(kept.cones[1], kept.cones[1]);
+    }
+
+    void put(Manifold& m) const
+    {
+        m.normal = n;
+        m.points[0].separation = separation;
+        m.points[0].anchor_a = from + kept.radii[0] * n;
+        m.points[0].anchor_b = to - kept.radii[1] * n;
+    }
+};
+
+void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, Manifold& m)
+{
+    if (m.count == 0)
+        return;
+    if (keeps_nearest(contact))
+    {
+        Nearest(kept.found.nearest, a, b).put(m);
+        return;
+    }
+    const bool of_b = keeps_edge_of_b(contact);
+    const Facing facing(kept, a, b, of_b);
+    m.normal = rotate(of_b ? b.rotation : a.rotation, kept.found.edge.normal);
+    for (int i = 0; i < m.count; ++i)
+        facing.put(i, m.points[i]);
+}
+
+// Is what it found still what would be found?
+bool can_follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
+                float longest_way)
+{
+    if (!is_kept(contact))
+        return false;
+    if (contact.manifold.count == 0)
+        return margin <= (keeps_edge_of_b(contact) ? room(kept, b, a) : room(kept, a, b));
+    if (keeps_nearest(contact))
+    {
+        const Nearest nearest(kept.found.nearest, a, b);
+        return nearest.leads_out && nearest.separation <= margin;
+    }
+    const bool of_b = keeps_edge_of_b(contact);
+    const Moved moved = of_b ? moved_since(kept, b, a) : moved_since(kept, a, b);
+    const Facing facing(kept, a, b, of_b);
+    return contact.manifold.count == 1 ? has_one_point(kept, facing, moved, margin, longest_way)
+                                       : has_two_points(kept, facing, moved, longest_way);
+}
+
+} // namespace
+
+void follow_manifold(const StepContext& ctx, int index)
+{
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
+    KeptManifold& kept = state.kept_manifolds[static_cast<std::size_t>(index)];
+    const BodySim& a = sim_of(state, contact.body_a);
+    const BodySim& b = sim_of(state, contact.body_b);
+    const Tolerances& t = ctx.scene.tolerances;
+    contact.flags &= ~contact_flag::followed;
+    const float margin = margin_of(ctx, contact);
+    if (can_follow(kept, a, b, contact, margin, t.keep))
+    {
+        follow(kept, a, b, contact, contact.manifold);
+        return;
+    }
+    const Manifold old = contact.manifold;
+    const BodyPose pose_a = pose_at_start(state, contact.body_a);
+    const BodyPose pose_b = pose_at_start(state, contact.body_b);
+    const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
+    contact.manifold = in_world(found, pose_a, pose_b);
+    carry_impulses(old, contact.manifold, impulses_of(state, index));
+    contact.flags &= ~(contact_flag::all_kept | contact_flag::of_union);
+    contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
+    if (!can_keep(state, contact, found))
+        return;
+    contact.flags |= contact_flag::kept | (is_of_b(state, contact, found) ? contact_flag::edge_of_b : 0u) |
+                     (found.count > 0 && found.clipped.radius < 0 ? contact_flag::nearest : 0u);
+    keep(state, contact, found, kept);
+}
+
+FollowedScene followed_scene(const StepContext& ctx)
+{
+    const Tolerances& t = ctx.scene.tolerances;
+    return {ctx.state.sims.data(),
+            &ctx.state.contacts[0],
+            ctx.state.kept_manifolds.data(),
+            ctx.state.broad_phase.places(),
+            surely * t.keep,
+            surely,
+            surely_turned,
+            t.slop,
+            t.speculation};
+}
+
+Manifold settled_manifold(const SceneState& state, int index)
+{
+    const Contact& contact = state.contacts[index];
+    Manifold m = contact.manifold;
+    if ((contact.flags & contact_flag::followed) == 0)
+        return m;
+    const auto before = [&](int body)
+    {
+        BodySim sim = sim_of(state, body);
+        if (state.bodies[body].type != BodyType::Static)
+        {
+            sim.center = sim.previous_center;
+            sim.rotation = sim.previous_rotation;
+        }
+        return sim;
+    };
+    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b), contact, m);
+    return m;
+}
+
+void settle_manifold(SceneState& state, int index)
+{
+    state.contacts[index].manifold = settled_manifold(state, index);
+    state.contacts[index].flags &= ~contact_flag::followed;
+}
+
+} // namespace carom::internal

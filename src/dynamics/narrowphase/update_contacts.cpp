@@ -1,0 +1,499 @@
+// Stage 3, contacts: manifolds of awake pairs, begins and ends, and who takes part in the step because of them (contact_edges.cpp). The first pass writes to its
+// own contact, and marks bodies in ways that commute; it may run on any thread. The second goes through the results in order.
+
+#include "core/grow.h"
+#include "core/prefetch.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/contact_edges.h"
+#include "dynamics/islands/wake.h"
+#include "dynamics/narrowphase/cached_constraints.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/narrowphase/flush_pair.h"
+#include "dynamics/narrowphase/manifold_cache.h"
+#include "dynamics/narrowphase/material.h"
+#include "dynamics/stages.h"
+#include "dynamics/state/contact_store.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+LocalManifold local_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
+{
+    const LeafView leaf_a = leaf_view(state, contact.shape_a);
+    const LeafView leaf_b = leaf_view(state, contact.shape_b);
+    const RelativePose pose = relative_pose(a.frame(), b.frame());
+    LocalManifold found = collide(leaf_a, leaf_b, pose, margin);
+    if (found.count == 0 || (contact.flags & contact_flag::trigger) != 0)
+        return found;
+    if (const FlushPair flush(state, contact, pose, found); !flush.is_empty())
+        found.is_of_union = keep_to_union(leaf_a, flush.of_a, leaf_b, flush.of_b, pose, margin, found);
+    return found;
+}
+
+Manifold in_world(const LocalManifold& local, const BodyPose& a, const BodyPose& b)
+{
+    Manifold m;
+    m.count = local.count;
+    m.normal = rotate(a.rotation, local.normal);
+    const Vec2 center_b = inverse_rotate(a.rotation, b.center - a.frame().position); // in a's frame
+    for (int i = 0; i < local.count; ++i)
+    {
+        const LocalPoint& p = local.points[i];
+        m.points[i].anchor_a = rotate(a.rotation, p.on_a - a.local_center);
+        m.points[i].anchor_b = rotate(a.rotation, p.on_b - center_b);
+        m.points[i].separation = p.separation;
+        m.points[i].feature = p.feature;
+    }
+    return m;
+}
+
+Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b, float margin)
+{
+    return in_world(local_manifold(state, contact, a, b, margin), a, b);
+}
+
+void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impulses)
+{
+    fresh.rolling_impulse = old.rolling_impulse;
+    const ContactImpulses before = std::exchange(impulses, {});
+    const auto carry = [&](int i, int j)
+    {
+        impulses.points[i].normal = before.points[j].normal;
+        impulses.points[i].tangent = before.points[j].tangent;
+    };
+    if (fresh.count == 0) // kept for the next piece of the chain, should the ball have rolled over to it
+        carry(0, 0);
+    for (int i = 0; i < fresh.count; ++i)
+    {
+        for (int j = 0; j < old.count; ++j)
+        {
+            if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1))
+                carry(i, j);
+        }
+    }
+}
+
+namespace {
+
+// What comes from behind passes until it is free of the shape; so does what already overlaps deeply.
+void update_passing(const StepContext& ctx, Contact& contact)
+{
+    const float least = least_separation(contact.manifold);
+    const float slop = ctx.scene.tolerances.slop;
+    const bool behind =
+        contact.manifold.count > 0 && lets_pass(ctx.scene, contact.shape_a, contact.shape_b, contact.manifold.normal);
+    if (least > slop)
+        contact.flags = behind ? contact.flags | contact_flag::passing : contact.flags & ~contact_flag::passing;
+    else if ((contact.flags & contact_flag::touching) == 0 && (behind || least < -4 * slop))
+        contact.flags |= contact_flag::passing;
+}
+
+void find_manifold(const StepContext& ctx, int index)
+{
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
+    const Manifold old = contact.manifold;
+    const BodyPose pose_a = pose_at_start(state, contact.body_a);
+    const BodyPose pose_b = pose_at_start(state, contact.body_b);
+    const LocalManifold found =
+        local_manifold(state, contact, pose_a, pose_b, ctx.scene.tolerances.speculation + relative_motion(state, contact));
+    contact.manifold = in_world(found, pose_a, pose_b);
+    carry_impulses(old, contact.manifold, impulses_of(state, index));
+    contact.flags &= ~(contact_flag::all_kept | contact_flag::followed | contact_flag::of_union);
+    contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
+}
+
+void update_manifold(const StepContext& ctx, int index)
+{
+    Contact& contact = ctx.state.contacts[index];
+    if (in_crowd(ctx.state, contact))
+        follow_manifold(ctx, index);
+    else
+        find_manifold(ctx, index);
+    if ((contact.flags & contact_flag::one_way) != 0)
+        update_passing(ctx, contact);
+}
+
+bool should_touch(const StepContext& ctx, const Contact& contact)
+{
+    if ((contact.flags & contact_flag::passing) != 0)
+        return false;
+    // Twice the distance to part: contacts at the edge do not flicker.
+    const float limit = (contact.flags & contact_flag::touching) != 0 ? 2 * ctx.scene.tolerances.slop : ctx.scene.tolerances.slop;
+    return least_separation(contact.manifold) <= limit;
+}
+
+// Of a contact with a piece of a chain.
+int visitor_of(const SceneState& state, const Contact& contact)
+{
+    return state.shapes[contact.shape_a].owner != contact.shape_a ? contact.shape_b : contact.shape_a;
+}
+
+// A ball that rolled over a seam brings the load it had on the piece before. Few have just left one: the walk is for them alone.
+void inherit_load(StepContext& ctx, int index)
+{
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
+    if ((contact.flags & contact_flag::piece) == 0 || (contact.flags & contact_flag::loaded) != 0)
+        return;
+    const int visitor = visitor_of(state, contact);
+    if (!std::ranges::binary_search(ctx.scratch.left_loads, visitor))
+        return;
+    const bool piece_is_a = visitor == contact.shape_b;
+    const int piece = piece_is_a ? contact.shape_a : contact.shape_b;
+    for_each_contact(state, state.shapes[visitor].body,
+                     [&](int other_index)
+                     {
+                         Contact& other = state.contacts[other_index];
+                         if ((other.flags & contact_flag::loaded) == 0 || other.manifold.count > 0)
+                             return;
+                         const int other_piece = piece_is_a ? other.shape_a : other.shape_b;
+                         const int other_visitor = piece_is_a ? other.shape_b : other.shape_a;
+                         if (other_visitor != visitor || state.shapes[other_piece].owner != state.shapes[piece].owner)
+                             return;
+                         contact.flags |= contact_flag::loaded;
+                         other.flags &= ~contact_flag::loaded;
+                         contact.manifold.rolling_impulse = other.manifold.rolling_impulse;
+                         const PointImpulses& borne = impulses_of(state, other_index).points[0];
+                         impulses_of(state, index).points[0].normal = borne.normal;
+                         impulses_of(state, index).points[0].tangent = borne.tangent;
+                     });
+}
+
+ContactBeginEvent begin_event(const SceneState& state, const Contact& contact)
+{
+    const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
+    return event_of<ContactBeginEvent>(state, contact, point, contact.manifold.normal);
+}
+
+void begin_touch(StepContext& ctx, int index)
+{
+    SceneState& state = ctx.state;
+    Contact& contact = state.contacts[index];
+    contact.flags |= contact_flag::touching;
+    state.graph_dirty = true;
+    inherit_load(ctx, index);
+    wake_body(ctx.scene, contact.body_a);
+    wake_body(ctx.scene, contact.body_b);
+    if (!touches_elsewhere(state, index))
+        append(ctx.scene.events.begins, begin_event(state, contact));
+}
+
+// As wake_body for one that is awake. Threads may do so side by side.
+void keep_awake(const StepContext& ctx, int body)
+{
+    const std::atomic_ref sleep_time(ctx.state.sims[static_cast<std::size_t>(body)].sleep_time);
+    if (sleep_time.load(std::memory_order_relaxed) != 0)
+        sleep_time.store(0, std::memory_order_relaxed);
+}
+
+// Something fast that may hit a sleeper in this step wakes it before the units are built.
+bool may_hit(const StepContext& ctx, const Contact& contact)
+{
+    const bool moves = relative_motion(ctx.state, contact) > ctx.scene.tolerances.speculation;
+    return moves && (contact.flags & contact_flag::passing) == 0;
+}
+
+void wake_both(StepContext& ctx, int index)
+{
+    const Contact& contact = ctx.state.contacts[index];
+    wake_body(ctx.scene, contact.body_a);
+    wake_body(ctx.scene, contact.body_b);
+}
+
+News news_of(const StepContext& ctx, const Contact& contact)
+{
+    const bool touching = (contact.flags & contact_flag::touching) != 0;
+    const bool should = should_touch(ctx, contact);
+    if (should != touching)
+        return touching ? News::Ends : News::Begins;
+    if (touching || contact.manifold.count == 0)
+        return News::Nothing;
+    return (contact.flags & contact_flag::sleeper) != 0 && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
+}
+
+} // namespace
+
+News update_contact(const StepContext& ctx, int index)
+{
+    Contact& contact = ctx.state.contacts[index];
+    update_manifold(ctx, index);
+    contact.flags &= ~contact_flag::fresh;
+    return news_of(ctx, contact);
+}
+
+namespace {
+
+constexpr std::size_t contacts_at_once = 512;
+
+// Since follow_rows has tried to do with less.
+bool is_looked_at(const Scratch& scratch, std::int32_t contact)
+{
+    return !scratch.is_looked_at.empty() && scratch.is_looked_at[static_cast<std::size_t>(contact)] != 0;
+}
+
+// A task's contacts, and what is new of each. Writes to these contacts alone.
+class ContactUpdate
+{
+public:
+    ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last, SomeNews& some)
+        : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_first(first), m_some(some),
+          m_scene(followed_scene(ctx))
+    {}
+
+    void run()
+    {
+        m_some.begins.clear();
+        m_some.ends.clear();
+        m_some.others.clear();
+        m_some.left_loads.clear();
+        for (std::size_t i = 0; i < m_contacts.size(); ++i)
+        {
+            prefetch_later(i);
+            update(i);
+        }
+        for (const Waiting& w : m_waiting)
+        {
+            for (int i = 0; i < w.count; ++i)
+                put_off(w.places[i]);
+        }
+        update_the_others();
+        for (std::size_t i = 0; i < m_contacts.size(); ++i)
+        {
+            if (m_news[i] != News::Nothing)
+                tell(m_contacts[i], m_news[i]);
+        }
+    }
+
+private:
+    // First who touches, then what is kept of them and where they are. Turns are short here.
+    [[gnu::always_inline]] void prefetch_later(std::size_t i) const
+    {
+        constexpr std::size_t ahead = 2 * turns_ahead;
+        const SceneState& state = m_ctx.state;
+        if (i + 2 * ahead < m_contacts.size())
+            prefetch(state.contacts[m_contacts[i + 2 * ahead]]);
+        if (i + ahead >= m_contacts.size())
+            return;
+        const std::int32_t index = m_contacts[i + ahead];
+        prefetch(state.kept_manifolds[static_cast<std::size_t>(index)]);
+        for (const std::int32_t body : {state.contacts[index].body_a, state.contacts[index].body_b})
+            prefetch_line(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
+    }
+
+    // Events are written when all is known, see tell_all.
+    void tell(std::int32_t index, News what)
+    {
+        Contact& contact = m_ctx.state.contacts[index];
+        if (!concerns_no_other(contact))
+        {
+            append(m_some.others, {index, what});
+        }
+        else if (what == News::Begins)
+        {
+            contact.flags |= contact_flag::touching;
+            keep_awake(m_ctx, contact.body_a);
+            keep_awake(m_ctx, contact.body_b);
+            append(m_some.begins, index);
+        }
+        else if (what == News::Ends)
+        {
+            contact.flags &= ~contact_flag::touching;
+            append(m_some.ends, index);
+        }
+    }
+
+    void update(std::size_t i)
+    {
+        const std::int32_t index = m_contacts[i];
+        Contact& contact = m_ctx.state.contacts[index];
+        contact.awake_index = static_cast<std::int32_t>(m_first + i); // see ContactBatch::find_slots
+        if (is_looked_at(m_ctx.scratch, index))
+        {
+            m_news[i] = news_of(m_ctx, contact);
+            note_left_load(contact);
+            return;
+        }
+        if (!is_told_with_others(m_ctx.state, contact))
+        {
+            put_off(i);
+            return;
+        }
+        Waiting& w = m_waiting[contact.manifold.count];
+        w.contacts.v[w.count] = index;
+        w.places[w.count++] = i;
+        if (w.count < lane_count)
+            return;
+        if (contact.manifold.count == 0)
+            look_whether_apart(w);
+        else
+            follow_together(contact.manifold.count, w);
+        w.count = 0;
+    }
+
+    // What cannot be told with others mostly is to be found anew: its shapes are asked for now, their corners a little before its turn.
+    void put_off(std::size_t i)
+    {
+        const SceneState& state = m_ctx.state;
+        const Contact& contact = state.contacts[m_contacts[i]];
+        for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
+            prefetch_line(&state.shapes[shape]);
+        m_others[m_other_count++] = i;
+    }
+
+    void update_the_others()
+    {
+        for (std::size_t k = 0; k < m_other_count; ++k)
+        {
+            if (k + turns_ahead < m_other_count)
+                prefetch_corners(m_contacts[m_others[k + turns_ahead]]);
+            const std::int32_t index = m_contacts[m_others[k]];
+            m_news[m_others[k]] = update_contact(m_ctx, index);
+            note_left_load(m_ctx.state.contacts[index]);
+        }
+    }
+
+    // For what now begins to touch the next piece.
+    void note_left_load(const Contact& contact)
+    {
+        constexpr std::uint32_t loaded_piece = contact_flag::piece | contact_flag::loaded;
+        if (contact.manifold.count == 0 && (contact.flags & loaded_piece) == loaded_piece)
+            append(m_some.left_loads, visitor_of(m_ctx.state, contact));
+    }
+
+    [[gnu::always_inline]] void prefetch_corners(std::int32_t index) const
+    {
+        const SceneState& state = m_ctx.state;
+        prefetch_line(&impulses_of(state, index));
+        for (const std::int32_t shape : {state.contacts[index].shape_a, state.contacts[index].shape_b})
+        {
+            const LeafView leaf = leaf_view(state, shape);
+            prefetch_line(leaf.points);
+            prefetch_line(leaf.normals);
+        }
+    }
+
+    // For others with as many points.
+    struct Waiting
+    {
+        LaneInts contacts{};
+        std::size_t places[lane_count]{};
+        int count = 0;
+    };
+
+    // What stays without a point is as it was.
+    void look_whether_apart(const Waiting& w)
+    {
+        const std::uint32_t apart = m_kernels.stay_apart(w.contacts, m_scene);
+        for (int i = 0; i < lane_count; ++i)
+        {
+            if ((apart >> i & 1u) == 0)
+                put_off(w.places[i]);
+            else
+                m_news[w.places[i]] = News::Nothing;
+        }
+    }
+
+    void follow_together(int points, const Waiting& w)
+    {
+        FollowedContacts found;
+        m_kernels.follow_contacts(w.contacts, points, &m_ctx.state.contacts[0], m_scene, found);
+        for (int i = 0; i < lane_count; ++i)
+        {
+            Contact& contact = m_ctx.state.contacts[w.contacts.v[i]];
+            contact.flags &= ~contact_flag::followed;
+            if ((found.sure >> i & 1u) == 0)
+                put_off(w.places[i]);
+            else
+                m_news[w.places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
+        }
+    }
+
+    const StepContext& m_ctx;
+    std::span<const std::int32_t> m_contacts;
+    std::size_t m_first; ///< of the awake contacts
+    SomeNews& m_some;
+    FollowedScene m_scene;
+    News m_news[contacts_at_once];
+    std::size_t m_others[contacts_at_once];
+    std::size_t m_other_count = 0;
+    Waiting m_waiting[3]; ///< without a point, with one, with two
+    const WideKernels& m_kernels = wide_kernels();
+};
+
+// Of all tasks in their order, each written by some thread.
+template <class Event, class MakeEvent>
+void tell_all(StepContext& ctx, std::span<const SomeNews> parts, std::vector<std::int32_t> SomeNews::* which,
+              std::vector<Event>& events, const MakeEvent& make_event)
+{
+    std::vector<std::int32_t>& contacts = ctx.scratch.order;
+    contacts.clear();
+    for (const SomeNews& some : parts)
+        append_all(contacts, some.*which);
+    const std::size_t first = events.size();
+    set_size(events, first + contacts.size());
+    for_each_in_parts(ctx.scene.def.tasks, contacts.size(), contacts_at_once,
+                      [&](std::size_t i) { events[first + i] = make_event(ctx.state, ctx.state.contacts[contacts[i]]); });
+    ctx.state.graph_dirty |= !contacts.empty();
+}
+
+} // namespace
+
+void update_contacts(StepContext& ctx)
+{
+    if (follow_rows(ctx))
+    {
+        ctx.report.pairs = static_cast<int>(ctx.state.awake_contacts.size());
+        ctx.report.touching = ctx.scratch.kept_units.touching;
+        return;
+    }
+    SceneState& state = ctx.state;
+    const std::size_t count = state.awake_contacts.size();
+    ContactLinks links(ctx, contacts_at_once);
+    const std::span<SomeNews> parts = find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.news_of_task,
+                                                    [&](std::size_t first, std::size_t last, SomeNews& some)
+                                                    {
+                                                        ContactUpdate(ctx, first, last, some).run();
+                                                        links.ask(first, last, some.of_others);
+                                                    });
+    std::vector<ContactNews>& news = ctx.scratch.news;
+    std::vector<std::int32_t>& of_others = ctx.scratch.of_others;
+    news.clear();
+    of_others.clear();
+    ctx.scratch.left_loads.clear();
+    for (const SomeNews& some : parts)
+    {
+        append_all(news, some.others);
+        append_all(of_others, some.of_others);
+        append_all(ctx.scratch.left_loads, some.left_loads);
+    }
+    std::ranges::sort(ctx.scratch.left_loads);
+    tell_all(ctx, parts, &SomeNews::begins, ctx.scene.events.begins, begin_event);
+    tell_all(ctx, parts, &SomeNews::ends, ctx.scene.events.ends,
+             [](const SceneState& s, const Contact& contact) { return event_of<ContactEndEvent>(s, contact, 0.0f); });
+    // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
+    // touched over the next is never let go.
+    for (const ContactNews& n : news)
+    {
+        if (n.what == News::Begins)
+            begin_touch(ctx, n.contact);
+        else if (n.what == News::MayHit)
+            wake_both(ctx, n.contact);
+    }
+    for (const ContactNews& n : news)
+    {
+        if (n.what == News::Ends)
+            end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
+    }
+    ctx.scratch.motion.resize(state.awake_bodies.size(), 0);               // bodies woken in this stage were at rest
+    append_all(of_others, std::span(state.awake_contacts).subspan(count)); // woken in this stage
+    links.ask_later(of_others);
+    links.join();
+    ctx.report.pairs = static_cast<int>(state.awake_contacts.size());
+}
+
+} // namespace carom::internal

@@ -1,0 +1,199 @@
+#include "dynamics/solver/contact/prepare.h"
+
+#include "dynamics/solver/joint/joint_solver.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/scene_data.h"
+#include "geometry/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+// A push may have given the center of mass a velocity that the pivot forbids. The pivot takes it plastically: the angular momentum about the pivot is kept.
+void take_up_velocity(const BodySim& sim, Flier& f)
+{
+    const double mass = sim.mass;
+    const double vx = sim.velocity.x;
+    const double vy = sim.velocity.y;
+    const double spin = static_cast<double>(sim.inertia) * static_cast<double>(sim.angular_velocity);
+    f.w = f.inverse_inertia * (spin + mass * (f.arm_x * vy - f.arm_y * vx));
+    f.reaction += Vec2{static_cast<float>(mass * (-f.w * f.arm_y - vx)), static_cast<float>(mass * (f.w * f.arm_x - vy))};
+}
+
+// About the pivot: the hinge's angle at the start of the step, and how far its limits let the body turn from there.
+void hinge(const StepContext& ctx, int index, const BodySim& sim, Flier& f)
+{
+    const JointRecord& joint = ctx.state.joints[index];
+    const bool is_b = joint.body_b == f.body;
+    f.local_reference = is_b ? joint.anchor_b : joint.anchor_a;
+    const Vec2 arm = rotate(sim.rotation, sim.local_center - f.local_reference);
+    f.arm_x = arm.x;
+    f.arm_y = arm.y;
+    f.x = -f.arm_x;
+    f.y = -f.arm_y;
+    f.vx = f.vy = 0;
+    f.inverse_mass_x = f.inverse_mass_y = 0;
+    f.inverse_inertia =
+        1 / (static_cast<double>(sim.inertia) + static_cast<double>(sim.mass) * (f.arm_x * f.arm_x + f.arm_y * f.arm_y));
+    take_up_velocity(sim, f);
+    if (!joint.enable_limit)
+        return;
+    const auto angle = static_cast<double>(hinge_angle(ctx.state, joint));
+    const auto lower = static_cast<double>(joint.lower);
+    const auto upper = static_cast<double>(joint.upper);
+    f.lower = is_b ? lower - angle : angle - upper;
+    f.upper = is_b ? upper - angle : angle - lower;
+}
+
+} // namespace
+
+Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint)
+{
+    const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
+    Flier flier;
+    flier.state = state;
+    flier.body = body;
+    flier.joint = joint;
+    flier.vx = sim.velocity.x;
+    flier.vy = sim.velocity.y;
+    flier.w = sim.angular_velocity;
+    flier.inverse_mass_x = sim.inverse_mass.x;
+    flier.inverse_mass_y = sim.inverse_mass.y;
+    flier.inverse_inertia = sim.inverse_inertia;
+    flier.local_reference = sim.local_center;
+    flier.size = sim.size;
+    if (joint != none)
+        hinge(ctx, joint, sim, flier);
+    return flier;
+}
+
+namespace {
+
+// 1 / (J M^-1 J^T) of a unit direction d at lever arms ra, rb; 0 where nothing gives way, as through the pivot of a body that only turns.
+float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, Vec2 ra, Vec2 rb)
+{
+    const float ca = cross(ra, d);
+    const float cb = cross(rb, d);
+    const float k = d.x * d.x * (a.inverse_mass.x + b.inverse_mass.x) + d.y * d.y * (a.inverse_mass.y + b.inverse_mass.y) +
+                    ca * ca * a.inverse_inertia + cb * cb * b.inverse_inertia;
+    const float at_most = dot(ra, ra) * a.inverse_inertia + dot(rb, rb) * b.inverse_inertia;
+    return exceeds_rounding(k, at_most) ? 1 / k : 0;
+}
+
+// Of the normal directions of two points. Points nearly in one place share their load anyhow; solving for both would only divide noise.
+float coupling(const StateConstants& a, const StateConstants& b, const ContactRow& row)
+{
+    const RowPoint& p = row.points[0];
+    const RowPoint& q = row.points[1];
+    const float k =
+        row.n.x * row.n.x * (a.inverse_mass.x + b.inverse_mass.x) + row.n.y * row.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
+        cross(p.ra, row.n) * cross(q.ra, row.n) * a.inverse_inertia + cross(p.rb, row.n) * cross(q.rb, row.n) * b.inverse_inertia;
+    const bool distinct = p.normal_mass > 0 && q.normal_mass > 0 && k * k * p.normal_mass * q.normal_mass < 0.999f;
+    return distinct ? k : 0;
+}
+
+} // namespace
+
+void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m)
+{
+    const BodyState& sa = scratch.states[static_cast<std::size_t>(row.a)];
+    const BodyState& sb = scratch.states[static_cast<std::size_t>(row.b)];
+    const StateConstants& ca = scratch.constants[static_cast<std::size_t>(row.a)];
+    const StateConstants& cb = scratch.constants[static_cast<std::size_t>(row.b)];
+    row.n = m.normal;
+    row.count = m.count;
+    row.turn_a = sa.delta_rotation;
+    row.turn_b = sb.delta_rotation;
+    for (int i = 0; i < m.count; ++i)
+    {
+        RowPoint& p = row.points[i];
+        p.ra = m.points[i].anchor_a;
+        p.rb = m.points[i].anchor_b;
+        p.ra0 = inverse_rotate(sa.delta_rotation, p.ra);
+        p.rb0 = inverse_rotate(sb.delta_rotation, p.rb);
+        p.base = m.points[i].separation - dot(m.normal, sb.delta_position - sa.delta_position + p.rb - p.ra);
+        p.normal_mass = effective_mass(ca, cb, m.normal, p.ra, p.rb);
+        p.tangent_mass = effective_mass(ca, cb, perp(m.normal), p.ra, p.rb);
+    }
+    row.coupling = m.count == 2 ? coupling(ca, cb, row) : 0;
+}
+
+float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives)
+{
+    auto depth = static_cast<float>(0.5 * inner_radius(leaf_view(state, a_gives ? contact.shape_a : contact.shape_b)));
+    for (int i = 0; i < manifold.count; ++i)
+        depth = std::max(depth, -manifold.points[i].separation);
+    return depth;
+}
+
+void scale_row(ContactRow& row, float by)
+{
+    row.rolling_impulse *= by;
+    for (RowPoint& p : row.points)
+    {
+        p.normal_impulse *= by;
+        p.tangent_impulse *= by;
+    }
+}
+
+std::int32_t state_for_rows(const StepContext& ctx, const Unit& unit, int body)
+{
+    const BodyRecord& record = ctx.state.bodies[body];
+    if (record.awake_index == none)
+        return unit.first_state;
+    const std::int32_t end = unit.first_state + unit.state_count;
+    if (record.type == BodyType::Dynamic)
+    {
+        const std::int32_t s = ctx.scratch.state_of[static_cast<std::size_t>(record.awake_index)];
+        return s >= unit.first_state && s < end ? s : none;
+    }
+    for (std::int32_t s = unit.first_state + 1 + unit.dynamic_count; s < end; ++s)
+    {
+        if (ctx.scratch.state_bodies[static_cast<std::size_t>(s)] == body)
+            return s;
+    }
+    return none;
+}
+
+ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
+{
+    const Contact& contact = ctx.state.contacts[index];
+    const StateConstants& ca = ctx.scratch.constants[static_cast<std::size_t>(a)];
+    const StateConstants& cb = ctx.scratch.constants[static_cast<std::size_t>(b)];
+    ContactRow row;
+    row.a = a;
+    row.b = b;
+    row.contact = index;
+    row.friction = contact.friction;
+    row.surface_speed = contact.surface_speed;
+    const bool immovable = ca.inverse_mass == Vec2{} || cb.inverse_mass == Vec2{};
+    row.softness = immovable ? ctx.static_softness : ctx.contact_softness;
+    if (immovable)
+        row.core = core_depth(ctx.state, contact, manifold, ca.inverse_mass != Vec2{});
+    set_row_geometry(ctx.scratch, row, manifold);
+    for (int i = 0; i < row.count; ++i)
+    {
+        const PointImpulses& impulses = impulses_of(ctx.state, index).points[i];
+        row.points[i].normal_impulse = impulses.normal;
+        row.points[i].tangent_impulse = impulses.tangent;
+    }
+    if (ctx.slices > 1)
+        scale_row(row, 1 / static_cast<float>(ctx.slices));
+    if (contact.rolling_resistance > 0)
+    {
+        // The limit is a length: coefficient times the radius of what rolls.
+        const Leaf& leaf_a = ctx.state.shapes[contact.shape_a].leaf;
+        const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;
+        const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);
+        const float k = ca.inverse_inertia + cb.inverse_inertia;
+        row.rolling = contact.rolling_resistance * radius;
+        row.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.slices);
+        row.rolling_mass = k > 0 ? 1 / k : 0;
+    }
+    return row;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,181 @@
+#include "dynamics/solver/contact/prepare_wide.h"
+
+#include "collision/edge_rules.h"
+#include "core/index.h"
+#include "dynamics/narrowphase/manifold_cache.h"
+#include "dynamics/solver/joint/joint_bodies.h"
+#include "dynamics/solver/joint/joint_solver.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace carom::internal {
+
+namespace {
+
+struct Lane
+{
+    WideRow& row;
+    WideNotes& notes;
+    int i;
+
+    Lane(Scratch& scratch, std::int32_t lane)
+        : row(scratch.wide_rows[as_index(lane / lane_count)]), notes(scratch.wide_notes[as_index(lane / lane_count)]),
+          i(lane % lane_count)
+    {}
+
+    // J M^-1 J^T of the normal, as the kernels have it.
+    [[nodiscard]] float k(const WidePoint& p) const
+    {
+        const float mass = row.inverse_mass_a.v[i] + row.inverse_mass_b.v[i];
+        return mass + p.across_a.v[i] * p.across_a.v[i] * row.inverse_inertia_a.v[i] +
+               p.across_b.v[i] * p.across_b.v[i] * row.inverse_inertia_b.v[i];
+    }
+};
+
+const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
+{
+    return ctx.scratch.constants[static_cast<std::size_t>(state)];
+}
+
+// Two points that are not nearly in one place.
+bool are_distinct(const Lane& lane)
+{
+    const float coupling = lane.row.coupling.v[lane.i];
+    return coupling * coupling < 0.999f * (lane.k(lane.row.points[0]) * lane.k(lane.row.points[1]));
+}
+
+} // namespace
+
+void clear_sums(WideRow& row, WideNotes& notes)
+{
+    for (WidePoint& p : row.points)
+    {
+        p.total_impulse = {};
+        p.total_tangent = {};
+    }
+    for (LaneFloats& approach : notes.approach)
+        approach = {};
+}
+
+void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideNotes& notes, int i)
+{
+    for (std::uint32_t* lanes :
+         {&notes.loaded, &notes.may_hit, &notes.untold, &notes.edge_of_b, &notes.nearest, &notes.kept, &notes.followed})
+        *lanes &= ~(1u << i);
+    const Contact& contact = ctx.state.contacts[states.contact];
+    const Manifold& m = contact.manifold;
+    const StateConstants& a = constants_of(ctx, states.a);
+    const StateConstants& b = constants_of(ctx, states.b);
+    row.a.v[i] = states.a;
+    row.b.v[i] = states.b;
+    notes.contact.v[i] = states.contact;
+    notes.body_a.v[i] = contact.body_a;
+    notes.body_b.v[i] = contact.body_b;
+    row.nx.v[i] = m.normal.x;
+    row.ny.v[i] = m.normal.y;
+    row.friction.v[i] = contact.friction;
+    row.inverse_mass_a.v[i] = a.inverse_mass.x;
+    row.inverse_mass_b.v[i] = b.inverse_mass.x;
+    row.inverse_inertia_a.v[i] = a.inverse_inertia;
+    row.inverse_inertia_b.v[i] = b.inverse_inertia;
+    notes.count = m.count;
+    if (keeps_edge_of_b(contact))
+        notes.edge_of_b |= 1u << i;
+    if (keeps_nearest(contact))
+        notes.nearest |= 1u << i;
+    for (int k = 0; k < m.count; ++k)
+    {
+        const ManifoldPoint& from = m.points[k];
+        WidePoint& p = row.points[k];
+        p.across_a.v[i] = cross(from.anchor_a, m.normal);
+        p.along_a.v[i] = dot(from.anchor_a, m.normal);
+        p.across_b.v[i] = cross(from.anchor_b, m.normal);
+        p.along_b.v[i] = dot(from.anchor_b, m.normal);
+        p.base.v[i] = from.separation;
+        p.normal_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].normal;
+        p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
+    }
+    ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
+    if ((contact.flags & contact_flag::touching) == 0)
+        notes.untold |= 1u << i;
+    if (is_kept(contact))
+        notes.kept |= 1u << i;
+}
+
+ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
+{
+    const Lane lane(scratch, index);
+    const int i = lane.i;
+    ContactRow row;
+    row.a = lane.row.a.v[i];
+    row.b = lane.row.b.v[i];
+    row.contact = lane.notes.contact.v[i];
+    row.count = lane.notes.count;
+    row.n = {lane.row.nx.v[i], lane.row.ny.v[i]};
+    row.friction = lane.row.friction.v[i];
+    if (row.count == 2 && are_distinct(lane))
+        row.coupling = lane.row.coupling.v[i];
+    const auto arm = [&](float along, float across) { return along * row.n - across * perp(row.n); };
+    for (int k = 0; k < row.count; ++k)
+    {
+        const WidePoint& from = lane.row.points[k];
+        RowPoint& p = row.points[k];
+        p.ra = arm(from.along_a.v[i], from.across_a.v[i]);
+        p.rb = arm(from.along_b.v[i], from.across_b.v[i]);
+        p.normal_mass = 1 / lane.k(from);
+        p.normal_impulse = from.normal_impulse.v[i];
+        p.tangent_impulse = from.tangent_impulse.v[i];
+        p.total_impulse = from.total_impulse.v[i];
+        p.total_tangent = from.total_tangent.v[i];
+        p.approach = lane.notes.approach[k].v[i];
+    }
+    return row;
+}
+
+void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t index)
+{
+    const Lane lane(scratch, index);
+    for (int k = 0; k < row.count; ++k)
+    {
+        WidePoint& p = lane.row.points[k];
+        p.normal_impulse.v[lane.i] = row.points[k].normal_impulse;
+        p.tangent_impulse.v[lane.i] = row.points[k].tangent_impulse;
+        p.total_impulse.v[lane.i] = row.points[k].total_impulse;
+        p.total_tangent.v[lane.i] = row.points[k].total_tangent;
+    }
+}
+
+std::uint32_t filled_lanes(const WideNotes& notes)
+{
+    std::uint32_t lanes = 0;
+    for (int i = 0; i < lane_count; ++i)
+        lanes |= notes.contact.v[i] != none ? 1u << i : 0;
+    return lanes;
+}
+
+void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
+{
+    const Lane lane(ctx.scratch, contact.wide);
+    WideRow& row = lane.row;
+    WideNotes& notes = lane.notes;
+    const int i = lane.i;
+    for (PointImpulses& p : impulses_of(ctx.state, notes.contact.v[i]).points)
+        p.normal = p.tangent = 0;
+    row.a.v[i] = row.b.v[i] = fixed;
+    notes.contact.v[i] = none;
+    row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
+    row.coupling.v[i] = 0;
+    for (WidePoint& p : row.points)
+        p.base.v[i] = p.separation.v[i] = p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
+    notes.loaded &= ~(1u << i);
+    notes.may_hit &= ~(1u << i);
+    notes.untold &= ~(1u << i);
+    contact.wide = none;
+    contact.flags &= ~contact_flag::loaded;
+}
+
+bool fits_joint_lane(const JointRecord& joint) { return joint.kind == JointType::Revolute && joint.limit_restitution == 0; }
+
+} // namespace carom::internal

@@ -1,0 +1,401 @@
+// What rows have stopped in a sub-step bounces off, and users are told of it. Rows of small units are asked one by one, of lanes those that the kernels have
+// found struck while relaxing.
+
+#include "dynamics/solver/contact/restitution.h"
+
+#include "core/grow.h"
+#include "core/index.h"
+#include "core/nonzero.h"
+#include "core/prefetch.h"
+#include "core/refuse.h"
+#include "dynamics/narrowphase/material.h"
+#include "dynamics/solver/contact/partitions.h"
+#include "dynamics/solver/contact/prepare_wide.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t enough_lanes = 64; // to share
+
+class Bounces
+{
+public:
+    explicit Bounces(const BouncingUnit& of)
+        : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_unit(of.unit), m_output(of.output), m_view(of.view),
+          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_rows.data() + m_unit.wide_store),
+          m_notes(m_scratch.wide_notes.data() + m_unit.wide_store), m_struck(m_scratch.struck.data() + m_unit.wide_store)
+    {}
+
+    void note_approaches()
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            note_approach(m_view, impact_row(i));
+    }
+
+    void bounce(int k, Crew& crew)
+    {
+        for (int i = 0; i < m_unit.impact_row_count; ++i)
+            bounce_row(impact_row(i), k);
+        bounce_lanes(k, crew);
+    }
+
+private:
+    [[nodiscard]] ContactRow& impact_row(int i)
+    {
+        return m_scratch
+            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
+    }
+
+    // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
+    void bounce_lanes(int k, Crew& crew)
+    {
+        find_struck_lanes();
+        if (m_output.struck_lanes.size() < enough_lanes)
+        {
+            bounce_groups(0, m_unit.wide_count, k, m_output);
+            return;
+        }
+        std::vector<Told>& in_parts = m_output.told_in_parts;
+        in_parts.resize(std::max(in_parts.size(), as_index(m_unit.parts)));
+        const int crossing =
+            contact_bins(m_scratch, m_unit)
+                .by_part(crew, [&](int first, int last, int part) { bounce_groups(first, last, k, in_parts[as_index(part)]); });
+        for (Told& told : std::span(in_parts).first(as_index(m_unit.parts)))
+            take(told);
+        bounce_groups(crossing, m_unit.wide_count, k, m_output);
+    }
+
+    void find_struck_lanes()
+    {
+        std::vector<std::int32_t>& lanes = m_output.struck_lanes;
+        lanes.clear();
+        for_each_nonzero(m_struck, static_cast<std::size_t>(m_unit.wide_count),
+                         [&](std::size_t g)
+                         {
+                             for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
+                                 lanes.push_back(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
+                         });
+    }
+
+    void take(Told& told)
+    {
+        append_all(m_output.impacts, told.impacts);
+        append_all(m_output.begins, told.begins);
+        append_all(m_output.kicked_shapes, told.kicked_shapes);
+        m_output.bulk_impacts += std::exchange(told.bulk_impacts, 0);
+        told.impacts.clear();
+        told.begins.clear();
+        told.kicked_shapes.clear();
+    }
+
+    void bounce_groups(int first, int last, int k, Told& told)
+    {
+        const std::span<const std::int32_t> lanes = m_output.struck_lanes;
+        for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(lanes, first * lane_count) - lanes.begin());
+             i < lanes.size() && lanes[i] < last * lane_count; ++i)
+        {
+            prefetch_struck(i);
+            bounce_lane(lanes[i], k, told);
+        }
+    }
+
+    // First who stands in the lane, then the contact, then its shapes and where it is.
+    [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
+    {
+        const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
+        const SceneState& state = m_ctx.state;
+        const auto contact_of = [&](std::size_t lane)
+        { return m_notes[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
+        if (i + 2 * turns_ahead < lanes.size())
+            prefetch_line(&m_notes[lanes[i + 2 * turns_ahead] / lane_count]);
+        if (i + turns_ahead < lanes.size())
+            prefetch(state.contacts[contact_of(i + turns_ahead)]);
+        if (i + turns_ahead / 2 >= lanes.size())
+            return;
+        const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
+        for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
+            prefetch(state.shapes[shape]);
+        prefetch_line(&state.sims[static_cast<std::size_t>(contact.body_a)]);
+    }
+
+    // It bears a load: told once, bounced once.
+    void bounce_lane(std::int32_t lane, int k, Told& told)
+    {
+        const WideRow& wide = m_wide[lane / lane_count];
+        WideNotes& notes = m_notes[lane / lane_count];
+        const int i = lane % lane_count;
+        const unsigned bit = 1u << i;
+        float approach = 0;
+        for (int p = 0; p < notes.count; ++p)
+        {
+            if (wide.points[p].normal_impulse.v[i] > 0)
+                approach = std::max(approach, notes.approach[p].v[i]);
+        }
+        const bool strikes = (notes.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
+        const std::int32_t index = m_unit.wide_store * lane_count + lane;
+        ContactRow row = row_of_lane(m_scratch, index);
+        row.hit = strikes ? 0 : 1;
+        if ((notes.untold & bit) != 0)
+            begin_touch(row, k, told);
+        notes.untold &= ~bit;
+        if (!strikes)
+            return;
+        resolve_impact(row, approach, k, told);
+        notes.may_hit &= ~bit;
+        put_impulses(m_scratch, row, index);
+    }
+
+    // What flies off is not pushed again by warm starting.
+    void forget_pushes(const ContactRow& before, const ContactRow& after)
+    {
+        for (int i = 0; i < before.count; ++i)
+        {
+            if (after.points[i].normal_impulse != 0)
+                continue;
+            const RowPoint& p = before.points[i];
+            note_push(before, p, p.normal_impulse * before.n + p.tangent_impulse * perp(before.n));
+        }
+    }
+
+    // Of an impulse that no row gives again.
+    void note_push(const ContactRow& row, const RowPoint& p, Vec2 impulse)
+    {
+        if (!m_notes_pushes)
+            return;
+        note_push(row.a, p.ra, -impulse);
+        note_push(row.b, p.rb, impulse);
+    }
+
+    void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    {
+        if (!gives_way(state))
+            return;
+        const StateConstants& c = m_view.constants[state];
+        BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
+        unpushed.velocity.x += c.inverse_mass.x * impulse.x;
+        unpushed.velocity.y += c.inverse_mass.y * impulse.y;
+        unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
+    }
+
+    void bounce_row(ContactRow& row, int k)
+    {
+        if (row.hit != 0)
+            return;
+        float approach = 0;
+        float load = 0;
+        for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        {
+            if (p.approach > 0 && came_at(row, p) <= 0)
+                p.approach = 0; // the normal has turned away from it meanwhile
+            load += p.normal_impulse;
+            if (p.normal_impulse > 0)
+                approach = std::max(approach, p.approach);
+        }
+        if (load <= 0)
+            return;
+        const bool first_touch = (m_ctx.state.contacts[row.contact].flags & contact_flag::touching) == 0;
+        if (first_touch)
+            begin_touch(row, k, m_output);
+        if (approach > m_ctx.rest_speed)
+            resolve_impact(row, approach, k, m_output);
+    }
+
+    // The approach speed when the sub-step began, along the normal that the row has now.
+    [[nodiscard]] float came_at(const ContactRow& row, const RowPoint& p) const
+    {
+        const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
+        const BodySpeeds& b = m_scratch.speeds[as_index(row.b)];
+        return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), row.n);
+    }
+
+    void resolve_impact(ContactRow& row, float approach, int k, Told& told)
+    {
+        row.hit = 1;
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
+        if (kick.a_fired)
+            told.kicked_shapes.push_back(contact.shape_a);
+        if (kick.b_fired)
+            told.kicked_shapes.push_back(contact.shape_b);
+        auto event = event_of<ImpactEvent>(m_ctx.state, contact);
+        const ContactRow before = row;
+        bounce_points(row, e, kick.speed);
+        event.time = m_ctx.h * static_cast<float>(k + 1);
+        event.restitution = e;
+        event.friction = row.friction;
+        event.kick_speed = kick.speed;
+        fill_impact(row, event);
+        take_impulses(row, e, kick.speed);
+        forget_pushes(before, row);
+        ++told.bulk_impacts;
+        if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted them; or thrown them beyond all numbers
+            append(told.impacts, event);
+    }
+
+    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
+    {
+        return e * std::max(p.approach, 0.0f) + kick;
+    }
+
+    // How much separating speed a point still lacks.
+    [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
+    {
+        return wanted_speed(p, e, kick) - row_speed(m_view, row, p);
+    }
+
+    void push(const ContactRow& row, RowPoint& p, float impulse)
+    {
+        p.normal_impulse += impulse;
+        note_push(row, p, impulse * row.n);
+        push(row.a, p.ra, -impulse * row.n);
+        push(row.b, p.rb, impulse * row.n);
+    }
+
+    void push(std::int32_t state, Vec2 arm, Vec2 impulse)
+    {
+        if (gives_way(state))
+            apply_impulse(m_view.states[state], m_view.constants[state], arm, impulse);
+    }
+
+    // What does not is in all parts of the plane: what all threads read, none writes.
+    [[nodiscard]] bool gives_way(std::int32_t state) const
+    {
+        const StateConstants& c = m_view.constants[state];
+        return c.inverse_mass != Vec2{} || c.inverse_inertia != 0;
+    }
+
+    // Two points struck at once bounce at once: a box that lands flat bounces flat.
+    void bounce_points(ContactRow& row, float e, float kick)
+    {
+        if (e <= 0 && kick <= 0)
+            return;
+        RowPoint& p = row.points[0];
+        RowPoint& q = row.points[1];
+        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
+        {
+            const float k11 = 1 / p.normal_mass;
+            const float k22 = 1 / q.normal_mass;
+            const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
+            const float d1 = missing_speed(row, p, e, kick);
+            const float d2 = missing_speed(row, q, e, kick);
+            const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
+            const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
+            if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0)
+            {
+                push(row, p, j1);
+                push(row, q, j2);
+                return;
+            }
+        }
+        for (int i = 0; i < row.count; ++i)
+        {
+            RowPoint& r = row.points[i];
+            if (r.normal_impulse > 0)
+                push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
+        }
+    }
+
+    // Points that fly off are not pushed again by warm starting.
+    static void take_impulses(ContactRow& row, float e, float kick)
+    {
+        for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        {
+            if (wanted_speed(p, e, kick) <= 0)
+                continue;
+            p.total_impulse += p.normal_impulse;
+            p.total_tangent += p.tangent_impulse;
+            p.normal_impulse = p.tangent_impulse = 0;
+        }
+    }
+
+    // The points that struck count as one between them, for their impulses act along one line. A corner that only bears a load has no part in it.
+    void fill_impact(const ContactRow& row, ImpactEvent& event) const
+    {
+        Vec2 arm_a{};
+        Vec2 arm_b{};
+        for (const RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        {
+            if (p.approach <= 0 || p.normal_impulse <= 0)
+                continue;
+            event.impulse += p.normal_impulse;
+            event.friction_impulse += p.tangent_impulse;
+            arm_a += p.normal_impulse * p.ra;
+            arm_b += p.normal_impulse * p.rb;
+        }
+        if (event.impulse <= 0)
+            return;
+        arm_a *= 1 / event.impulse;
+        arm_b *= 1 / event.impulse;
+        const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
+        const BodySpeeds& b = m_scratch.speeds[as_index(row.b)];
+        event.normal = row.n;
+        event.point = place_on_a(row, arm_a);
+        event.velocity_a = a.velocity + cross(a.angular_velocity, arm_a);
+        event.velocity_b = b.velocity + cross(b.angular_velocity, arm_b);
+        event.velocity_after_a = velocity_at(row.a, arm_a);
+        event.velocity_after_b = velocity_at(row.b, arm_b);
+        event.speed_a = dot(event.velocity_a, row.n);
+        event.speed_b = dot(event.velocity_b, row.n);
+        event.approach_speed = event.speed_a - event.speed_b;
+        event.effective_mass_a = point_mass(m_view.constants[row.a], row.n, arm_a);
+        event.effective_mass_b = point_mass(m_view.constants[row.b], row.n, arm_b);
+        const Vec2 impulse = event.impulse * row.n + event.friction_impulse * perp(row.n);
+        event.energy_lost =
+            -0.5f * dot(impulse, event.velocity_b - event.velocity_a + event.velocity_after_b - event.velocity_after_a);
+    }
+
+    [[nodiscard]] Vec2 velocity_at(std::int32_t state, Vec2 arm) const
+    {
+        const BodyState& s = m_view.states[state];
+        return s.velocity + cross(s.angular_velocity, arm);
+    }
+
+    // The mass that a body shows at the arm's end along n; 0 where it does not give way.
+    static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
+    {
+        const float turn = cross(arm, n);
+        const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
+        return exceeds_rounding(inverse, dot(arm, arm) * c.inverse_inertia) ? 1 / inverse : 0;
+    }
+
+    [[nodiscard]] Position place_on_a(const ContactRow& row, Vec2 arm) const
+    {
+        const Contact& contact = m_ctx.state.contacts[row.contact];
+        return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[row.a].delta_position + arm;
+    }
+
+    void begin_touch(const ContactRow& row, int k, Told& told) const
+    {
+        Contact& contact = m_ctx.state.contacts[row.contact];
+        contact.flags |= contact_flag::touching | contact_flag::begun;
+        append(told.begins, {row.contact, contact.shape_a, contact.shape_b, place_on_a(row, row.points[0].ra), row.n,
+                             m_ctx.h * static_cast<float>(k + 1)});
+    }
+
+    const StepContext& m_ctx;
+    Scratch& m_scratch;
+    const Unit& m_unit;
+    UnitOutput& m_output;
+    const SolverView& m_view;
+    bool m_notes_pushes;
+    const WideRow* m_wide;
+    WideNotes* m_notes;
+    const std::uint8_t* m_struck; ///< lanes of each group
+};
+
+} // namespace
+
+void note_approaches(const BouncingUnit& unit) { Bounces(unit).note_approaches(); }
+
+void bounce(const BouncingUnit& unit, int k, Crew& crew) { Bounces(unit).bounce(k, crew); }
+
+} // namespace carom::internal

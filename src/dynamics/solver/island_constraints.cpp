@@ -1,0 +1,227 @@
+#include "dynamics/solver/island_constraints.h"
+
+#include "core/index.h"
+#include "core/prefetch.h"
+#include "core/refuse.h"
+#include "dynamics/solver/contact/partitions.h"
+#include "dynamics/solver/contact/prepare.h"
+#include "dynamics/solver/contact/prepare_wide.h"
+#include "dynamics/solver/joint/joint_solver.h"
+#include "dynamics/solver/simd/kernels.h"
+
+#include <algorithm>
+#include <functional>
+#include <span>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int enough_rows = 256; // to share
+
+// Each of `count` places from the first on.
+template <class Visit>
+void for_each_place(Crew& crew, std::int32_t begin, std::int32_t count, const Visit& visit)
+{
+    crew.share(count, enough_rows,
+               [&](int first, int last)
+               {
+                   for (std::int32_t i = begin + first; i < begin + last; ++i)
+                       visit(i);
+               });
+}
+
+// The contact of a lane that is filled later.
+[[gnu::always_inline]] inline void prefetch_lane(const StepContext& ctx, std::size_t lane)
+{
+    const Scratch& scratch = ctx.scratch;
+    if (lane >= scratch.lane_links.size() || scratch.lane_links[lane] == none)
+        return;
+    const std::int32_t contact = scratch.solved_links[as_index(scratch.lane_links[lane])].contact;
+    prefetch(ctx.state.contacts[contact]);
+    prefetch(ctx.state.impulses[as_index(contact)]);
+}
+
+// The unit's g-th.
+void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
+{
+    const Scratch& scratch = ctx.scratch;
+    const std::int32_t first_lane = (unit.first_wide + g) * lane_count;
+    WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
+    WideNotes& notes = ctx.scratch.wide_notes[as_index(unit.wide_store + g)];
+    notes.count = 0;
+    for (int i = 0; i < lane_count; ++i)
+    {
+        prefetch_lane(ctx, as_index(first_lane + i) + 2 * turns_ahead);
+        const std::int32_t link = scratch.lane_links[as_index(first_lane + i)];
+        if (link == none)
+        {
+            row.a.v[i] = row.b.v[i] = unit.first_state;
+            notes.contact.v[i] = none;
+            continue;
+        }
+        const Link& l = scratch.solved_links[as_index(link)];
+        row.a.v[i] = l.a;
+        row.b.v[i] = l.b;
+        notes.contact.v[i] = l.contact;
+        notes.count = l.points(); // the same in all lanes
+        Contact& contact = ctx.state.contacts[l.contact];
+        contact.wide = (unit.wide_store + g) * lane_count + i;
+        ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
+    }
+    wide_kernels().fill(row, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
+}
+
+void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
+{
+    const Link& l = ctx.scratch.solved_links[as_index(ctx.scratch.row_links[as_index(i)])];
+    const Contact& contact = ctx.state.contacts[l.contact];
+    ContactRow& row = ctx.scratch.rows[as_index(i)];
+    row = prepare_row(ctx, l.contact, contact.manifold, l.a, l.b);
+    follow_closely(contact, unit, row);
+}
+
+// The hinge of a lane that is filled later, and still later where it holds.
+[[gnu::always_inline]] inline void prefetch_hinge(const SceneState& state, std::span<const JointLane> later)
+{
+    if (later.size() > 2 * turns_ahead)
+        prefetch(state.joints[later[2 * turns_ahead].place.joint]);
+    if (later.size() <= turns_ahead)
+        return;
+    const JointRecord& joint = state.joints[later[turns_ahead].place.joint];
+    for (const std::int32_t body : {joint.body_a, joint.body_b})
+    {
+        if (body != none)
+            prefetch_line(&state.sims[as_index(body)]); // the half that neighbours read
+    }
+}
+
+void fill_joint_group(const StepContext& ctx, WideJoint& group)
+{
+    wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.state.turns.data(),
+                               ctx.scratch.constants.data(), ctx.h);
+}
+
+void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
+{
+    const auto lanes =
+        std::span(ctx.scratch.joint_lanes).subspan(as_index(unit.first_joint_lane), as_index(unit.joint_lane_count));
+    const auto of_group = [&](int g)
+    { return std::ranges::lower_bound(lanes, (unit.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
+    auto l = of_group(first);
+    for (int g = unit.first_wide_joint + first; g < unit.first_wide_joint + last; ++g)
+    {
+        WideJoint& group = ctx.scratch.wide_joints[as_index(g)];
+        std::ranges::fill(group.a.v, unit.first_state);
+        std::ranges::fill(group.b.v, unit.first_state);
+        std::ranges::fill(group.joint.v, none);
+        for (; l != lanes.end() && l->lane / lane_count == g; ++l)
+        {
+            prefetch_hinge(ctx.state, {l, lanes.end()});
+            const int i = l->lane % lane_count;
+            group.a.v[i] = l->place.a;
+            group.b.v[i] = l->place.b;
+            group.joint.v[i] = l->place.joint;
+            group.turns = l->bin % 2; // the same in all lanes
+        }
+        fill_joint_group(ctx, group);
+    }
+}
+
+void follow_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
+{
+    for (WideJoint& group :
+         std::span(ctx.scratch.wide_joints).subspan(as_index(unit.first_wide_joint + first), as_index(last - first)))
+    {
+        if (group.turns == 0)
+            wide_kernels().follow_joints(group, ctx.state.sims.data());
+        else
+            fill_joint_group(ctx, group);
+    }
+}
+
+void commit_joint(const StepContext& ctx, const JointWork& work)
+{
+    JointRecord& joint = ctx.state.joints[work.joint];
+    joint.force = (1 / ctx.dt) * work.force_sum;
+    joint.torque = work.torque_sum / ctx.dt;
+    if (!is_finite(joint.force) || !is_finite(joint.torque))
+        forget_loads(joint); // the solver cannot start from numbers beyond all bounds
+    std::ranges::transform(work.errors(), work.moved, joint.left_errors, std::minus<>());
+    joint.yields = work.yields;
+}
+
+} // namespace
+
+void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
+{
+    const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
+    if (!ctx.scratch.kept_units.rows_stay)
+        contact_bins(ctx.scratch, unit).for_each(crew, [&](int g) { fill_group(unit_ctx, unit, g); });
+    for_each_place(crew, unit.first_row, unit.row_count, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
+    for_each_place(crew, unit.first_joint, unit.joint_count,
+                   [&](std::int32_t i)
+                   {
+                       const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
+                       ctx.scratch.joints[as_index(i)] = prepare_joint(unit_ctx, unit, place);
+                   });
+    joint_bins(ctx.scratch, unit)
+        .all(crew,
+             [&](int first, int last)
+             {
+                 if (ctx.scratch.kept_units.hinges_stay)
+                     follow_joint_groups(unit_ctx, unit, first, last);
+                 else
+                     fill_joint_groups(unit_ctx, unit, first, last);
+             });
+}
+
+void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
+{
+    Scratch& scratch = ctx.scratch;
+    WideRow* const rows = scratch.wide_rows.data() + unit.wide_store;
+    WideNotes* const notes = scratch.wide_notes.data() + unit.wide_store;
+    contact_bins(scratch, unit)
+        .for_each(crew,
+                  [&](int g)
+                  {
+                      if (are_rows_far(unit))
+                      { // beyond the last there is nothing, which does no harm
+                          prefetch(rows[as_index(g) + turns_ahead]);
+                          prefetch(notes[as_index(g) + turns_ahead]);
+                      }
+                      wide_kernels().take_impulses(rows[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
+                  });
+    for_each_place(crew, unit.first_row, unit.row_count,
+                   [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
+    for_each_place(crew, unit.first_joint, unit.joint_count,
+                   [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
+    joint_bins(scratch, unit)
+        .for_each(crew,
+                  [&](int g)
+                  {
+                      wide_kernels().take_joint_impulses(scratch.wide_joints[as_index(unit.first_wide_joint + g)],
+                                                         &ctx.state.joints[0], ctx.dt);
+                  });
+}
+
+void commit_row(SceneState& state, const ContactRow& row)
+{
+    Contact& contact = state.contacts[row.contact];
+    Manifold& m = contact.manifold;
+    m.normal = row.n;
+    m.count = row.count;
+    m.rolling_impulse = row.rolling_impulse;
+    contact.flags &= ~contact_flag::loaded;
+    for (int i = 0; i < row.count; ++i)
+    {
+        const RowPoint& p = row.points[i];
+        m.points[i].anchor_a = p.ra;
+        m.points[i].anchor_b = p.rb;
+        impulses_of(state, row.contact).points[i] = {p.normal_impulse, p.tangent_impulse, p.total_impulse, p.total_tangent};
+        if (p.normal_impulse > 0)
+            contact.flags |= contact_flag::loaded;
+    }
+}
+
+} // namespace carom::internal

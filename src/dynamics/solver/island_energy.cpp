@@ -1,0 +1,579 @@
+#include "dynamics/solver/island_energy.h"
+
+#include "core/as_double.h"
+#include "dynamics/state/turns.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr double rounding = 2e-6;  // of the energy, in the slices of a sub-step together
+constexpr double noise_way = 0.05; // of the slop, in a sub-step: what moves so far against the forces has gained nothing
+constexpr double rest_way = 0.004; // and what has no energy: it may not creep
+
+double inverse(float x) { return x > 0 ? 1 / as_double(x) : 0; }
+
+double square(double x) { return x * x; }
+
+bool decays(const StateConstants& c) { return c.linear_decay != 1 || c.angular_decay != 1; }
+
+// Motors and soft holds do work that nobody has counted.
+bool is_passive(const JointRecord& joint) { return joint.hertz == 0 && !joint.enable_motor; }
+
+bool may_lose(const JointRecord& joint)
+{
+    return joint.damping > 0 || joint.impulses[slot_lower] != 0 || joint.impulses[slot_upper] != 0;
+}
+
+// Not a rope that is slack, nor a limit that is far.
+bool is_at_work(const JointRecord& joint, const JointWork& work)
+{
+    return work.rows.held_count > 0 || joint.kind == JointType::Spring || axis_impulse(joint) != 0;
+}
+
+bool is_loaded(const ContactRow& row) { return row.count > 0 && (row.pressed != 0 || bears_load(row)); }
+
+double stored(const JointRecord& joint, const JointPose& pose)
+{
+    return 0.5 * as_double(joint.stiffness) * square(as_double(length(pose.gap)) - as_double(joint.upper));
+}
+
+} // namespace
+
+double UnitEnergy::Body::twice_kinetic(const BodyState& s, const Motion& frame) const
+{
+    return mass_x * square(as_double(s.velocity.x) - frame.x) + mass_y * square(as_double(s.velocity.y) - frame.y) +
+           inertia * square(as_double(s.angular_velocity) - frame.w);
+}
+
+void UnitEnergy::Drift::add(const Body& body, const BodyState& s, const Arm& at)
+{
+    mass_x += body.mass_x;
+    mass_y += body.mass_y;
+    px += body.mass_x * as_double(s.velocity.x);
+    py += body.mass_y * as_double(s.velocity.y);
+    x += body.mass_x * at.x;
+    y += body.mass_x * at.y;
+}
+
+void UnitEnergy::Drift::center()
+{
+    x = mass_x > 0 ? x / mass_x : 0;
+    y = mass_x > 0 ? y / mass_x : 0;
+}
+
+// Bodies with locked axes do not turn about a common center.
+void UnitEnergy::Drift::add_spin(const Body& body, const BodyState& s, const Arm& at)
+{
+    if (mass_x != mass_y)
+        return;
+    const double dx = at.x - x;
+    const double dy = at.y - y;
+    inertia += body.inertia + body.mass_x * (square(dx) + square(dy));
+    spin += body.inertia * as_double(s.angular_velocity) +
+            body.mass_x * (dx * (as_double(s.velocity.y) - vy()) - dy * (as_double(s.velocity.x) - vx()));
+}
+
+void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Unit& unit)
+{
+    m_view = view;
+    m_state = &ctx.state;
+    m_joints = joints;
+    m_slop = ctx.scene.tolerances.slop;
+    m_rest_speed = ctx.rest_speed;
+    m_slices = unit.slices;
+    m_first = unit.first_state + 1;
+    m_count = std::min(unit.dynamic_count, most_bodies);
+    m_has_held_back = false;
+    m_all_driven = all_driven();
+    if (m_all_driven)
+        return;
+    find_carrier(ctx, unit);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+        place_body(ctx, i);
+    add_kinetic(1);
+    add_springs(1);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+        body(i).first = body(i).missing;
+}
+
+void UnitEnergy::place_body(const StepContext& ctx, std::int32_t state)
+{
+    const BodyState& s = m_view.states[state];
+    const StateConstants& c = m_view.constants[state];
+    Body& b = body(state);
+    b = {.mass_x = inverse(c.inverse_mass.x),
+         .mass_y = inverse(c.inverse_mass.y),
+         .inertia = inverse(c.inverse_inertia),
+         .position = s.delta_position,
+         .rotation = s.delta_rotation,
+         .group = state - m_first,
+         .flew = flies(state)};
+    group_of(state) = {};
+    const auto center = [&](std::int32_t i)
+    { return m_state->sims[static_cast<std::size_t>(ctx.scratch.state_bodies[static_cast<std::size_t>(i)])].center; };
+    const Position own = center(state);
+    const Position origin = center(has_carrier() ? m_carrier : m_first);
+    b.center = {own.x - origin.x, own.y - origin.y};
+    if (has_carrier())
+        b.arm = arm_of(state);
+}
+
+// --- seen from what is driven -------------------------------------------------------------------------------------------------------
+
+// Kinematic bodies stand behind the dynamic ones. With two that move there is no frame in which neither does work.
+void UnitEnergy::find_carrier(const StepContext& ctx, const Unit& unit)
+{
+    m_carrier = none;
+    for (std::int32_t i = m_first + unit.dynamic_count; i < unit.first_state + unit.state_count; ++i)
+    {
+        const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(i)];
+        if (s.velocity == Vec2{} && s.angular_velocity == 0)
+            continue;
+        const bool is_second = has_carrier();
+        m_carrier = is_second ? none : i;
+        m_carrier_before = s;
+        if (is_second)
+            return;
+    }
+}
+
+UnitEnergy::Arm UnitEnergy::arm_of(std::int32_t state)
+{
+    const Vec2 own = m_view.states[state].delta_position;
+    const Vec2 carrier = m_view.states[m_carrier].delta_position;
+    const Arm& center = body(state).center;
+    return {center.x + as_double(own.x) - as_double(carrier.x), center.y + as_double(own.y) - as_double(carrier.y)};
+}
+
+UnitEnergy::Motion UnitEnergy::carried_motion(const Arm& arm) const
+{
+    const BodyState& c = m_view.states[m_carrier];
+    const double w = as_double(c.angular_velocity);
+    return {as_double(c.velocity.x) - w * arm.y, as_double(c.velocity.y) + w * arm.x, w};
+}
+
+UnitEnergy::Energy UnitEnergy::energy_of(std::int32_t state)
+{
+    const BodyState& s = m_view.states[state];
+    const Body& b = body(state);
+    Energy energy{0.5 * b.twice_kinetic(s, {}), 0};
+    if (!has_carrier())
+        return energy;
+    const Arm arm = arm_of(state);
+    const Motion frame = carried_motion(arm);
+    energy.carried = 0.5 * b.twice_kinetic(s, frame) - driven_outwards(b, arm);
+    return energy;
+}
+
+// What a way from the carrier's center gives.
+double UnitEnergy::driven_outwards(const Body& b, const Arm& arm) const
+{
+    return 0.5 * square(as_double(m_view.states[m_carrier].angular_velocity)) *
+           (b.mass_x * square(arm.x) + b.mass_y * square(arm.y));
+}
+
+// Forces are even over the sub-step: they work along the way that was gone, however it bent.
+UnitEnergy::Energy UnitEnergy::work_on(std::int32_t state)
+{
+    const BodyState& s = m_view.states[state];
+    const StateConstants& c = m_view.constants[state];
+    const Body& b = body(state);
+    const Vec2 way = s.delta_position - b.position;
+    const Rotation turn = s.delta_rotation * carom::inverse(b.rotation);
+    const auto work = [&](double x, double y, double w)
+    {
+        return b.mass_x * as_double(c.acceleration.x) * x + b.mass_y * as_double(c.acceleration.y) * y +
+               b.inertia * as_double(c.angular_acceleration) * w;
+    };
+    Energy energy{work(as_double(way.x), as_double(way.y), as_double(turn.s)), 0};
+    if (!has_carrier())
+        return energy;
+    const Arm arm = arm_of(state);
+    const Motion frame = carried_motion({0.5 * (arm.x + b.arm.x), 0.5 * (arm.y + b.arm.y)});
+    const double h = as_double(m_view.h);
+    energy.carried = work(as_double(way.x) - h * frame.x, as_double(way.y) - h * frame.y, as_double(turn.s) - h * frame.w);
+    return energy;
+}
+
+// --- what comes and goes ------------------------------------------------------------------------------------------------------------
+
+// Every body hangs on a joint that may do work.
+bool UnitEnergy::all_driven()
+{
+    std::uint64_t driven = 0;
+    for (const JointWork& work : m_joints)
+    {
+        if (is_passive(m_state->joints[work.joint]))
+            continue;
+        for (const std::int32_t i : {work.a, work.b})
+            driven |= is_ours(i) ? std::uint64_t{1} << (i - m_first) : 0;
+    }
+    return std::popcount(driven) == m_count;
+}
+
+// What has landed counts from here.
+void UnitEnergy::after_impacts(std::span<const StoppedJoint> stopped)
+{
+    if (m_all_driven)
+        return;
+    add_kinetic(1);
+    for (const StoppedJoint& s : stopped)
+    {
+        if (is_ours(s.state))
+            body(s.state).missing += {s.energy, s.energy};
+    }
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        const BodyState& s = m_view.states[i];
+        Body& b = body(i);
+        if (flies(i))
+            continue;
+        if (b.flew)
+        {
+            b.position = s.delta_position;
+            b.rotation = s.delta_rotation;
+            if (has_carrier())
+                b.arm = arm_of(i);
+        }
+        else if ((s.flags & body_flag::unbound) != 0)
+        { // what forces do on the way that an impact has added is in the speeds that it was added to
+            b.position += s.delta_position - b.position_before_impacts;
+            const float turn = (s.delta_rotation * carom::inverse(b.rotation_before_impacts)).angle();
+            b.rotation = Rotation::from_angle(turn) * b.rotation;
+        }
+    }
+}
+
+void UnitEnergy::before_impacts()
+{
+    if (m_all_driven)
+        return;
+    add_kinetic(-1);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        body(i).position_before_impacts = m_view.states[i].delta_position;
+        body(i).rotation_before_impacts = m_view.states[i].delta_rotation;
+    }
+}
+
+void UnitEnergy::add_kinetic(double sign)
+{
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        const Energy energy = energy_of(i);
+        body(i).missing += {sign * energy.standing, sign * energy.carried};
+    }
+}
+
+void UnitEnergy::add_springs(double sign)
+{
+    for (const JointWork& work : m_joints)
+    {
+        const JointRecord& joint = m_state->joints[work.joint];
+        if (joint.kind != JointType::Spring)
+            continue;
+        const double energy = sign * stored(joint, present_pose(m_view, work));
+        body(is_ours(work.a) ? work.a : work.b).missing += {energy, energy};
+    }
+}
+
+void UnitEnergy::add_work()
+{
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        Body& b = body(i);
+        b.work = work_on(i);
+        b.missing += b.work;
+        if (has_carrier())
+            b.work.carried += driven_outwards(b, arm_of(i)) - driven_outwards(b, b.arm);
+    }
+}
+
+// --- who belongs together -----------------------------------------------------------------------------------------------------------
+
+void UnitEnergy::connect(std::int32_t a, std::int32_t b)
+{
+    if (!is_ours(a) || !is_ours(b) || body(a).group == body(b).group)
+        return;
+    const int old = std::max(body(a).group, body(b).group);
+    const int joined = std::min(body(a).group, body(b).group);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == old)
+            body(i).group = joined;
+    }
+}
+
+void UnitEnergy::connect_rows(std::span<const ContactRow> rows)
+{
+    for (const ContactRow& row : rows)
+    {
+        if (is_loaded(row))
+            connect(row.a, row.b);
+    }
+}
+
+void UnitEnergy::join(std::int32_t own, std::int32_t other)
+{
+    Group& group = group_of(own);
+    group.is_joined = true;
+    if (is_ours(other))
+        return;
+    const BodyState& anchor = m_view.states[other];
+    if (other == m_carrier)
+        group.is_carried = true;
+    else if (anchor.velocity == Vec2{} && anchor.angular_velocity == 0)
+        group.is_anchored = true;
+    else
+        group.is_passive = false;
+}
+
+// Impulse times the way on which a row has made good what others had moved.
+double UnitEnergy::take_work(JointWork& work) const
+{
+    const JointRecord& joint = m_state->joints[work.joint];
+    const JointErrors errors = work.errors();
+    const auto make_good = [&](std::size_t i, JointSlot slot)
+    {
+        const float change = errors[i] - work.errors_before[i];
+        const float made_good =
+            work.moved[i] > 0 ? std::clamp(change, -work.moved[i], 0.0f) : std::clamp(change, 0.0f, -work.moved[i]);
+        work.moved[i] += made_good;
+        return as_double(joint.impulses[slot]) * as_double(made_good);
+    };
+    double sum = make_good(2, slot_lower) + make_good(3, slot_upper);
+    for (int i = 0; i < work.rows.held_count; ++i)
+        sum += make_good(static_cast<std::size_t>(i), work.rows.held[i].slot);
+    return sum * as_double(m_view.inverse_h);
+}
+
+void UnitEnergy::note_joint(JointWork& work)
+{
+    const JointRecord& joint = m_state->joints[work.joint];
+    Group& first = group_of(is_ours(work.a) ? work.a : work.b);
+    first.is_passive &= std::max(std::fabs(work.moved[0]), std::fabs(work.moved[1])) <= m_slop; // farther, it is a blow
+    first.row_work += take_work(work);
+    for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
+    {
+        if (!is_ours(own))
+            continue;
+        if (is_at_work(joint, work))
+            join(own, other);
+        group_of(own).is_passive &= is_passive(joint);
+        group_of(own).may_lose |= may_lose(joint);
+    }
+}
+
+void UnitEnergy::note_rows(std::span<const ContactRow> rows)
+{
+    for (const ContactRow& row : rows)
+    {
+        if (is_loaded(row))
+            note_row(row);
+    }
+}
+
+// Load times the way on which it has pushed an overlap out; the impulse of a blow is no load.
+double UnitEnergy::push_out_of(const ContactRow& row) const
+{
+    double work = 0;
+    for (int i = 0; i < row.count; ++i)
+    {
+        const RowPoint& p = row.points[i];
+        const float out = std::min(row_separation(m_view, row, p), 0.0f) - std::min(p.separation_before, 0.0f);
+        if (p.approach <= m_rest_speed)
+            work += as_double(p.normal_impulse) * as_double(m_view.inverse_h) * as_double(std::max(out, 0.0f));
+    }
+    return work;
+}
+
+void UnitEnergy::note_row(const ContactRow& row)
+{
+    group_of(is_ours(row.a) ? row.a : row.b).push_out += push_out_of(row);
+    for (const auto& [own, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}})
+    {
+        if (!is_ours(own))
+            continue;
+        join(own, other);
+        group_of(own).is_passive &= row.surface_speed == 0;
+        group_of(own).may_lose = true;
+        group_of(own).touches = true;
+    }
+}
+
+void UnitEnergy::note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows)
+{
+    if (m_all_driven)
+        return;
+    for (const JointWork& work : m_joints)
+        connect(work.a, work.b);
+    connect_rows(rows);
+    connect_rows(late_rows);
+    for (JointWork& work : m_joints)
+        note_joint(work);
+    note_rows(rows);
+    note_rows(late_rows);
+}
+
+// --- scaling ------------------------------------------------------------------------------------------------------------------------
+
+void UnitEnergy::restore(bool exact)
+{
+    if (m_all_driven)
+        return;
+    add_work();
+    add_kinetic(-1);
+    add_springs(-1);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        Group& group = group_of(i);
+        group.missing += body(i).missing;
+        group.first += body(i).first;
+        group.work += body(i).work;
+        if (group.touches)
+            group.slop_work += as_double(m_slop) / m_slices * force_on(i);
+        group.is_passive &= !decays(m_view.constants[i]) && !flies(i) && !(group.is_carried && group.is_anchored);
+        group.is_passive &= !group.is_carried || (body(i).mass_x > 0 && body(i).mass_x == body(i).mass_y);
+    }
+    for (int g = 0; g < m_count; ++g)
+    {
+        const Group& group = m_groups[static_cast<std::size_t>(g)];
+        if (group.is_joined && group.is_passive)
+            scale(g, exact && !group.may_lose);
+    }
+}
+
+double UnitEnergy::force_on(std::int32_t state)
+{
+    const Vec2 a = m_view.constants[state].acceleration;
+    return std::sqrt(square(body(state).mass_x * as_double(a.x)) + square(body(state).mass_y * as_double(a.y)));
+}
+
+UnitEnergy::Drift UnitEnergy::drift_of(int index)
+{
+    Drift drift;
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == index)
+            drift.add(body(i), m_view.states[i], place_of(i));
+    }
+    drift.center();
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == index)
+            drift.add_spin(body(i), m_view.states[i], place_of(i));
+    }
+    return drift;
+}
+
+UnitEnergy::Arm UnitEnergy::place_of(std::int32_t state)
+{
+    const Arm& center = body(state).center;
+    const Vec2 way = m_view.states[state].delta_position;
+    return {center.x + as_double(way.x), center.y + as_double(way.y)};
+}
+
+// What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves
+// against the carrier.
+UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
+{
+    if (group.is_carried)
+        return carried_motion(arm_of(state));
+    if (group.is_anchored)
+        return {};
+    const Arm at = place_of(state);
+    return {drift.vx() - drift.w() * (at.y - drift.y), drift.vy() + drift.w() * (at.x - drift.x), drift.w()};
+}
+
+double UnitEnergy::inner_energy(int index, const Drift& drift)
+{
+    double energy = 0;
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == index)
+            energy +=
+                0.5 * body(i).twice_kinetic(m_view.states[i], frame_of(m_groups[static_cast<std::size_t>(index)], drift, i));
+    }
+    return energy;
+}
+
+void UnitEnergy::scale(int index, bool exact)
+{
+    const Group& group = m_groups[static_cast<std::size_t>(index)];
+    const double missing = group.of(group.missing) + group.row_work;
+    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
+    const double work = group.of(group.work);
+    const bool may_rise = group.may_lose && work < 0 && missing < 0;
+    const bool may_stay = !(exact && !group.is_carried) &&
+                          missing >= -rounding / m_slices * std::fabs(group.of(group.first)) - noise_way * group.slop_work;
+    if (may_stay && !may_rise)
+        return;
+    Drift drift = drift_of(index);
+    double inner = inner_energy(index, drift);
+    if (inner + missing < 0)
+    { // more than they have against each other: of the turn of the whole as well
+        drift.inertia = 0;
+        inner = inner_energy(index, drift);
+    }
+    if (const double rise = -(inner + missing) - group.push_out - rest_way * group.slop_work; may_rise && rise > 0)
+        hold_back(index, std::min(rise / -work, 1.0));
+    if (may_stay || !(inner > 0))
+        return;
+    const double by = std::sqrt(std::max(inner + missing, 0.0) / inner);
+    const auto change = static_cast<float>(std::min(by, 2.0) - 1);
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        BodyState& s = m_view.states[i];
+        if (body(i).group != index)
+            continue;
+        const Motion frame = frame_of(group, drift, i);
+        const StateConstants& c = m_view.constants[i];
+        const auto scale = [&](float& speed, double of_frame, float inverse_mass)
+        { speed += inverse_mass != 0 ? change * (speed - static_cast<float>(of_frame)) : 0; }; // locked, it is not moved
+        scale(s.velocity.x, frame.x, c.inverse_mass.x);
+        scale(s.velocity.y, frame.y, c.inverse_mass.y);
+        scale(s.angular_velocity, frame.w, c.inverse_inertia);
+    }
+}
+
+// Bodies that go against the forces without energy for it go so much less far.
+void UnitEnergy::hold_back(int index, double share)
+{
+    m_has_held_back = true;
+    const bool is_carried = m_groups[static_cast<std::size_t>(index)].is_carried;
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+    {
+        if (body(i).group == index)
+            hold_back_body(i, static_cast<float>(1 - share), is_carried);
+    }
+}
+
+// Its own way is that against the carrier, which takes it along.
+void UnitEnergy::hold_back_body(std::int32_t state, float rest, bool is_carried)
+{
+    BodyState& s = m_view.states[state];
+    const Body& b = body(state);
+    Vec2 position = b.position;
+    Rotation rotation = b.rotation;
+    if (is_carried)
+    {
+        const BodyState& c = m_view.states[m_carrier];
+        const Rotation turn = c.delta_rotation * carom::inverse(m_carrier_before.delta_rotation);
+        const Vec2 arm{static_cast<float>(b.arm.x), static_cast<float>(b.arm.y)};
+        position += c.delta_position - m_carrier_before.delta_position + rotate(turn, arm) - arm;
+        rotation = turn * rotation;
+    }
+    s.delta_position = position + rest * (s.delta_position - position);
+    const float turn = (s.delta_rotation * carom::inverse(rotation)).angle();
+    const Rotation before = s.delta_rotation;
+    s.delta_rotation = Rotation::from_angle(rest * turn) * rotation;
+    s.turns = static_cast<std::int16_t>(s.turns + turns_by(before, s.delta_rotation, as_double((rest - 1) * turn)));
+}
+
+} // namespace carom::internal

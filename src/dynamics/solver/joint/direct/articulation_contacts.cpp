@@ -1,0 +1,358 @@
+// Contacts of figures: bodies that joints hold together are pushed as a whole. A contact that knew its own body alone would stop a foot and let the
+// joints push it on, turn after turn, as slowly as the foot is lighter than what it carries.
+//
+//   Y = -A^-1 J M^-1 E,   R = M^-1 (E + J^T Y)       answers of the joints, and of bodies, to unit impulses E on one body
+//   impulse = -(j v + bias) / (j R j^T)
+//
+// While contacts push, only the bodies that have contacts are kept up to date; the others and the joints get their shares at the end.
+//
+// A figure that is held by what does not give way has no such answer everywhere: a wall may contradict its joints, and these have to yield. There, and
+// between two bodies of one figure, contacts push their own bodies alone and joints and contacts take turns.
+
+#include "dynamics/solver/joint/direct/direct_solver.h"
+
+#include "core/index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+// The least share of a body's own answer that counts: below it joints leave rounding alone, as of a turn that another body's lock forbids.
+constexpr double least_answer = 1e-9;
+
+float clamped_change(float& impulse, float change, float least, float most)
+{
+    const float now = std::clamp(impulse + change, least, most);
+    return now - std::exchange(impulse, now);
+}
+
+} // namespace
+
+// --- figures ------------------------------------------------------------------------------------------------------------------------
+
+void DirectSolve::find_figures()
+{
+    m_figures.clear();
+    m_figure_of.assign(m_nodes.size(), none);
+    for (std::size_t first = JointMatrix::ground + 1; first < m_nodes.size(); ++first)
+    {
+        if (m_figure_of[first] != none)
+            continue;
+        const int number = static_cast<int>(m_figures.size());
+        Figure& figure = m_figures.emplace_back();
+        m_figure_of[first] = number;
+        figure.nodes.assign(1, static_cast<int>(first));
+        for (bool grows = true; std::exchange(grows, false);)
+        {
+            for (const Item& item : m_items)
+            {
+                if (item.a == JointMatrix::ground || item.b == JointMatrix::ground ||
+                    (m_figure_of[as_index(item.a)] == number) == (m_figure_of[as_index(item.b)] == number))
+                    continue;
+                const int added = m_figure_of[as_index(item.a)] == number ? item.b : item.a;
+                m_figure_of[as_index(added)] = number;
+                figure.nodes.push_back(added);
+                grows = true;
+            }
+        }
+        std::ranges::sort(figure.nodes);
+        for (std::size_t i = 0; i < m_items.size(); ++i)
+        {
+            const Item& item = m_items[i];
+            if (m_figure_of[as_index(item.a)] != number && m_figure_of[as_index(item.b)] != number)
+                continue;
+            figure.items.push_back(static_cast<int>(i));
+            const Edge& edge = m_edges[i];
+            for (int r = 0; r < edge.held + (edge.has_axis ? 1 : 0); ++r)
+                figure.rows.push_back(item.first_row + r);
+        }
+        std::ranges::sort(figure.rows);
+    }
+}
+
+void DirectSolve::find_anchors()
+{
+    m_has_free_figures = false;
+    for (Figure& figure : m_figures)
+    {
+        const auto holds = [&](int i)
+        { return m_items[as_index(i)].a == JointMatrix::ground || m_items[as_index(i)].b == JointMatrix::ground; };
+        figure.anchored = std::ranges::any_of(figure.items, holds) ||
+                          std::ranges::any_of(figure.nodes, [&](int n) { return is_locked(m_nodes[as_index(n)]); });
+        m_has_free_figures |= !figure.anchored;
+    }
+}
+
+// None where it belongs to no figure that may be pushed as a whole.
+int DirectSolve::free_figure_of(std::int32_t state) const
+{
+    if (moving(state) == none)
+        return none;
+    const auto at = as_index(node_of(state));
+    if (at >= m_nodes.size() || m_nodes[at].state != state)
+        return none;
+    const int figure = m_figure_of[at];
+    return m_figures[as_index(figure)].anchored ? none : figure;
+}
+
+// --- responses ----------------------------------------------------------------------------------------------------------------------
+
+Triple DirectSolve::Response::to(const Triple& impulse) const { return {dot(x, impulse), dot(y, impulse), dot(turn, impulse)}; }
+
+void DirectSolve::Response::add(const Triple& inverse_mass, const Triple& jacobian, const Triple& answers)
+{
+    x += (inverse_mass.x * jacobian.x) * answers;
+    y += (inverse_mass.y * jacobian.y) * answers;
+    turn += (inverse_mass.turn * jacobian.turn) * answers;
+}
+
+DirectSolve::Side DirectSolve::side_of(std::int32_t state)
+{
+    const int figure = free_figure_of(state);
+    if (figure == none)
+        return {state};
+    const int n = node_of(state);
+    int& body = m_pushed_of[as_index(n)];
+    if (body == none)
+    {
+        body = static_cast<int>(m_pushed.size());
+        std::vector<int>& others = m_figures[as_index(figure)].pushed;
+        m_pushed.push_back({.node = n, .figure = figure, .place = others.size()});
+        others.push_back(body);
+    }
+    return {state, figure, body};
+}
+
+void DirectSolve::find_responses(PushedBody& body)
+{
+    const Figure& whole = m_figures[as_index(body.figure)];
+    const Triple& mass = m_masses[as_index(body.node)];
+    m_answer.resize(as_index(m_matrix.rows()));
+    for (const int i : whole.items)
+    {
+        const Item& item = m_items[as_index(i)];
+        const JointJacobian& j = m_jacobians[as_index(i)];
+        for (int r = 0; r < item.rows(); ++r)
+            m_answer[as_index(item.first_row + r)] = item.a == body.node   ? -1 * product(mass, j.a[r])
+                                                     : item.b == body.node ? -1 * product(mass, j.b[r])
+                                                                           : Triple{};
+    }
+    m_matrix.solve(m_answer, whole.rows);
+    body.first_answer = m_answers.size();
+    for (const int row : whole.rows)
+        m_answers.push_back(m_answer[as_index(row)]);
+
+    body.first_response = m_responses.size();
+    m_responses.resize(m_responses.size() + whole.pushed.size());
+    const auto response_of = [&](int node) -> Response*
+    {
+        const int at = m_pushed_of[as_index(node)];
+        return at == none ? nullptr : &m_responses[body.first_response + m_pushed[as_index(at)].place];
+    };
+    *response_of(body.node) = {{mass.x, 0, 0}, {0, mass.y, 0}, {0, 0, mass.turn}};
+    for (const int i : whole.items)
+    {
+        const Item& item = m_items[as_index(i)];
+        const JointJacobian& j = m_jacobians[as_index(i)];
+        Response* a = response_of(item.a);
+        Response* b = response_of(item.b);
+        for (int r = 0; r < item.rows(); ++r)
+        {
+            const Triple& answers = m_answer[as_index(item.first_row + r)];
+            if (a != nullptr)
+                a->add(m_masses[as_index(item.a)], j.a[r], answers);
+            if (b != nullptr)
+                b->add(m_masses[as_index(item.b)], j.b[r], answers);
+        }
+    }
+    body.responds = true;
+}
+
+Triple DirectSolve::response(const Side& side, const Triple& impulse)
+{
+    if (side.body == none)
+        return response_alone(side, impulse);
+    PushedBody& body = m_pushed[as_index(side.body)];
+    if (!body.responds)
+        find_responses(body);
+    return m_responses[body.first_response + body.place].to(impulse);
+}
+
+Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) const
+{
+    const StateConstants& c = m_view.constants[side.state];
+    return product(as_triple(c.inverse_mass, c.inverse_inertia), impulse);
+}
+
+// Its mass is 0 where joints leave no more than rounding of the bodies' own answer, as of a turn that another body's lock forbids.
+DirectSolve::PushedLine DirectSolve::pushed_line(const Contact& contact, const Triple& ja, const Triple& jb)
+{
+    const auto& [row, a, b] = contact;
+    const double k = dot(ja, response(a, ja)) + dot(jb, response(b, jb));
+    const double alone = dot(ja, response_alone(a, ja)) + dot(jb, response_alone(b, jb));
+    return {a, b, ja, jb, k > least_answer * alone ? static_cast<float>(1 / k) : 0};
+}
+
+void DirectSolve::push_whole(const PushedLine& line, float impulse)
+{
+    if (impulse == 0 || line.mass == 0)
+        return;
+    push_whole(line.a, static_cast<double>(impulse) * line.ja);
+    push_whole(line.b, static_cast<double>(impulse) * line.jb);
+    m_largest_push = std::max(m_largest_push, std::fabs(impulse) / line.mass);
+}
+
+void DirectSolve::push_whole(const Side& side, const Triple& impulse)
+{
+    if (side.body == none)
+    {
+        change_velocity(m_view.states[side.state], response_alone(side, impulse));
+        return;
+    }
+    PushedBody& body = m_pushed[as_index(side.body)];
+    body.given += impulse;
+    const Response* response = &m_responses[body.first_response];
+    for (const int i : m_figures[as_index(side.figure)].pushed)
+        change_velocity(m_view.states[node(m_pushed[as_index(i)].node).state], (response++)->to(impulse));
+}
+
+// --- passes -------------------------------------------------------------------------------------------------------------------------
+
+void DirectSolve::solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny)
+{
+    constexpr int most_sweeps = 4;
+    begin_pushes();
+    for (const std::span<ContactRow> some : {rows, late_rows})
+    {
+        for (ContactRow& row : some)
+            m_contacts.push_back({&row, side_of(row.a), side_of(row.b)});
+    }
+    for (int sweep = 0; sweep < most_sweeps; ++sweep)
+    {
+        m_largest_push = 0;
+        for (const Contact& contact : m_contacts)
+        {
+            if (contact.a.figure == contact.b.figure) // or in none
+                solve_rows(m_view, {contact.row, 1}, use_bias);
+            else
+                solve_contact(contact, use_bias);
+        }
+        if (m_largest_push < tiny)
+            break;
+    }
+    for (const Figure& figure : m_figures)
+        take_pushes(figure);
+    take_answers();
+}
+
+void DirectSolve::begin_pushes()
+{
+    for (Figure& figure : m_figures)
+        figure.pushed.clear();
+    m_contacts.clear();
+    m_pushed.clear();
+    m_pushed_of.assign(m_nodes.size(), none);
+    m_responses.clear();
+    m_answers.clear();
+    m_answered.assign(m_impulses.size(), 0);
+}
+
+void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
+{
+    ContactRow& row = *contact.row;
+    float load = 0;
+    for (int i = 0; i < row.count; ++i)
+        load += row.points[i].normal_impulse;
+    const auto line = [&](Vec2 d, const RowPoint& p)
+    { return pushed_line(contact, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))); };
+    if (row.rolling > 0 && (load > 0 || row.rolling_impulse != 0))
+    {
+        const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
+        const float slip = m_view.states[row.b].angular_velocity - m_view.states[row.a].angular_velocity;
+        push_whole(turn, clamped_change(row.rolling_impulse, -turn.mass * slip, -row.rolling * load, row.rolling * load));
+    }
+    for (int i = 0; i < row.count; ++i)
+    {
+        RowPoint& p = row.points[i];
+        const NormalTarget target = normal_target(m_view, row, p, use_bias);
+        const float lacking = row_speed(m_view, row, p) + target.bias;
+        if (p.normal_impulse == 0 && lacking >= 0)
+            continue;
+        const PushedLine normal = line(row.n, p);
+        const float change = -normal.mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
+        push_whole(normal, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
+    }
+    for (int i = 0; i < row.count; ++i)
+    {
+        RowPoint& p = row.points[i];
+        const float limit = row.friction * p.normal_impulse;
+        if (limit == 0 && p.tangent_impulse == 0)
+            continue;
+        const PushedLine along = line(perp(row.n), p);
+        push_whole(along, clamped_change(p.tangent_impulse, -along.mass * row_slip(m_view, row, p), -limit, limit));
+    }
+}
+
+// The answers of the joints to all pushes, and the changes of bodies that no contact touches.
+void DirectSolve::take_pushes(const Figure& figure)
+{
+    bool is_pushed = false;
+    for (const int p : figure.pushed)
+    {
+        const PushedBody& body = m_pushed[as_index(p)];
+        if (!body.responds)
+            continue;
+        is_pushed = true;
+        for (std::size_t i = 0; i < figure.rows.size(); ++i)
+            m_answered[as_index(figure.rows[i])] += dot(m_answers[body.first_answer + i], body.given);
+    }
+    if (!is_pushed)
+        return;
+    m_before.clear();
+    for (const int n : figure.nodes)
+        m_before.push_back(std::exchange(node(n).change, {}));
+    for (const int p : figure.pushed)
+    {
+        const PushedBody& body = m_pushed[as_index(p)];
+        node(body.node).change += product(m_masses[as_index(body.node)], body.given);
+    }
+    for (const int i : figure.items)
+    {
+        const Item& item = m_items[as_index(i)];
+        for (int r = 0; r < item.rows(); ++r)
+            push(item, r, m_answered[as_index(item.first_row + r)]);
+    }
+    for (std::size_t i = 0; i < figure.nodes.size(); ++i)
+    {
+        Node& n = node(figure.nodes[i]);
+        if (m_pushed_of[as_index(figure.nodes[i])] == none)
+            change_velocity(m_view.states[n.state], n.change);
+        n.change += m_before[i];
+    }
+}
+
+void DirectSolve::take_answers()
+{
+    for (std::size_t i = 0; i < m_impulses.size(); ++i)
+        m_impulses[i] += m_answered[i];
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            item.impulse(r) += static_cast<float>(m_answered[as_index(item.first_row + r)]);
+    }
+    // A motor may have answered with more than it can do: the next solve knows and takes it back.
+    for (const Axis& axis : m_axes)
+    {
+        const double answered = m_answered[as_index(axis.row)];
+        if (answered == 0)
+            continue;
+        AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate_of_law(axis));
+        now.motor += axis.before + m_impulses[as_index(axis.row)] - now.sum();
+        set_axis_impulses(*m_items[axis.item].record, axis.law.scope.merge(axis.restore, now));
+    }
+}
+
+} // namespace carom::internal

@@ -1,0 +1,305 @@
+#pragma once
+
+// The direct solve of an island's joints, beside the row after row of joint_solver.h.
+
+#include "dynamics/solver/joint/direct/joint_matrix.h"
+#include "dynamics/solver/joint/joint_axis.h"
+#include "dynamics/solver/joint/joint_bodies.h"
+
+#include <span>
+#include <vector>
+
+namespace carom::internal {
+
+[[nodiscard]] inline Triple as_triple(Vec2 v, float turn)
+{
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(turn)};
+}
+
+inline void change_velocity(BodyState& s, const Triple& by)
+{
+    s.velocity += Vec2{static_cast<float>(by.x), static_cast<float>(by.y)};
+    s.angular_velocity += static_cast<float>(by.turn);
+}
+
+/// All joint rows of an island at once. Kept from step to step for its memory, and for the layout where the joints are the same.
+class DirectSolve
+{
+public:
+    static constexpr int most_rows = 128;
+
+    enum class Masses
+    {
+        Loaded, ///< bodies that a load stretches count as harder to turn
+        Own     ///< speeds alone change: with other masses that might give energy
+    };
+
+    /// Once a step, and after a body has taken off or landed: who is connected with whom is found anew.
+    void look_again() { m_looks_again = true; }
+    /// At the present pose. Not ready where there is nothing to hold or too much of it: then the soft rows have to do.
+    void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints, Masses masses);
+    /// Once a step: springs that share bodies swing faster together than each alone, and damp what a sub-step cannot follow.
+    void fit_springs();
+    [[nodiscard]] bool is_ready() const { return m_ready; }
+    /// A wall or others hold what they pull. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap is pushed out.
+    void yield();
+    [[nodiscard]] bool yields() const { return m_yields; }
+    void warm_start();
+    void solve(bool use_bias);
+    /// Is there a figure that nothing holds? Its contacts are solved here, each with what the joints answer; see articulation_contacts.cpp.
+    [[nodiscard]] bool has_free_figures() const { return m_ready && m_has_free_figures; }
+    /// Some sweeps over all contacts of the unit, right after solve(); fewer once none changes a speed by more than `tiny`, m/s.
+    void solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny);
+    /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
+    void take_forbidden_speeds();
+    /// Joints leave their stops at JointWork::bounce.
+    void bounce();
+    /// No straight way leads to where the joints want the bodies: let them drift, then close the gaps.
+    [[nodiscard]] bool turns_too_far() const { return m_turns_too_far; }
+    /// Moves the bodies and leaves their velocities: one step of Newton's.
+    void close_gaps();
+    /// Lets joints yield where a gap is left that no move closes.
+    void yield_to_gaps();
+
+private:
+    enum class Stage
+    {
+        Ahead, ///< errors at the pose that the velocities lead to are 0
+        Now,   ///< J v = 0 at the pose reached
+        Soft,  ///< the same, and errors close slowly
+        Held   ///< J v = 0 of the held rows alone
+    };
+
+    /// The part of a row that stands in J, and so in the matrix.
+    struct Line
+    {
+        Vec2 d{};
+        float arm_a = 0;
+        float arm_b = 0;
+    };
+
+    struct Edge
+    {
+        std::size_t joint = 0; ///< index into m_joints
+        std::int32_t a = 0;    ///< states; none: does not move
+        std::int32_t b = 0;
+        int held = 0;
+        bool has_axis = false;
+
+        friend bool operator==(const Edge&, const Edge&) = default;
+    };
+
+    /// A joint in the matrix.
+    struct Item
+    {
+        std::size_t joint = 0;
+        int held = 0;
+        int first_row = 0;
+        int a = JointMatrix::ground; ///< nodes
+        int b = JointMatrix::ground;
+        Line lines[most_joint_rows];
+        const JointWork* work = nullptr;
+        JointRecord* record = nullptr;
+
+        [[nodiscard]] int rows() const { return held + (work->rows.has_axis() ? 1 : 0); }
+        [[nodiscard]] const JointRow& row(int r) const { return r < held ? work->rows.held[r] : work->rows.axis; }
+        [[nodiscard]] bool is_sprung() const { return work->rows.has_axis() && work->spring.is_there(); }
+        [[nodiscard]] bool take_lines();
+        [[nodiscard]] float& impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
+    };
+
+    /// A free axis in the equations.
+    struct Axis
+    {
+        std::size_t item = 0;
+        int row = 0;
+        AxisLaw law;
+        AxisPiece piece;
+        double before = 0;      ///< impulse that the law has given already
+        AxisImpulses restore{}; ///< as they were before
+    };
+
+    /// A body that joints connect; all that do not move are one.
+    struct Node
+    {
+        std::int32_t state = none;
+        float stretch = 0; ///< (omega h)²
+        float sprung = 0;  ///< omega² that its springs would give it if nothing else moved
+        int springs = 0;
+        Placement ahead{};
+        Triple change{}; ///< of its velocity
+    };
+
+    /// Bodies that joints hold together.
+    struct Figure
+    {
+        std::vector<int> nodes;
+        std::vector<int> items;
+        std::vector<int> rows;   ///< of the matrix, in order
+        bool anchored = false;   ///< held by what does not give way
+        std::vector<int> pushed; ///< bodies that have contacts
+    };
+
+    /// The velocity that a body gains by unit impulses on one, by component.
+    struct Response
+    {
+        Triple x{};
+        Triple y{};
+        Triple turn{};
+
+        [[nodiscard]] Triple to(const Triple& impulse) const;
+        /// The share of a joint's row: its answers to the unit impulses act on the body along the jacobian.
+        void add(const Triple& inverse_mass, const Triple& jacobian, const Triple& answers);
+    };
+
+    /// A body of a figure that has contacts.
+    struct PushedBody
+    {
+        int node = 0;
+        int figure = 0;
+        std::size_t place = 0;          ///< among the figure's
+        bool responds = false;          ///< responses and answers to unit impulses on it are known
+        std::size_t first_response = 0; ///< by the figure's pushed bodies
+        std::size_t first_answer = 0;   ///< of the joints, by the figure's rows
+        Triple given{};                 ///< impulse, by all contacts so far
+    };
+
+    /// A body in a contact: as a part of its figure, or alone.
+    struct Side
+    {
+        std::int32_t state = none;
+        int figure = none;
+        int body = none; ///< of those pushed
+    };
+
+    struct Contact
+    {
+        ContactRow* row = nullptr;
+        Side a;
+        Side b;
+    };
+
+    struct PushedLine
+    {
+        Side a;
+        Side b;
+        Triple ja{};
+        Triple jb{};
+        float mass = 0; ///< effective
+    };
+
+    void find_figures();
+    void find_anchors();
+    [[nodiscard]] int free_figure_of(std::int32_t state) const;
+    void find_responses(PushedBody& body);
+    [[nodiscard]] Side side_of(std::int32_t state);
+    [[nodiscard]] Triple response(const Side& side, const Triple& impulse);
+    [[nodiscard]] Triple response_alone(const Side& side, const Triple& impulse) const;
+    [[nodiscard]] PushedLine pushed_line(const Contact& contact, const Triple& ja, const Triple& jb);
+    void begin_pushes();
+    void push_whole(const PushedLine& line, float impulse);
+    void push_whole(const Side& side, const Triple& impulse);
+    void solve_contact(const Contact& contact, bool use_bias);
+    void take_pushes(const Figure& figure);
+    void take_answers();
+
+    [[nodiscard]] bool find_edges();
+    [[nodiscard]] std::int32_t moving(std::int32_t state) const;
+    [[nodiscard]] int node_of(std::int32_t state) const;
+    void lay_out();
+    [[nodiscard]] bool place();
+    void fill_jacobian(const Item& item, JointJacobian& jacobian) const;
+    void note_stretch(const Item& item);
+    [[nodiscard]] bool is_locked(const Node& node) const;
+    [[nodiscard]] Triple inverse_mass(const Node& node) const;
+    void add_spring(Node& node, float stiffness, Vec2 d, float arm) const;
+    [[nodiscard]] Node& node(int i) { return m_nodes[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const Node& node(int i) const { return m_nodes[static_cast<std::size_t>(i)]; }
+
+    [[nodiscard]] double present_compliance() const;
+    [[nodiscard]] bool find_pose_ahead();
+    [[nodiscard]] bool may_soften() const;
+    void soften();
+    void note_speeds();
+    void note_errors_ahead();
+    [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
+    [[nodiscard]] double largest_error() const;
+    [[nodiscard]] double largest_gap() const;
+    [[nodiscard]] double largest_turn() const;
+    void start_anew();
+    [[nodiscard]] float most_speed(const JointRow& row) const;
+    void limit_speeds();
+    void close_slowly();
+    [[nodiscard]] double rate_of_law(const Axis& axis) const;
+    [[nodiscard]] double softness(const Axis& axis) const
+    {
+        return m_yields ? m_leak * m_matrix.weight(axis.row) : 0;
+    } // rate per impulse
+    [[nodiscard]] AxisActs acts_ahead(const JointRows& rows, Stage stage) const;
+
+    void take_step(Stage stage);
+    void give_blow(Stage stage);
+    void find_impulses(Stage stage);
+    void begin_axes(Stage stage);
+    void solve_pieces();
+    void give_known_impulses();
+    [[nodiscard]] bool take_next_pieces(bool all);
+    void give_up_on_pieces();
+    void push(const Item& item, int row, double impulse);
+    [[nodiscard]] double change_along(const Item& item, int row) const;
+    void take_velocities(double sign = 1);
+    void take_impulses();
+    void take_back();
+    void go_on_from_here();
+    void tell_as_blow();
+
+    SolverView m_view{};
+    SceneState* m_state = nullptr;
+    std::span<JointWork> m_joints;
+    bool m_looks_again = true;
+    bool m_fits = false; ///< there is something to solve, and not too much
+    bool m_ready = false;
+    bool m_may_contradict = false; ///< rows of loops, and of bodies that are locked
+    Masses m_mass_kind = Masses::Own;
+    bool m_turns_too_far = false;
+    bool m_yields = false;
+    float m_longest_arm = 0;
+
+    std::vector<Edge> m_found;
+    std::vector<Edge> m_edges; ///< of the layout
+    JointMatrix m_matrix;
+    bool m_is_new = false;   ///< the layout: nothing stands in the matrix
+    double m_compliance = 0; ///< of loops and of what yields, in the present stage
+    double m_leak = 0;
+    double m_softening = 1; ///< of loops
+    double m_spring_softening = 1;
+    double m_factored_with = -1;       ///< of these; m_compliances are the others
+    std::vector<double> m_compliances; ///< by row; so are the next ones
+    std::vector<double> m_wanted_compliances;
+    std::vector<double> m_speeds; ///< or errors ahead per sub-step
+    std::vector<double> m_impulses;
+
+    std::vector<Figure> m_figures;
+    std::vector<int> m_figure_of; ///< by node
+    bool m_has_free_figures = false;
+    std::vector<Contact> m_contacts;
+    std::vector<PushedBody> m_pushed;
+    std::vector<int> m_pushed_of; ///< by node
+    std::vector<Response> m_responses;
+    std::vector<Triple> m_answers;
+    std::vector<Triple> m_answer;   ///< to unit impulses on one body, by row
+    std::vector<double> m_answered; ///< to all contacts so far, by row
+    std::vector<Triple> m_before;   ///< changes of a figure
+    float m_largest_push = 0;       ///< change of a speed
+
+    std::vector<Item> m_items;
+    std::vector<Axis> m_axes; ///< in the present stage
+    std::vector<JointJacobian> m_jacobians;
+    std::vector<Node> m_nodes;
+    std::vector<Triple> m_masses; ///< inverse
+};
+
+/// Until none is left to speak of.
+void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints);
+
+} // namespace carom::internal

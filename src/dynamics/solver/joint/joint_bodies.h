@@ -1,0 +1,127 @@
+#pragma once
+
+// The two bodies of a joint in the solver: where they are, how fast they approach along a row, and what an impulse does to them.
+
+#include "dynamics/solver/contact/contact_solver.h"
+#include "dynamics/solver/joint/joint_rows.h"
+#include "dynamics/solver/rows.h"
+#include "dynamics/state/scene_data.h"
+
+namespace carom::internal {
+
+struct JointBodies
+{
+    BodyState& sa;
+    BodyState& sb;
+    const StateConstants& ca;
+    const StateConstants& cb;
+
+    JointBodies(const SolverView& view, const JointWork& work)
+        : sa(view.states[work.a]), sb(view.states[work.b]), ca(view.constants[work.a]), cb(view.constants[work.b])
+    {}
+
+    [[nodiscard]] bool are_anchored() const
+    {
+        const auto stands = [](const StateConstants& c) { return c.inverse_mass == Vec2{} && c.inverse_inertia == 0; };
+        return stands(ca) || stands(cb);
+    }
+
+    [[nodiscard]] float speed(const JointRow& r) const
+    {
+        return dot(r.d, sb.velocity - sa.velocity) + r.arm_b * sb.angular_velocity - r.arm_a * sa.angular_velocity;
+    }
+
+    // J M^-1 J'^T of two rows.
+    [[nodiscard]] float couple(const JointRow& r, const JointRow& q) const
+    {
+        return r.d.x * q.d.x * (ca.inverse_mass.x + cb.inverse_mass.x) + r.d.y * q.d.y * (ca.inverse_mass.y + cb.inverse_mass.y) +
+               r.arm_a * q.arm_a * ca.inverse_inertia + r.arm_b * q.arm_b * cb.inverse_inertia;
+    }
+
+    [[nodiscard]] float mass(const JointRow& r) const
+    {
+        const float k = couple(r, r);
+        return k > 0 ? 1 / k : 0;
+    }
+
+    /// Along the axis, with what the held rows answer; of soft ones, a share of it.
+    void apply_along_axis(const JointRows& rows, float impulse, float share = 1) const
+    {
+        apply(rows.axis, impulse);
+        for (int i = 0; i < rows.held_count; ++i)
+            apply(rows.held[i], share * impulse * rows.reaction[i]);
+    }
+
+    void apply(const JointRow& r, float impulse) const
+    {
+        sa.velocity.x -= ca.inverse_mass.x * impulse * r.d.x;
+        sa.velocity.y -= ca.inverse_mass.y * impulse * r.d.y;
+        sa.angular_velocity -= ca.inverse_inertia * impulse * r.arm_a;
+        sb.velocity.x += cb.inverse_mass.x * impulse * r.d.x;
+        sb.velocity.y += cb.inverse_mass.y * impulse * r.d.y;
+        sb.angular_velocity += cb.inverse_inertia * impulse * r.arm_b;
+    }
+};
+
+[[nodiscard]] inline AxisImpulses axis_impulses(const JointRecord& joint)
+{
+    const auto in = [&](JointSlot slot) { return static_cast<double>(joint.impulses[slot]); };
+    return {in(slot_spring), in(slot_motor), in(slot_lower), in(slot_upper)};
+}
+
+[[nodiscard]] inline float axis_impulse(const JointRecord& joint) { return static_cast<float>(axis_impulses(joint).sum()); }
+
+inline void set_axis_impulses(JointRecord& joint, const AxisImpulses& to)
+{
+    joint.impulses[slot_spring] = static_cast<float>(to.spring);
+    joint.impulses[slot_motor] = static_cast<float>(to.motor);
+    joint.impulses[slot_lower] = static_cast<float>(to.lower);
+    joint.impulses[slot_upper] = static_cast<float>(to.upper);
+}
+
+/// A hinge to the world whose body flies about it: flight keeps it.
+[[nodiscard]] inline bool is_in_flight(const SolverView& view, const JointWork& work)
+{
+    return ((view.states[work.a].flags | view.states[work.b].flags) & body_flag::flier) != 0;
+}
+
+/// How far a body has come in the step.
+struct Placement
+{
+    Vec2 shift{};
+    Rotation turn{};
+    std::int32_t turns = 0; ///< whole ones beside it
+};
+/// Where the present velocities lead it to by the end of the sub-step.
+[[nodiscard]] Placement placed_ahead(const SolverView& view, std::int32_t state);
+[[nodiscard]] JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b);
+
+[[nodiscard]] JointPose present_pose(const SolverView& view, const JointWork& work);
+
+/// Poses and rows as the bodies stand now; of springs the pose alone.
+void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
+
+/// The inverse mass along the axis, and how the held rows answer an impulse along it.
+void weigh_axis(const JointBodies& bodies, JointRows& rows);
+
+/// All rows of a joint; a spring has none.
+void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
+
+/// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
+[[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
+
+/// C of these rows where the bodies are there.
+[[nodiscard]] Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b);
+
+/// It holds and does nothing else.
+[[nodiscard]] bool only_holds(const JointRecord& joint);
+/// A hinge or slider that moves: by a brake, or by a spring that is damped within a few swings.
+[[nodiscard]] bool loses_energy(const JointRecord& joint);
+
+/// Rows that the direct solve has for it.
+[[nodiscard]] int most_rows_of(const JointRecord& joint);
+
+/// Whether its rows ask for the angle between the bodies.
+[[nodiscard]] bool has_angle(const JointRecord& joint);
+
+} // namespace carom::internal

@@ -1,0 +1,35 @@
+#pragma once
+
+// The passes over joints, beside those over contact rows.
+
+#include "dynamics/solver/joint/direct/direct_solver.h"
+#include "dynamics/state/turns.h"
+#include "dynamics/step_context.h"
+
+namespace carom::internal {
+
+/// Anchors from the centers of mass at the start of the step, and anchor b - anchor a; world axes.
+struct JointArms
+{
+    Vec2 a{};
+    Vec2 b{};
+    Vec2 gap{};
+};
+[[nodiscard]] JointArms joint_arms(const SceneState& state, const JointRecord& joint);
+
+[[nodiscard]] JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPlace& place);
+
+void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct);
+/// What joints hold is solved directly where that is ready, else a row at a time.
+void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct, float joint_hertz,
+                  bool use_bias);
+
+/// Speeds towards the limits, before a sub-step's forces; and the bounce off them after it.
+void note_limit_approach(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
+void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct,
+                       float rest_speed);
+
+/// Sums impulses for the read-back; marks bodies that lean on a limit of a hinge to the world.
+void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints);
+
+} // namespace carom::internal

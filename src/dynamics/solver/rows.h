@@ -1,0 +1,211 @@
+#pragma once
+
+// The rows that the solver iterates over, made from contacts and joints once per step. Symbols: a, b the bodies; n the normal from a to b, t = perp(n);
+// r the lever arm; m the effective mass of a row, 1 / (J M^-1 J^T).
+
+#include "carom/math.h"
+#include "dynamics/state/scene_state.h"
+
+#include <array>
+#include <cstdint>
+
+namespace carom::internal {
+
+/// A constraint as a damped spring solved implicitly over h (the "soft constraint" of Catto, GDC 2011):
+/// impulse = -mass_scale m (v + bias_rate C) - impulse_scale accumulated.
+struct Softness
+{
+    float bias_rate = 0;
+    float mass_scale = 1;
+    float impulse_scale = 0;
+};
+
+[[nodiscard]] inline Softness make_softness(float hertz, float damping_ratio, float h)
+{
+    if (!(hertz > 0))
+        return {};
+    const float omega = 2 * pi * hertz;
+    const float a1 = 2 * damping_ratio + h * omega;
+    const float a2 = h * omega * a1;
+    const float a3 = 1 / (1 + a2);
+    return {omega / a1, a2 * a3, a3};
+}
+
+/// False where an inverse mass is the rounding of what its arms could give at most, squared arms times inverse inertia: nothing gives way.
+template <class Number>
+[[nodiscard]] bool exceeds_rounding(Number inverse_mass, Number by_arms)
+{
+    return inverse_mass > static_cast<Number>(1e-10) * by_arms;
+}
+
+/// Of a body, at another time than now; or how much they have changed.
+struct BodySpeeds
+{
+    Vec2 velocity{};
+    float angular_velocity = 0;
+    float padding = 0;
+};
+
+struct StateConstants
+{
+    Vec2 inverse_mass{};
+    float inverse_inertia = 0;
+    float angular_acceleration = 0;
+    Vec2 acceleration{};
+    float linear_decay = 1; ///< of the velocity over a sub-step
+    float angular_decay = 1;
+};
+
+/// A state whose body has a force law, and the accelerations that it has without.
+struct LawWork
+{
+    std::int32_t state = none;
+    float angular_acceleration = 0;
+    Vec2 acceleration{};
+};
+
+struct RowPoint
+{
+    Vec2 ra{}; ///< lever arms of the Jacobian
+    Vec2 rb{};
+    Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
+    Vec2 rb0{};
+    float base = 0; ///< separation = base + n · (relative displacement of the anchors)
+    float predicted_bend =
+        0; ///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
+    float normal_impulse = 0;
+    float tangent_impulse = 0;
+    float normal_mass = 0;
+    float tangent_mass = 0;
+    float separation_before = 0; ///< at the start of the sub-step, in units that are watched for their energy
+    float approach = 0;          ///< speed at the start of the sub-step, of rows that bear nothing yet
+    float total_impulse = 0;     ///< over the step
+    float total_tangent = 0;
+};
+
+struct ContactRow
+{
+    std::int32_t a = 0; ///< states
+    std::int32_t b = 0;
+    std::int32_t contact = none;
+    std::int32_t count = 0;
+    Vec2 n{};
+    float friction = 0;
+    float surface_speed = 0;
+    float coupling = 0; ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
+    float rolling = 0;  ///< torque limit over normal impulse, m
+    float rolling_impulse = 0;
+    float rolling_mass = 0;
+    float core = 0;    ///< half of what is inside a body, against what does not give way; 0 elsewhere
+    Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
+    Rotation turn_b{};
+    std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
+    std::uint8_t followed = 0;  ///< looked at anew when a body has turned
+    std::uint8_t hit = 0;       ///< its impact was reported
+    std::uint8_t pressed = 0;   ///< in this sub-step, before it was relaxed
+    Softness softness{};
+    RowPoint points[2];
+};
+
+[[nodiscard]] inline bool bears_load(const ContactRow& row)
+{
+    return (row.count > 0 && row.points[0].normal_impulse > 0) || (row.count == 2 && row.points[1].normal_impulse > 0);
+}
+
+/// Of a body that has taken off; without points alone it may still come to have some.
+inline void drop(ContactRow& row) { row.count = row.refreshed = row.followed = 0; }
+[[nodiscard]] inline bool is_dropped(const ContactRow& row) { return row.count == 0 && row.refreshed == 0 && row.followed == 0; }
+
+/// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
+struct SpringKick
+{
+    float stretch = 0;
+    float speed = 0;
+    float acceleration = 0;
+    float straight = 0; ///< by the acceleration of a body that does not drift along a parabola, beside that
+};
+
+/// A point at which two shapes rest against each other in flight, for what is left of the sub-step.
+struct Hold
+{
+    std::int32_t own = none;
+    std::int32_t other = none;
+    Vec2 point{};                  ///< in the world
+    Vec2 normal{};                 ///< from the other to the own shape
+    float force = 0;               ///< on the own shape, along the normal, N
+    float friction = 0;            ///< along perp(normal), N
+    double start = 0;              ///< time of the sub-step
+    std::int32_t solved = none;    ///< state of the other body, where the solver has it and not flight
+    std::uint32_t own_corners = 0; ///< that rest, a bit each
+    std::uint32_t other_corners = 0;
+};
+
+inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
+
+/// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
+/// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
+/// the step, in double.
+struct Flier
+{
+    std::int32_t state = none;
+    std::int32_t body = none;
+    std::int32_t joint = none;    ///< the hinge to the world; none: free
+    std::int32_t impacts = 0;     ///< in this sub-step
+    std::int64_t looks = 0;       ///< at who may be met next, that nobody has counted yet
+    std::int64_t union_looks = 0; ///< of them, at neighbours that lie flush
+    double x = 0;                 ///< reference point
+    double y = 0;
+    double vx = 0;
+    double vy = 0;
+    double ax = 0;
+    double ay = 0;
+    double angle = 0; ///< turned since the step began
+    double w = 0;
+    double alpha = 0;
+    double time = 0;  ///< within the sub-step up to which it has flown
+    double arm_x = 0; ///< from the reference point to the center of mass, at the start of the step
+    double arm_y = 0;
+    double inverse_mass_x = 0; ///< of the reference point: 0 for a pivot
+    double inverse_mass_y = 0;
+    double inverse_inertia = 0; ///< about the reference point
+    double lower = -1e300;      ///< range of the angle, from the hinge's limits
+    double upper = 1e300;
+    Vec2 local_reference{}; ///< in the body's frame
+    double size = 0;        ///< the least inner radius of its shapes
+    // What a hinge's pivot gave: the change of the center's momentum less that of contacts and of acceleration.
+    double start_vx = 0; ///< of the center of mass, at the start of the sub-step
+    double start_vy = 0;
+    double impulse_x = 0; ///< of contacts, in this sub-step
+    double impulse_y = 0;
+    double start_w = 0;
+    double turn_impulse = 0;  ///< of contacts about the pivot
+    Vec2 reaction{};          ///< over the step
+    float limit_reaction = 0; ///< N m s, of the limits, over the step
+
+    static constexpr int most_held = 12;
+    std::int32_t hold_set = none; ///< in UnitOutput::hold_sets; none: nothing has held it in this step
+    std::int32_t held_count = 0;
+    bool rests = false; ///< against something that gives way
+    bool led = false;   ///< what holds it does not give way
+    double lead_x = 0;  ///< velocity of that where it does not turn
+    double lead_y = 0;
+    std::int32_t carrier = none; ///< the one body that holds it, or held_by_world; none: several, or what gives way or conveys
+    double bend_rate = 0;        ///< rad/s at which the way along what holds it bends
+    double hold_until = 0;       ///< time of the sub-step by which what holds it has turned so far that it is looked at again
+
+    // The next event, as last computed.
+    double event_time = 0; ///< beyond the sub-step: none
+    std::int32_t event_own = none;
+    std::int32_t event_shape = none; ///< none: a limit of the hinge, or a hold to be renewed
+    std::int32_t event_state = none; ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
+    std::int32_t passes = none;      ///< contact with a one-way shape that it was found to go through, not noted yet
+    std::int32_t event_version = 0;  ///< of that state when the event was computed
+    bool deflected = false;          ///< its path is no longer the one that the pairs of this step were found with
+    bool crowded = false;            ///< struck in a crowd: its way is checked against static shapes at the end of the step
+    bool constrained = false;        ///< its accelerations are those of a hold
+    bool landed = false;             ///< does not fly: the solver has it, until something makes it fast
+};
+
+using HoldSet = std::array<Hold, Flier::most_held>;
+
+} // namespace carom::internal

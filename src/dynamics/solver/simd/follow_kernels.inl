@@ -1,0 +1,465 @@
+// Manifolds that are followed where they stand, in the lanes of their rows; manifold_cache.cpp has the same for one at a time, and what is kept. Part of
+// kernels.inl.
+
+namespace follows {
+
+using carom::internal::select;
+
+// Empty lanes see what this one sees.
+CAROM_INLINE int filled_lane(const LaneInts& contacts)
+{
+    int some = 0;
+    for (int i = 0; i < lane_count; ++i)
+        some = contacts.v[i] < 0 ? some : i;
+    return some;
+}
+
+CAROM_INLINE LaneInts with_all_lanes(LaneInts contacts)
+{
+    const int some = filled_lane(contacts);
+    for (std::int32_t& contact : contacts.v)
+        contact = contact < 0 ? contacts.v[some] : contact;
+    return contacts;
+}
+
+// Of eight contacts, what is kept of them, and their bodies.
+struct Places
+{
+    const KeptManifold* kept[lane_count];
+    const BodySim* a[lane_count];
+    const BodySim* b[lane_count];
+
+    CAROM_INLINE Places(const WideNotes& notes, const FollowedScene& scene)
+    {
+        const int some = filled_lane(notes.contact);
+        for (int i = 0; i < lane_count; ++i)
+        {
+            const int lane = notes.contact.v[i] < 0 ? some : i;
+            kept[i] = scene.kept + notes.contact.v[lane];
+            a[i] = scene.sims + notes.body_a.v[lane];
+            b[i] = scene.sims + notes.body_b.v[lane];
+        }
+    }
+
+    CAROM_INLINE Places(const LaneInts& contacts, const FollowedScene& scene)
+    {
+        for (int i = 0; i < lane_count; ++i)
+        {
+            const Contact& contact = scene.contacts[contacts.v[i]];
+            kept[i] = scene.kept + contacts.v[i];
+            a[i] = scene.sims + contact.body_a;
+            b[i] = scene.sims + contact.body_b;
+        }
+    }
+};
+
+struct Arrow
+{
+    F8 x, y;
+};
+
+CAROM_INLINE F8 dot(const Arrow& v, const Arrow& w) { return v.x * w.x + v.y * w.y; }
+
+CAROM_INLINE Arrow select(I8 mask, const Arrow& v, const Arrow& w)
+{
+    return {select(mask, v.x, w.x), select(mask, v.y, w.y)};
+}
+
+CAROM_INLINE Turn select(I8 mask, const Turn& p, const Turn& q)
+{
+    return {select(mask, p.c, q.c), select(mask, p.s, q.s)};
+}
+
+CAROM_INLINE Arrow turned(const Turn& q, const Arrow& v) { return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y}; }
+
+// From center to center, taken in double.
+CAROM_INLINE Arrow centers_apart(const Places& places)
+{
+    const auto apart = [&](int i) { return load2(&places.b[i]->center.x) - load2(&places.a[i]->center.x); };
+    Arrow arrow;
+    round_pairs(apart, arrow.x, arrow.y);
+    return arrow;
+}
+
+CAROM_INLINE F8 length_of(const Arrow& v) { return root(v.x * v.x + v.y * v.y); }
+
+// Two bodies, the one in whose axes something is kept being its own.
+struct Two
+{
+    Turn a, b;
+    Arrow apart; ///< from the center of a to that of b
+    I8 own_is_b;
+    Turn own, other;
+    Arrow offset; ///< from the own center to the other's
+
+    CAROM_INLINE Two(const Places& places, I8 seen_from_b)
+        : a(turns_of(places.a)), b(turns_of(places.b)), apart(centers_apart(places)), own_is_b(seen_from_b),
+          own(select(own_is_b, b, a)), other(select(own_is_b, a, b)), offset(select(own_is_b, {-apart.x, -apart.y}, apart))
+    {}
+};
+
+// How the other has moved against the own body since then.
+struct Change
+{
+    Arrow way; ///< of its center
+    F8 cosine, sine;
+
+    CAROM_INLINE Change(const Two& two, const Arrow& center, const Turn& then)
+    {
+        const Turn& own = two.own;
+        const Turn& other = two.other;
+        const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
+        way = {own.c * two.offset.x + own.s * two.offset.y - center.x, own.c * two.offset.y - own.s * two.offset.x - center.y};
+        cosine = now.c * then.c + now.s * then.s;
+        sine = now.s * then.c - now.c * then.s;
+    }
+
+    // Of a circle of radius 1.
+    CAROM_INLINE F8 chord() const { return length_of({sine, 1 - cosine}); }
+};
+
+CAROM_INLINE I8 lanes_of(std::uint32_t bits)
+{
+    return (all_ints(bits) & eight_of(1, 2, 4, 8, 16, 32, 64, 128)) != I8{};
+}
+
+// Of eight contacts what is kept of them, as it lies there.
+struct Kept
+{
+    Arrow first[2];  ///< the edge, or both corners
+    Arrow second[2]; ///< the corners before the edge, or the cones of both
+    Arrow last;      ///< the normal, or both radii
+    Arrow center;
+    Turn rotation;
+    F8 reach, radius;
+
+    CAROM_INLINE explicit Kept(const Places& places)
+    {
+        static_assert(offsetof(KeptManifold, found) == 0 &&
+                      offsetof(KeptManifold, center) == 40 && offsetof(KeptManifold, rotation) == 48 &&
+                      offsetof(KeptManifold, reach) == 56 && offsetof(KeptManifold, radius) == 60);
+        static_assert(offsetof(KeptEdge, corners) == 16 && offsetof(KeptEdge, normal) == 32 && offsetof(KeptCorners, cones) == 16 &&
+                      offsetof(KeptCorners, radii) == 32);
+        const auto at = [&](int offset)
+        { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
+        gather4(at(0), first[0].x, first[0].y, first[1].x, first[1].y);
+        gather4(at(16), second[0].x, second[0].y, second[1].x, second[1].y);
+        gather4(at(32), last.x, last.y, center.x, center.y);
+        gather4(at(48), rotation.c, rotation.s, reach, radius);
+    }
+};
+
+struct Point
+{
+    Arrow a, b; ///< anchors
+    F8 separation;
+    I8 inside; ///< it is the corner itself that is before the edge
+};
+
+// How the bodies of eight contacts stand to each other, and an edge to the corners before it; as Facing in manifold_cache.cpp.
+struct Stand : Two
+{
+    Arrow n;       ///< from a to b
+    Arrow outward; ///< of the edge
+    Arrow start;
+    Arrow corners[2];
+    F8 along[2];
+    F8 end;
+    F8 reach, radius;
+    F8 way; ///< how far any point of the other has moved against the edge's body since the manifold was found
+    F8 cosine; ///< of the angle that it has turned
+
+    CAROM_INLINE Stand(const Places& places, const Kept& kept, std::uint32_t edges_of_b)
+        : Two(places, lanes_of(edges_of_b)), reach(kept.reach), radius(kept.radius)
+    {
+        n = turned(own, kept.last);
+        outward = select(own_is_b, {-n.x, -n.y}, n);
+        start = turned(own, kept.first[0]);
+        const Arrow stop = turned(own, kept.first[1]);
+        const Arrow edge = {stop.x - start.x, stop.y - start.y};
+        end = edge.x * edge.x + edge.y * edge.y;
+        for (int i = 0; i < 2; ++i)
+        {
+            const Arrow corner = turned(other, kept.second[i]);
+            corners[i] = {offset.x + corner.x, offset.y + corner.y};
+            along[i] = edge.x * (corners[i].x - start.x) + edge.y * (corners[i].y - start.y);
+        }
+        const F8 extent = lanes_from([&](int i) { return ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent; });
+        const Change change(*this, kept.center, kept.rotation);
+        way = length_of(change.way) + extent * change.chord();
+        cosine = change.cosine;
+    }
+
+    CAROM_INLINE I8 meets() const
+    {
+        return ~(((along[0] < all(0)) & (along[1] < all(0))) | ((along[0] > end) & (along[1] > end)));
+    }
+
+    CAROM_INLINE I8 is_steep() const
+    {
+        const F8 rise = outward.x * (corners[1].x - corners[0].x) + outward.y * (corners[1].y - corners[0].y);
+        const F8 run = along[1] - along[0];
+        return rise * rise * end > run * run;
+    }
+
+    CAROM_INLINE I8 is_round() const { return (corners[0].x == corners[1].x) & (corners[0].y == corners[1].y); }
+};
+
+CAROM_INLINE Point follow_point(int k, const Stand& s)
+{
+    const F8 inside = least(greatest(s.along[k], all(0)), s.end);
+    const F8 beyond = inside - s.along[k];
+    const F8 t = select(beyond != all(0), beyond / (s.along[1 - k] - s.along[k]), all(0));
+    const Arrow core = {s.corners[k].x + t * (s.corners[1 - k].x - s.corners[k].x),
+                        s.corners[k].y + t * (s.corners[1 - k].y - s.corners[k].y)};
+    Point p;
+    p.inside = beyond == all(0);
+    p.separation = (s.outward.x * (core.x - s.start.x) + s.outward.y * (core.y - s.start.y)) - s.radius;
+    const Arrow on_other = {core.x - s.radius * s.outward.x, core.y - s.radius * s.outward.y};
+    const Arrow on_edge = {on_other.x - p.separation * s.outward.x, on_other.y - p.separation * s.outward.y};
+    const Arrow there = {on_other.x - s.offset.x, on_other.y - s.offset.y};
+    p.a = select(s.own_is_b, there, on_edge);
+    p.b = select(s.own_is_b, on_edge, there);
+    return p;
+}
+
+CAROM_INLINE void put(WidePoint& to, const Point& p, const Arrow& n, I8 filled)
+{
+    const F8 none = all(0);
+    store(to.across_a, select(filled, p.a.x * n.y - p.a.y * n.x, none));
+    store(to.along_a, select(filled, p.a.x * n.x + p.a.y * n.y, none));
+    store(to.across_b, select(filled, p.b.x * n.y - p.b.y * n.x, none));
+    store(to.along_b, select(filled, p.b.x * n.x + p.b.y * n.y, none));
+    store(to.base, select(filled, p.separation, none));
+}
+
+// It bore a load when the last step ended.
+CAROM_INLINE I8 bears(const WideRow& row, int points)
+{
+    I8 loaded = load(row.points[0].normal_impulse) > all(0);
+    if (points == 2)
+        loaded |= load(row.points[1].normal_impulse) > all(0);
+    return loaded;
+}
+
+// What has become of eight manifolds.
+struct Found
+{
+    Arrow n;
+    Point points[2];
+    F8 separation; ///< the least
+    F8 second;     ///< of one point: of what would be another
+    F8 way, reach;
+    I8 holds; ///< what was kept is true still
+};
+
+CAROM_INLINE I8 is_best_still(const Stand& s, I8 inside, F8 lowest, const FollowedScene& scene)
+{
+    const I8 is_outside = inside & (lowest + s.radius > all(0));
+    return is_outside | ((s.way < all(scene.sure_way)) & (s.cosine > all(scene.sure_cosine)));
+}
+
+// What is known of eight contacts, as bits of lanes.
+struct Kinds
+{
+    std::uint32_t edge_of_b = 0;
+    std::uint32_t nearest = 0;
+};
+
+// From corner to corner, as Nearest in manifold_cache.cpp.
+CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found& found)
+{
+    const Arrow from = turned(s.a, kept.first[0]);
+    const Arrow to = turned(s.b, kept.first[1]);
+    const Arrow gap = {s.apart.x + to.x - from.x, s.apart.y + to.y - from.y};
+    const F8 distance = length_of(gap);
+    const Arrow n = {gap.x / distance, gap.y / distance};
+    const F8 separation = distance - (kept.last.x + kept.last.y);
+    const Arrow back = {-n.x, -n.y};
+    const I8 leads_out = (distance > all(KeptCorners::least_distance)) &
+                         (dot(n, turned(s.a, kept.second[0])) >= dot(kept.second[0], kept.second[0])) &
+                         (dot(back, turned(s.b, kept.second[1])) >= dot(kept.second[1], kept.second[1]));
+    Point& p = found.points[0];
+    found.n = select(lanes, n, found.n);
+    p.a = select(lanes, {from.x + kept.last.x * n.x, from.y + kept.last.x * n.y}, p.a);
+    p.b = select(lanes, {to.x - kept.last.y * n.x, to.y - kept.last.y * n.y}, p.b);
+    p.separation = found.separation = select(lanes, separation, p.separation);
+    found.second = select(lanes, all(3e38f), found.second);
+    found.way = select(lanes, all(0), found.way);
+    found.reach = select(lanes, all(3e38f), found.reach);
+    found.holds = (found.holds & ~lanes) | (leads_out & lanes);
+}
+
+// Within which there are points: as margin_of in manifold_cache.cpp.
+CAROM_INLINE F8 margins_of(const LaneInts& contacts, const FollowedScene& scene)
+{
+    static_assert(offsetof(BoxPlace, path) == 0 && offsetof(BoxPath, shift) == 16 && offsetof(BoxPath, any_way) == 24);
+    F8 ax, ay, way_a, bx, by, way_b, unused;
+    const auto path_of = [&](std::int32_t shape) { return reinterpret_cast<const char*>(scene.boxes + shape) + 16; };
+    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_a); }, ax, ay, way_a, unused);
+    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_b); }, bx, by, way_b, unused);
+    return all(scene.speculation) + (length_of({bx - ax, by - ay}) + way_a + way_b);
+}
+
+// One point that gets no second, and is none that would not be found: as has_one_point in manifold_cache.cpp.
+CAROM_INLINE I8 are_alone(const Found& now, F8 margin, const FollowedScene& scene)
+{
+    return (margin + now.way < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
+}
+
+template <int points>
+CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const FollowedScene& scene)
+{
+    const Kept kept(places);
+    const Stand stand(places, kept, kinds.edge_of_b);
+    Found found;
+    found.n = stand.n;
+    found.way = stand.way;
+    found.reach = stand.reach;
+    found.points[0] = follow_point(0, stand);
+    found.points[1] = follow_point(1, stand);
+    const F8 first = found.points[0].separation;
+    const F8 second = found.points[1].separation;
+    if (points == 2)
+    {
+        const I8 second_is_lower = second < first;
+        found.separation = select(second_is_lower, second, first);
+        const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
+        found.holds = stand.meets() & (inside | ~stand.is_steep()) & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
+        return found;
+    }
+    found.separation = first;
+    found.second = select(stand.is_round(), all(3e38f), second);
+    found.holds = found.points[0].inside & is_best_still(stand, found.points[0].inside, first, scene);
+    if (kinds.nearest != 0)
+        take_nearest(lanes_of(kinds.nearest), kept, stand, found);
+    return found;
+}
+
+// Lanes by what has become of their contacts.
+CAROM_INLINE void tell(I8 loaded, const WideNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
+{
+    const I8 touching = ~lanes_of(notes.untold);
+    const I8 near = now.separation <= select(touching, all(2 * scene.slop), all(scene.slop));
+    const I8 borne = loaded & (now.separation <= all(scene.speculation));
+    found.unsure = bits(filled & ~(lanes_of(notes.kept) & now.holds));
+    found.begins_or_ends = bits(filled & (near != touching));
+    found.borne = bits(filled & borne);
+    found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
+    found.unloaded = bits(filled & ~loaded);
+    store(found.separation, now.separation);
+}
+
+template <int points>
+void follow_row(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
+{
+    const Places places(notes, scene);
+    const I8 filled = load(notes.contact) >= I8{};
+    Found now = follow_points<points>(places, {notes.edge_of_b, notes.nearest}, scene);
+    if (points == 1)
+        now.holds &= are_alone(now, margins_of(with_all_lanes(notes.contact), scene), scene);
+    store(row.nx, select(filled, now.n.x, all(0)));
+    store(row.ny, select(filled, now.n.y, all(0)));
+    for (int k = 0; k < points; ++k)
+        put(row.points[k], now.points[k], now.n, filled);
+    tell(bears(row, points), notes, now, filled, scene, found);
+}
+
+void follow(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
+{
+    const auto follow_points_of = notes.count == 2 ? follow_row<2> : follow_row<1>;
+    follow_points_of(row, notes, scene, found);
+}
+
+CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const FollowedScene& scene, std::uint32_t flag)
+{
+    std::uint32_t lanes = 0;
+    for (int i = 0; i < lane_count; ++i)
+        lanes |= (scene.contacts[contacts.v[i]].flags & flag) != 0 ? 1u << i : 0;
+    return lanes;
+}
+
+// The same for eight contacts with as many points each that are in no row now: into their manifolds.
+template <int points>
+void follow_eight(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found)
+{
+    static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
+    const Places places(contacts, scene);
+    const Kinds kinds = {lanes_with_flag(contacts, scene, contact_flag::edge_of_b),
+                         lanes_with_flag(contacts, scene, contact_flag::nearest)};
+    Found now = follow_points<points>(places, kinds, scene);
+    if (points == 1)
+        now.holds &= are_alone(now, margins_of(contacts, scene), scene);
+    const auto manifold = [&](int i) -> Manifold& { return into[contacts.v[i]].manifold; };
+    for (int k = 0; k < points; ++k)
+    {
+        const Point& p = now.points[k];
+        scatter4([&](int i) { return reinterpret_cast<char*>(&manifold(i).points[k].anchor_a); }, p.a.x, p.a.y, p.b.x, p.b.y);
+        LaneFloats separation;
+        store(separation, p.separation);
+        for (int i = 0; i < lane_count; ++i)
+            manifold(i).points[k].separation = separation.v[i];
+    }
+    LaneFloats nx;
+    LaneFloats ny;
+    store(nx, now.n.x);
+    store(ny, now.n.y);
+    for (int i = 0; i < lane_count; ++i)
+        manifold(i).normal = {nx.v[i], ny.v[i]};
+    const I8 near = now.separation <= all(2 * scene.slop);
+    found.sure = bits(now.holds);
+    found.touch_on = bits(near) & lanes_with_flag(contacts, scene, contact_flag::touching);
+}
+
+void follow_contacts(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene, FollowedContacts& found)
+{
+    const auto follow_points_of = points == 2 ? follow_eight<2> : follow_eight<1>;
+    follow_points_of(contacts, into, scene, found);
+}
+
+// Along the direction that parted them, or the whole way that they have come: as room() in manifold_cache.cpp, which decides where it is close.
+std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
+{
+    static_assert(offsetof(KeptParting, direction) == 0 && offsetof(KeptParting, arm) == 8);
+    constexpr float rounding = 1e-5f;
+    const Places places(contacts, scene);
+    const auto kept_at = [&](int offset)
+    { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
+    Arrow direction, center;
+    Turn kept;
+    F8 arm, reach, unused, unused_too;
+    gather4(kept_at(0), direction.x, direction.y, arm, unused);
+    gather4(kept_at(32), unused, unused_too, center.x, center.y);
+    gather4(kept_at(48), kept.c, kept.s, reach, unused);
+    const Two two(places, lanes_of(lanes_with_flag(contacts, scene, contact_flag::edge_of_b)));
+    const Change change(two, center, kept);
+    const I8 any_direction = (direction.x == all(0)) & (direction.y == all(0));
+    const F8 gain = select(any_direction, -length_of(change.way), dot(direction, change.way));
+    const F8 room = reach + gain - arm * change.chord();
+    const F8 slack = rounding * (length_of(two.offset) + reach + arm);
+    return bits(margins_of(contacts, scene) + slack < room);
+}
+
+// Impulses of a point, side by side in a row, one after the other in a contact's.
+void take_impulses(const WideRow& row, WideNotes& notes, Contact* contacts, ContactImpulses* impulses)
+{
+    static_assert(sizeof(PointImpulses) == 4 * sizeof(float) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
+                  offsetof(PointImpulses, total_normal) == 8);
+    PointImpulses unused[lane_count];
+    I8 loaded{};
+    for (int k = 0; k < notes.count; ++k)
+    {
+        const WidePoint& p = row.points[k];
+        const F8 normal_impulse = load(p.normal_impulse);
+        loaded |= normal_impulse > all(0);
+        const auto at = [&](int i)
+        { return reinterpret_cast<char*>(notes.contact.v[i] < 0 ? unused + i : impulses[notes.contact.v[i]].points + k); };
+        scatter4(at, normal_impulse, load(p.tangent_impulse), load(p.total_impulse), load(p.total_tangent));
+    }
+    const unsigned bears = bits(loaded & (load(notes.contact) >= I8{}));
+    for (unsigned changed = bears ^ notes.loaded; changed != 0; changed &= changed - 1)
+        contacts[notes.contact.v[std::countr_zero(changed)]].flags ^= contact_flag::loaded;
+    notes.loaded = bears;
+}
+
+} // namespace follows

@@ -1,0 +1,164 @@
+// Stage 5, solve: large units one after the other on all threads, small ones side by side, a batch of them to a task, or by threads that a large one has
+// nothing for. A unit's rows are filled just before it is solved (island_solver.cpp) and committed right after.
+
+#include "core/grow.h"
+#include "core/task_pool.h"
+#include "core/trigonometry.h"
+#include "dynamics/continuous/flight.h"
+#include "dynamics/solver/contact/partitions.h"
+#include "dynamics/solver/contact/prepare.h"
+#include "dynamics/solver/island_constraints.h"
+#include "dynamics/solver/island_solver.h"
+#include "dynamics/solver/rows.h"
+#include "dynamics/stages.h"
+#include "dynamics/state/turns.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+// A parabola and an even turn: in double, rounded once. Damping acts after each sub-step, as on everything else.
+void fall(const StepContext& ctx, std::int32_t index)
+{
+    BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
+    const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(index)];
+    const double h = static_cast<double>(ctx.h);
+    const auto sum = [&](float& speed, float acceleration, float decay)
+    {
+        double way = 0;
+        auto v = static_cast<double>(speed);
+        for (int k = 0; k < ctx.substeps; ++k)
+        {
+            const double after = static_cast<double>(decay) * (v + h * static_cast<double>(acceleration));
+            way += h * (after - 0.5 * h * static_cast<double>(acceleration)); // the mean of the velocities before and after
+            v = after;
+        }
+        speed = static_cast<float>(v);
+        return static_cast<float>(way);
+    };
+    s.delta_position.x = sum(s.velocity.x, c.acceleration.x, c.linear_decay);
+    s.delta_position.y = sum(s.velocity.y, c.acceleration.y, c.linear_decay);
+    turn_from_start(s, static_cast<double>(sum(s.angular_velocity, c.angular_acceleration, c.angular_decay)));
+}
+
+void fall(const StepContext& ctx, const Unit& unit)
+{
+    for (std::int32_t s = unit.first_state + 1; s <= unit.first_state + unit.dynamic_count; ++s)
+        fall(ctx, s);
+}
+
+void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew)
+{
+    const Unit& unit = ctx.scratch.units[u];
+    if (glide(ctx, unit, ctx.scratch.outputs[u]))
+        return;
+    fill_unit(ctx, unit, crew);
+    solve_unit(ctx, unit, ctx.scratch.outputs[u], energy, crew);
+    commit_unit(ctx, unit, crew);
+}
+
+// Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
+constexpr int batch_bodies = 64;
+
+// The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
+// next step. Fills Scratch::order with where batches begin.
+void form_batches(Scratch& scratch)
+{
+    std::vector<std::int32_t>& starts = scratch.order;
+    starts.assign(1, 0);
+    std::int32_t store = 0;
+    std::int32_t large = 0;
+    std::int32_t most = 0; // groups of a unit of the batch
+    int bodies = 0;
+    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+    {
+        Unit& unit = scratch.units[i];
+        unit.wide_store = store;
+        if (is_large(unit))
+        {
+            unit.wide_store = large;
+            large += unit.wide_count;
+        }
+        else
+        {
+            bodies += unit.state_count;
+            most = std::max(most, unit.wide_count);
+        }
+        if (bodies < batch_bodies && i + 1 < scratch.units.size())
+            continue;
+        starts.push_back(static_cast<std::int32_t>(i) + 1);
+        store += most;
+        most = 0;
+        bodies = 0;
+    }
+    std::int32_t groups = store + large;
+    for (Unit& unit : scratch.units)
+    {
+        unit.wide_store += is_large(unit) ? store : 0; // the large ones come behind
+        if (scratch.kept_units.rows_apart)
+        {
+            unit.wide_store = unit.first_wide;
+            groups = unit.first_wide + unit.wide_count;
+        }
+    }
+    scratch.wide_rows.make_room(static_cast<std::size_t>(groups));
+    scratch.wide_notes.make_room(static_cast<std::size_t>(groups));
+    set_size(scratch.struck, scratch.wide_rows.size());
+}
+
+// All threads on one after the other.
+void solve_large(const StepContext& ctx, Crew& crew)
+{
+    UnitEnergy energy;
+    for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
+    {
+        if (is_large(ctx.scratch.units[u]))
+            solve(ctx, u, energy, crew);
+    }
+}
+
+void solve_batch(const StepContext& ctx, int batch)
+{
+    const Scratch& scratch = ctx.scratch;
+    UnitEnergy energy;
+    Crew alone;
+    const auto b = static_cast<std::size_t>(batch);
+    for (auto u = static_cast<std::size_t>(scratch.order[b]); u < static_cast<std::size_t>(scratch.order[b + 1]); ++u)
+    {
+        const Unit& unit = scratch.units[u];
+        if (unit.alone)
+            fall(ctx, unit);
+        else if (!is_large(unit))
+            solve(ctx, u, energy, alone);
+    }
+}
+
+} // namespace
+
+void solve_units(StepContext& ctx)
+{
+    Scratch& scratch = ctx.scratch;
+    if (scratch.outputs.size() < scratch.units.size())
+        set_size(scratch.outputs, scratch.units.size());
+    if (scratch.impacts_lender < scratch.outputs.size())
+        std::swap(scratch.outputs[scratch.impacts_lender].impacts, ctx.scene.events.impacts); // see take_impacts()
+    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+        scratch.outputs[i].clear();
+    mark_traced(ctx);
+    set_size(scratch.unpushed, scratch.states.size());
+    set_size(scratch.speeds, scratch.states.size());
+    form_batches(scratch);
+    const TaskHooks& tasks = ctx.scene.def.tasks;
+    const int batches = static_cast<int>(scratch.order.size()) - 1;
+    const auto solve_some = [&](int batch) { solve_batch(ctx, batch); };
+    if (std::ranges::any_of(scratch.units, is_large))
+        Crew::run(tasks, [&](Crew& crew) { solve_large(ctx, crew); }, batches, solve_some);
+    else
+        run_tasks(tasks, batches, solve_some);
+    ctx.state.rows_stamp = ++scratch.kept_units.stamp;
+}
+
+} // namespace carom::internal

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "dynamics/solver/contact/contact_solver.h"
+#include "dynamics/solver/contact/wide_contacts.h"
+
+#include <span>
+
+namespace carom::internal {
+
+/// The contacts of a unit with bodies that do not give way: nothing goes through these, whatever pulls.
+class Walls
+{
+public:
+    struct Rows
+    {
+        std::span<const ContactRow> rows;
+        std::span<const ContactRow> late_rows;
+        std::span<const ContactRow> pulled; ///< of bodies in joints, that stand in lanes
+        std::span<const WideRow> wide;
+        std::span<const WideCore> cores;
+    };
+
+    Walls(const SolverView& view, const Rows& rows) : m_view(view), m_rows(rows) {}
+
+    /// How much deeper the present speeds lead bodies in joints into them within the sub-step, in all.
+    [[nodiscard]] float entry() const;
+
+    /// The last line of defence, for what something far heavier presses into a wall: moves it back where it is deeper than half of what is inside it.
+    void guard_cores() const;
+    /// The same for the lanes of groups first to last alone.
+    void guard_wide_cores(int first, int last) const;
+
+private:
+    [[nodiscard]] bool is_jointed(const ContactRow& row) const;
+    [[nodiscard]] float entry(const ContactRow& row) const;
+    int guard_rows(float part) const;
+    bool guard_core(const ContactRow& row, float part) const;
+    void guard_wide_core(const WideCore& core) const;
+    void push_out(std::int32_t state, Vec2 way) const;
+
+    const SolverView& m_view;
+    Rows m_rows;
+};
+
+} // namespace carom::internal

@@ -1,0 +1,62 @@
+#pragma once
+
+// Bodies and their shapes as objects: mass, boxes, and the walks over a body's leaves.
+
+#include "dynamics/state/scene_data.h"
+
+namespace carom::internal {
+
+/// Calls visit(shape slot) for every leaf of the body: its shapes, and the pieces of its chains. Where it goes next is read before the visit; a piece is
+/// followed by the next one, and the last by what follows its chain.
+template <class Visit>
+void for_each_leaf(const SceneState& state, int body, Visit&& visit)
+{
+    for (int shape = state.bodies[body].first_shape; shape != none;)
+    {
+        const ShapeRecord& record = state.shapes[shape];
+        const int next = record.next_piece != none ? record.next_piece : state.shapes[record.owner].next_shape;
+        if (record.has_leaf)
+            visit(shape);
+        shape = next;
+    }
+}
+
+[[nodiscard]] inline LeafView leaf_view(const SceneState& state, int shape)
+{
+    return view(state.shapes[shape].leaf, state.leaf_store);
+}
+
+/// Mass, centre and inertia from the shapes (unless overridden), inverse masses from type and locks, and the extent.
+/// The velocity of the centre follows when the centre moves.
+void update_mass(SceneState& state, int body);
+
+/// The same after one shape was added: a static body with a million shapes does not look at all of them again.
+void include_mass(SceneState& state, int body, int shape);
+
+/// Another center of mass: the velocity of the material stays, and kept manifolds are found anew.
+void move_center(SceneState& state, int body, Vec2 local_center);
+
+/// Takes the speeds that its locks forbid; a kinematic body has no locks.
+void obey_locks(const BodyRecord& record, BodySim& sim);
+
+/// Inverse masses alone, after a change of type or locks.
+void update_inverse_mass(SceneState& state, int body);
+
+/// It looks for all its pairs in the next step.
+inline void look_again(SceneState& state, int shape)
+{
+    append(state.fresh_shapes, shape);
+    if (state.broad_phase.has(shape))
+        state.broad_phase.renew(shape);
+}
+
+/// The fat box of a leaf at its body's present pose.
+[[nodiscard]] FloatBox fat_box(const SceneData& scene, int shape);
+
+/// Puts the leaf into the broad phase, or takes it out.
+void add_to_broad_phase(SceneData& scene, int shape);
+
+/// After a teleport or a change of geometry: new boxes, and a look for pairs.
+void refresh_boxes(SceneData& scene, int body);
+
+} // namespace carom::internal

@@ -1,0 +1,132 @@
+#pragma once
+
+// Contacts as objects: making and destroying them, and the lists they hang in.
+
+#include "dynamics/state/scene_data.h"
+
+#include <cstddef>
+
+namespace carom::internal {
+
+/// Of pairs, and of contacts. Where there are more, they and their boxes come from memory: walks are to go straight through it.
+inline constexpr std::size_t most_near_pairs = 131'072;
+
+/// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
+[[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
+
+/// By groups, categories and masks alone.
+[[nodiscard]] bool filters_agree(const Filter& a, const Filter& b);
+
+/// The filter as trees of boxes go by it: what shares a positive group meets whatever its categories are.
+[[nodiscard]] inline FilterBits filter_bits(const Filter& filter)
+{
+    return filter.group > 0 ? FilterBits{} : FilterBits{filter.category, filter.mask};
+}
+
+/// Of a pair in SceneState::box_pairs, whose shapes must be allowed to collide and have no contact yet.
+void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
+
+/// Such a contact as it begins, in no list yet.
+[[nodiscard]] Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
+
+/// What is kept of contacts in arrays of their own: room for as many as there are slots.
+void make_room_beside_contacts(SceneState& state);
+
+/// Into and out of the list of one of its bodies: side 0 is that of body_a.
+void link_side(SceneState& state, int contact, int side);
+void unlink_side(SceneState& state, int contact, int side);
+
+/// The pair that it has, if any, is without a contact then.
+void leave_pair(SceneState& state, int contact);
+
+/// Takes it from its pair and from the list of awake ones. Bodies' lists and colours are the caller's.
+void give_up_slot(SceneState& state, int contact);
+
+/// Ends what has begun: the event goes to `events` at `time`. Wakes nothing.
+void destroy_contact(SceneData& scene, int contact, Events& events, float time);
+
+/// Destroys the contacts of a shape or of a body; bodies that leaned on them wake.
+void destroy_contacts_of_shape(SceneData& scene, int shape);
+void destroy_contacts_of_body(SceneData& scene, int body);
+
+/// Mixes friction, rolling resistance and surface speed of the two shapes anew.
+void mix_materials(const SceneData& scene, Contact& contact);
+
+void add_awake_contact(SceneState& state, int contact);
+void remove_awake_contact(SceneState& state, int contact);
+
+/// Have the two shapes a contact?
+[[nodiscard]] bool has_contact(const SceneState& state, int shape_a, int shape_b);
+
+/// Puts its pair back into SceneState::box_pairs, where it is not.
+void follow_again(SceneState& state, int contact);
+
+[[nodiscard]] inline int edge_contact(int edge) { return edge >> 1; }
+
+/// Calls visit(contact index) for every contact of the body; the contact visited may be destroyed meanwhile.
+template <class Visit>
+void for_each_contact(SceneState& state, int body, Visit&& visit)
+{
+    for (int edge = state.bodies[body].first_contact; edge != none;)
+    {
+        const int contact = edge_contact(edge);
+        edge = state.contacts[contact].next[edge & 1];
+        visit(contact);
+    }
+}
+
+/// Of a contact that nothing solves any more.
+inline void forget_impulses(SceneState& state, int contact)
+{
+    state.contacts[contact].flags &= ~contact_flag::loaded;
+    impulses_of(state, contact) = {};
+}
+
+[[nodiscard]] inline int other_body(const Contact& contact, int body)
+{
+    return contact.body_a == body ? contact.body_b : contact.body_a;
+}
+
+/// None for the world.
+[[nodiscard]] inline int other_body(const JointRecord& joint, int body)
+{
+    return joint.body_a == body ? joint.body_b : joint.body_a;
+}
+
+/// Pieces of a chain are one shape to the user: does another contact of the same two public shapes touch (or, of a trigger, hold inside)?
+[[nodiscard]] bool touches_elsewhere(const SceneState& state, int contact);
+
+void end_touch(SceneData& scene, int contact, Events& events, float time);
+
+/// Public ids of slots.
+[[nodiscard]] BodyId body_id(const SceneState& state, int slot);
+[[nodiscard]] ShapeId user_shape_id(const SceneState& state, int slot); ///< of one that is no piece
+[[nodiscard]] ShapeId shape_id(const SceneState& state, int slot);      ///< of the owner, for pieces of chains
+[[nodiscard]] JointId joint_id(const SceneState& state, int slot);
+
+/// Back; -1: null.
+template <class Kind>
+[[nodiscard]] int slot_of(Id<Kind> id)
+{
+    return static_cast<int>(id.slot - 1u); // of any number, and so of an id that was never given
+}
+
+/// An event of any kind: of these two shapes, and what else it says in its order.
+template <class Event, class... Rest>
+[[nodiscard]] Event event_between(const SceneState& state, int shape_a, int shape_b, const Rest&... rest)
+{
+    return {shape_id(state, shape_a), shape_id(state, shape_b), body_id(state, state.shapes[shape_a].body),
+            body_id(state, state.shapes[shape_b].body), rest...};
+}
+
+/// The same of a contact, without a look at shapes that are the user's own.
+template <class Event, class... Rest>
+[[nodiscard]] Event event_of(const SceneState& state, const Contact& c, const Rest&... rest)
+{
+    if ((c.flags & contact_flag::piece) != 0)
+        return event_between<Event>(state, c.shape_a, c.shape_b, rest...);
+    return {user_shape_id(state, c.shape_a), user_shape_id(state, c.shape_b), body_id(state, c.body_a), body_id(state, c.body_b),
+            rest...};
+}
+
+} // namespace carom::internal

@@ -1,0 +1,419 @@
+#pragma once
+
+// All simulation state of a scene, in trivially copyable records without pointers: a snapshot is a copy of this struct.
+// A body is three records, by who reads them: BodyRecord (identity and lists), BodySim (what a step reads and writes once),
+// BodyState (the 32 bytes the solver touches in every pass, made anew each step).
+
+#include "carom/scene.h"
+#include "collision/broad_phase.h"
+#include "core/pair_set.h"
+#include "core/pool.h"
+#include "geometry/leaf.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+namespace carom::internal {
+
+inline constexpr std::int32_t none = -1;
+
+inline constexpr int plane_cells = 256;       ///< at most
+inline constexpr int bodies_to_a_cell = 2048; ///< where there are more than 32 cells
+
+struct BodyRecord
+{
+    BodyType type = BodyType::Static;
+    MotionLocks locks{};
+    bool enabled = true;
+    bool can_sleep = true;
+    bool mass_overridden = false;
+    std::uint8_t plane_cell = 0;     ///< in which share of the awake bodies, as tidy() last parted them by where they are
+    bool gives_way = false;          ///< dynamic, with an inverse mass or inertia that is not 0
+    bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
+    bool had_target = false;         ///< and that it has reached in the last step
+    bool ignores = false;            ///< is or was in a pair of SceneState::ignored
+    std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
+    std::int32_t first_shape = none;
+    std::int32_t last_shape = none;
+    std::int32_t first_joint = none; ///< edge: joint * 2 + side
+    std::int32_t joint_count = 0;
+    std::int32_t first_contact = none; ///< edge: contact * 2 + side
+    float sleep_speed = 0;             ///< m/s, > 0
+};
+static_assert(sizeof(BodyRecord) == 40);
+
+/// The first half is what neighbours read: a cache line.
+struct alignas(64) BodySim
+{
+    Position center{}; ///< of mass, in the world
+    Rotation rotation{};
+    Vec2 local_center{}; ///< of mass, in the body's frame
+    Vec2 velocity{};
+    float angular_velocity = 0;
+    float extent = 0;   ///< farthest point of any shape from the center of mass
+    float size = 1e30f; ///< least inner radius of its shapes
+    float mass = 0;
+    float inertia = 0;
+    bool crowded = false;       ///< was solved in a large unit in the last step; or never is, for it is not dynamic
+    Position previous_center{}; ///< at the start of the last step
+    Rotation previous_rotation{};
+    float sleep_time = 0; ///< s below the sleep speed
+    Vec2 inverse_mass{};  ///< per axis: 0 where locked
+    float inverse_inertia = 0;
+    float gravity_scale = 1;
+    Vec2 force{};
+    float torque = 0;
+    float linear_damping = 0;
+    float angular_damping = 0;
+
+    [[nodiscard]] Pose pose() const { return {center - rotate(rotation, local_center), rotation}; }
+};
+
+static_assert(sizeof(BodySim) == 128);
+
+/// Where a kinematic body is to be at the end of the next step.
+struct BodyTarget
+{
+    Position center{}; ///< of mass
+    Rotation rotation{};
+    Vec2 velocity{}; ///< of the way to it, once it has been reached: to be read
+    float angular_velocity = 0;
+};
+
+/// Of Scene::update: for the part of a frame that no step has covered yet, N s; and, while a frame is begun, its forces.
+struct WaitingForce
+{
+    Vec2 impulse{};
+    float twist = 0;
+    Vec2 force{};
+    float torque = 0;
+
+    friend constexpr bool operator==(const WaitingForce&, const WaitingForce&) = default;
+};
+
+namespace body_flag {
+inline constexpr std::uint16_t dynamic = 1;
+inline constexpr std::uint16_t flier = 2; ///< in flight: moved by flight, not by the solver
+inline constexpr std::uint16_t unbound =
+    4; ///< no forces but those that are even over a sub-step, and joints': it drifts along exact parabolas
+inline constexpr std::uint16_t at_lower = 8;   ///< a hinge limit blocks turning clockwise
+inline constexpr std::uint16_t at_upper = 16;  ///< a hinge limit blocks turning counter-clockwise
+inline constexpr std::uint16_t traced = 32;    ///< its path is recorded: it is near a trigger
+inline constexpr std::uint16_t unsound = 64;   ///< its force law gave what is no force: it is put aside after the step
+inline constexpr std::uint16_t stopped = 256;  ///< short of where the solver had it, by a wall on the way
+inline constexpr std::uint16_t pressed = 512;  ///< into a wall, by far more than contacts can bear: its way is checked
+inline constexpr std::uint16_t jointed = 1024; ///< holds on to a joint that does not stand in a lane
+inline constexpr std::uint16_t alone = 128;    ///< free, with nothing near that it could meet in this step
+} // namespace body_flag
+
+/// What every solver pass touches. Pose changes count from the start of the step.
+struct BodyState
+{
+    Vec2 velocity{};
+    float angular_velocity = 0;
+    std::uint16_t flags = 0;
+    std::int16_t turns = 0; ///< whole ones beside delta_rotation, see turns.h
+    Vec2 delta_position{};
+    Rotation delta_rotation{};
+};
+static_assert(sizeof(BodyState) == 32);
+
+/// What few shapes have.
+struct RareTraits
+{
+    RestitutionCurve restitution_curve{};
+    Field field{};
+    Vec2 one_way{};
+    Kick kick{};
+    double kick_ready = 0; ///< scene time from which the kick may fire again
+};
+
+/// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces. The first cache line is all that boxes and
+/// contacts read, but for arcs.
+struct alignas(64) ShapeRecord
+{
+    std::int32_t body = none;
+    std::int32_t owner = none;      ///< the public shape: itself, or the chain
+    std::int32_t next_piece = none; ///< of a chain: its first piece; of a piece: the next
+    std::int32_t next_shape = none; ///< of the body, public ones only
+    bool has_leaf = false;
+    bool trigger = false;
+    bool yields_material = false;
+    Leaf leaf{};
+    float density = 0;
+    float friction = 0;
+    float restitution = 0;
+    float rolling_resistance = 0;
+    float surface_speed = 0;
+    std::int32_t rare_traits = none; ///< in SceneState::rare_traits; pieces have those of their chain
+    Filter filter{};
+};
+
+static_assert(offsetof(ShapeRecord, leaf) + offsetof(Leaf, arc_radius) <= 64);
+static_assert(sizeof(ShapeRecord) == 128);
+
+struct ManifoldPoint
+{
+    Vec2 anchor_a{}; ///< from a's center of mass to a's surface, world axes
+    Vec2 anchor_b{};
+    float separation = 0;
+    std::uint32_t feature = 0;
+};
+
+struct Manifold
+{
+    Vec2 normal{}; ///< from a to b, world axes
+    float rolling_impulse = 0;
+    std::int32_t count = 0;
+    ManifoldPoint points[2];
+};
+
+namespace contact_flag {
+inline constexpr std::uint32_t trigger = 1;      ///< b visits trigger a
+inline constexpr std::uint32_t touching = 2;     ///< begun and not ended; for triggers: inside
+inline constexpr std::uint32_t passing = 4;      ///< one-way: went through from behind, until it is free
+inline constexpr std::uint32_t fresh = 8;        ///< never updated
+inline constexpr std::uint32_t round = 16;       ///< a circle takes part
+inline constexpr std::uint32_t loaded = 32;      ///< had an impulse at the end of the last step
+inline constexpr std::uint32_t begun = 64;       ///< began to touch while the units were solved, and this is not yet told
+inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
+inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
+inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
+inline constexpr std::uint32_t edge_of_b = 2048; ///< what is kept is seen from b
+inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
+inline constexpr std::uint32_t sleeper = 8192;   ///< one of the bodies sleeps, or both
+inline constexpr std::uint32_t piece = 16384; ///< of a chain or the like: others may touch for the same two shapes of the user's
+inline constexpr std::uint32_t of_union =
+    32768; ///< flush neighbours have turned or emptied its manifold: no points are not apart
+inline constexpr std::uint32_t all_kept = kept | edge_of_b | nearest;
+inline constexpr std::uint32_t followed =
+    1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
+} // namespace contact_flag
+
+/// Of a manifold's points, for warm starting and for who asks.
+struct PointImpulses
+{
+    float normal = 0; ///< of the last sub-step
+    float tangent = 0;
+    float total_normal = 0; ///< over the last step
+    float total_tangent = 0;
+};
+
+struct ContactImpulses
+{
+    PointImpulses points[2];
+};
+
+/// Two cache lines: who it is, and how it touches.
+struct alignas(64) Contact
+{
+    std::int32_t shape_a = none;
+    std::int32_t shape_b = none;
+    std::int32_t body_a = none;
+    std::int32_t body_b = none;
+    std::int32_t next[2] = {none, none}; ///< edges in the bodies' lists
+    std::int32_t previous[2] = {none, none};
+    std::int32_t awake_index = none; ///< place in awake_contacts or trigger_contacts
+    std::int32_t pair = none;        ///< place in box_pairs; none: both sleep
+    std::uint32_t flags = 0;
+    float friction = 0;
+    float rolling_resistance = 0;
+    float surface_speed = 0;   ///< of b against a along perp(normal)
+    std::int32_t color = none; ///< of its row; kept as long as it has one, see coloring.h
+    std::int32_t wide = none;  ///< during a step: where its wide row is, group * lane_count + lane
+    Manifold manifold{};
+};
+static_assert(sizeof(Contact) == 128);
+
+/// An edge of one body, and two corners of the other that it faces, from their centers of mass and in their axes.
+struct KeptEdge
+{
+    Vec2 edge[2];
+    Vec2 corners[2];
+    Vec2 normal{}; ///< from a to b, in the axes of the edge's body
+};
+
+/// The corners of a and b that are nearest to each other, likewise; see NearestCorners.
+struct KeptCorners
+{
+    static constexpr float least_distance = 1e-6f; ///< nearer they have no direction from one to the other
+
+    Vec2 corners[2];
+    Vec2 cones[2];
+    float radii[2] = {};
+};
+
+/// Of two without a point, the direction from one to the other along which they were apart, in the axes of the one; 0: none is known.
+struct KeptParting
+{
+    Vec2 direction{};
+    float arm = 0; ///< of the other's corners about its center of mass, at the most
+};
+
+/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies. Features are those of the manifold.
+struct alignas(64) KeptManifold
+{
+    union Found
+    {
+        KeptEdge edge;
+        KeptCorners nearest; ///< with contact_flag::nearest
+        KeptParting parting; ///< without a point
+
+        Found() : edge{} {}
+    } found;
+    Vec2 center{};       ///< where the other's center of mass was, seen from a, or from b with contact_flag::edge_of_b
+    Rotation rotation{}; ///< of the other, likewise
+    float reach = 0;     ///< see LocalManifold::reach
+    float radius = 0;    ///< of the corners before the edge
+};
+
+/// Does a wide row of the last step still hold all that a contact is? As far as rows_stamp holds.
+enum class LaneMark : std::uint8_t
+{
+    None,
+    InRow
+};
+
+/// Two shapes whose fat boxes overlap, one of which is awake. They have a contact while they may meet in the step.
+struct BoxPair
+{
+    std::int32_t a = none;
+    std::int32_t b = none;
+    std::int32_t contact = none;
+};
+
+enum class JointType : std::uint8_t
+{
+    Spring,
+    Distance,
+    Revolute,
+    Prismatic,
+};
+
+/// Where a joint's rows keep their impulses.
+enum JointSlot
+{
+    slot_x, ///< a point held along x, or a slider held across its axis
+    slot_y,
+    slot_lock,  ///< an angle held
+    slot_axis,  ///< a length held
+    slot_lower, ///< limits
+    slot_upper,
+    slot_motor,
+    slot_spring,
+    joint_slots
+};
+
+/// What a joint may be off by: its held rows, then how far it has passed its lower and upper limit, as numbers below 0.
+inline constexpr int joint_errors = 4;
+
+/// The pose of a body a while ago, or when it became quiet. It is valid while the sleep_time is not 0.
+struct QuietStart
+{
+    Position center{};
+    Rotation rotation{};
+    float time = 0; ///< its sleep_time then
+};
+
+struct JointRecord
+{
+    JointType kind = JointType::Spring;
+    bool collide_connected = true;
+    bool enable_limit = false;
+    bool enable_motor = false;
+    bool yields = false;        ///< held open, by a wall or by others, see DirectSolve::yield
+    bool knows_errors = true;   ///< left_errors are those of the bodies as they stand
+    std::int32_t body_a = none; ///< none: the world
+    std::int32_t body_b = none;
+    float torque = 0; ///< over the last step, to be read; so is force
+    Vec2 force{};
+    float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
+    float hertz = 0;                  ///< of the soft limits, or of the spring along the free axis
+    float limit_restitution = 0;
+    Vec2 anchor_a{};
+    Vec2 anchor_b{};
+    std::int32_t turns = 0; ///< that the bodies had counted when it was made
+    std::int32_t next[2] = {none, none};
+    std::int32_t previous[2] = {none, none};
+    Vec2 axis_a{1, 0};
+    float reference_angle = 0;
+    float stiffness = 0; ///< spring
+    float damping = 0;
+    float lower = 0; ///< limits: angle, translation, or length
+    float upper = 0; ///< spring: its length
+    float motor_speed = 0;
+    float max_motor = 0;
+    float damping_ratio = 0;
+    float spring_target = 0;
+    float left_errors[joint_errors] =
+        {}; ///< that are its own when the last step was done with it; what differs from them, others have moved
+};
+
+inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }
+inline void forget_loads(JointRecord& joint)
+{
+    forget_impulses(joint);
+    joint.force = {};
+    joint.torque = 0;
+}
+
+struct SceneState
+{
+    Pool<BodyRecord> bodies;
+    std::vector<BodySim> sims;            ///< by body slot
+    std::vector<std::uint64_t> colors;    ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
+    std::vector<std::int32_t> turns;      ///< by body slot: whole turns, see turns.h
+    std::vector<QuietStart> quiet_starts; ///< by body slot
+    std::vector<BodyTarget> targets;      ///< by body slot, as far as any body has had one
+    std::vector<WaitingForce> waiting_forces; ///< likewise
+    Pool<ShapeRecord> shapes;
+    Pool<RareTraits> rare_traits;
+    LeafStore leaf_store;
+    Pool<JointRecord> joints;
+    Pool<Contact, Growth::Third> contacts;
+    std::vector<ContactImpulses> impulses;    ///< by contact slot
+    std::vector<KeptManifold> kept_manifolds; ///< by contact slot
+    std::vector<LaneMark> lane_marks;         ///< by contact slot
+    std::vector<BoxPair> box_pairs;
+    std::vector<std::uint64_t> parted_pairs; ///< of these, keys of those whose boxes do not meet, sorted
+    PairSet ignored;                         ///< body pairs that never touch
+    BroadPhase broad_phase;
+    std::vector<std::int32_t> awake_bodies;
+    std::vector<std::int32_t> awake_contacts;
+    std::vector<std::int32_t> trigger_contacts;
+    std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
+    std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
+    float substep_of_impulses = 0;          ///< s, of which the impulses are that contacts and joints keep
+    float longest_substep = 0;              ///< s, of late
+    bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since units were built
+    Vec2 gravity{};
+    float slop = 0;                 ///< the scene's, see Tolerances
+    float greatest_sleep_speed = 0; ///< that any body has had; the scene's, or more
+    double time = 0;
+    std::uint64_t step_count = 0;
+    double accumulator = 0;
+};
+
+/// The contact has been changed, or will be, by other than its row.
+inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static_cast<std::size_t>(contact)] = LaneMark::None; }
+
+[[nodiscard]] inline ContactImpulses& impulses_of(SceneState& state, int contact)
+{
+    return state.impulses[static_cast<std::size_t>(contact)];
+}
+[[nodiscard]] inline const ContactImpulses& impulses_of(const SceneState& state, int contact)
+{
+    return state.impulses[static_cast<std::size_t>(contact)];
+}
+
+/// Without effect where the shape has none.
+[[nodiscard]] inline const RareTraits& rare_traits_of(const SceneState& state, const ShapeRecord& shape)
+{
+    static constexpr RareTraits without{};
+    return shape.rare_traits == none ? without : state.rare_traits[shape.rare_traits];
+}
+
+} // namespace carom::internal

@@ -1,0 +1,50 @@
+#pragma once
+
+// Whole turns of bodies, so that a hinge's angle grows beyond pi. A rotation has an angle from -pi to pi; the turns beside it are counted wherever a body
+// turns, in the sub-steps and when the step is committed.
+
+#include "dynamics/state/scene_state.h"
+
+#include <cmath>
+
+namespace carom::internal {
+
+/// As turns_by, of any two rotations.
+[[nodiscard]] std::int32_t whole_turns(Rotation before, Rotation after, double way);
+
+/// The whole turns that the angles of two rotations leave out when a body turns by `way` from one to the other, rad.
+[[nodiscard]] inline std::int32_t turns_by(Rotation before, Rotation after, double way)
+{
+    const bool is_far_from_pi = before.c >= 0 && after.c >= 0 && std::fabs(way) < 3;
+    return is_far_from_pi ? 0 : whole_turns(before, after, way);
+}
+
+/// Within a step: by an angle, rad.
+inline void turn_by(BodyState& s, float angle)
+{
+    const Rotation before = s.delta_rotation;
+    s.delta_rotation = Rotation::from_angle(angle) * before;
+    s.turns = static_cast<std::int16_t>(s.turns + turns_by(before, s.delta_rotation, static_cast<double>(angle)));
+}
+
+/// From the start of the step, rad.
+inline void turn_from_start(BodyState& s, double angle)
+{
+    s.delta_rotation = angle != 0 ? Rotation::from_angle(static_cast<float>(angle)) : Rotation{};
+    s.turns = static_cast<std::int16_t>(turns_by({}, s.delta_rotation, angle));
+}
+
+/// Adds to the turns of a body those between two rotations by `way`, rad.
+void count_turns(std::int32_t& turns, Rotation before, Rotation after, double way);
+/// The same by the shortest way.
+void count_turns(std::int32_t& turns, Rotation before, Rotation after);
+/// The same of a step that has been solved.
+void count_turns(std::int32_t& turns, Rotation before, Rotation after, const BodyState& s);
+
+/// angle_b - angle_a - reference_angle, rad: of a hinge with all turns since it was made, when it was within -pi and pi; of a slider within them always.
+[[nodiscard]] float hinge_angle(const SceneState& state, const JointRecord& joint);
+
+/// A joint that is being made has no turns.
+void begin_counting(const SceneState& state, JointRecord& joint);
+
+} // namespace carom::internal

@@ -1,0 +1,594 @@
+#pragma once
+
+// What the stages of one step hand to each other. Vectors are cleared, not freed: a settled scene steps without allocating.
+
+#include "carom/event.h"
+#include "collision/hilbert_order.h"
+#include "collision/time_of_impact.h"
+#include "core/blank_array.h"
+#include "core/union_find.h"
+#include "dynamics/continuous/impact/reflect.h"
+#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/solver/contact/wide_contacts.h"
+#include "dynamics/solver/joint/joint_rows.h"
+#include "dynamics/solver/joint/wide_joints.h"
+#include "dynamics/solver/rows.h"
+#include "dynamics/state/scene_state.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace carom::internal {
+
+struct SceneData;
+class DirectSolve;
+struct RawTouch;
+
+/// Bodies, rows and joints that are solved together through all sub-steps: an island, or islands whose paths may meet.
+struct Unit
+{
+    std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
+    std::int32_t state_count = 0;
+    std::int32_t dynamic_count = 0; ///< of these, after the first one
+    std::int32_t first_link = 0;
+    std::int32_t link_count = 0;
+    std::int32_t first_row = 0; ///< contact rows, sorted by color
+    std::int32_t row_count = 0;
+    std::int32_t first_wide = 0; ///< groups of wide rows, sorted by color: of large units; rows are then what does not fit there
+    std::int32_t wide_store =
+        0; ///< where they are kept in Scratch::wide_rows: small units of a task, one after the other, in one place
+    std::int32_t wide_count = 0;
+    std::int32_t first_wide_joint = 0;
+    std::int32_t wide_joint_count = 0;
+    std::int32_t first_core = 0; ///< of its wide rows
+    std::int32_t core_count = 0;
+    std::int32_t first_joint = 0;
+    std::int32_t joint_count = 0;
+    std::int32_t first_flier = 0;
+    std::int32_t flier_count = 0;
+    std::int32_t first_law = 0;
+    std::int32_t law_count = 0;
+    std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
+    std::int32_t impact_row_count = 0;
+    std::int32_t colors = 0;
+    std::int32_t first_bin = 0; ///< of its wide rows, part by part, in Scratch::bin_starts; and where the last ends
+    std::int32_t bin_count = 0; ///< of each part, and of what crosses from one to another: two to a color
+    std::int32_t parts = 0;     ///< of the plane, that all threads solve side by side
+    std::int32_t first_joint_lane = 0;
+    std::int32_t joint_lane_count = 0;
+    std::int32_t first_joint_bin = 0;
+    std::int32_t joint_bin_count = 0; ///< two to a color
+    std::int32_t slices = 1;          ///< of each sub-step
+    bool alone = false;               ///< bodies with nothing near, each by itself: they fall
+    bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
+    bool heap = false;                ///< figures that are held softly, of several islands
+    bool wide = false;                ///< its contacts, and its hinges if there are many, go side by side
+    bool traced = false;              ///< paths of some of its bodies are recorded
+    bool direct = false;              ///< its joints are solved all at once
+    bool drifts = false;              ///< joints alone act within it: all bodies drift along parabolas
+};
+
+/// What the update of a contact found that others must hear of.
+enum class News : std::uint8_t
+{
+    Nothing,
+    Begins,
+    Ends,
+    MayHit ///< something fast may hit a sleeper
+};
+struct ContactNews
+{
+    std::int32_t contact;
+    News what;
+};
+
+/// Of a task's contacts: of those whose news concern nobody else, who has begun or ended to touch; and the news of the others.
+struct SomeNews
+{
+    std::vector<std::int32_t> begins{};
+    std::vector<std::int32_t> ends{};
+    std::vector<ContactNews> others{};
+    std::vector<std::int32_t> left_loads{}; ///< shapes that have left a piece of a chain which bore a load of theirs
+    std::vector<std::int32_t> of_others{};  ///< contacts of whose news others may have more to say
+};
+
+/// What becomes of a pair of boxes, see pair_update.cpp.
+namespace fate {
+inline constexpr std::uint8_t gets_contact = 1;
+inline constexpr std::uint8_t loses_contact = 2;
+inline constexpr std::uint8_t goes = 4;
+inline constexpr std::uint8_t parted = 8; ///< it stays, but its boxes do not meet
+} // namespace fate
+
+struct PairFate
+{
+    std::int32_t pair; ///< in SceneState::box_pairs
+    std::uint8_t what;
+};
+
+/// Of a link; the first three as in contact_flag.
+namespace link_flag {
+inline constexpr std::uint32_t touching = contact_flag::touching; ///< else it may touch within the step
+inline constexpr std::uint32_t round = contact_flag::round;
+inline constexpr std::uint32_t bears = contact_flag::loaded; ///< bore a load in the last step
+inline constexpr std::uint32_t solved = 1;                   ///< gets a row, unless a body flies
+inline constexpr std::uint32_t plain = 4;                    ///< neither rolling resistance nor surface speed
+inline constexpr std::uint32_t in_lane = 8;
+inline constexpr std::uint32_t all = 63;
+} // namespace link_flag
+
+/// Contact of a dynamic body, or of two, that takes part in a step. Four to a cache line.
+struct Link
+{
+    std::int32_t contact = none;
+    std::int32_t a = none; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
+    std::int32_t b = none;
+    // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
+    std::uint16_t about = 0; ///< see about_link
+    std::uint16_t bin = 0;   ///< where lanes are given out, by color, points and place; of rows the color
+
+    [[nodiscard]] bool has(std::uint32_t flag) const { return (about & flag) != 0; }
+    [[nodiscard]] int points() const { return about >> 6 & 3; }
+    [[nodiscard]] int color() const { return (about >> 8) - 1; } ///< that it has from the last step, then of its row
+};
+static_assert(sizeof(Link) == 16);
+
+/// Flags, the number of points and the color in one number.
+[[nodiscard]] inline std::uint16_t about_link(std::uint32_t flags, int points, int color)
+{
+    return static_cast<std::uint16_t>(flags | static_cast<std::uint32_t>(points) << 6 |
+                                      static_cast<std::uint32_t>(color + 1) << 8);
+}
+
+/// A lane against what does not give way, of a ball or of what joints pull.
+struct WideCore
+{
+    std::int32_t lane;   ///< of the unit: group * lane_count + lane
+    std::int32_t points; ///< of its contact
+    float depth;         ///< to which it may go
+};
+
+inline constexpr int few_parts = 16; ///< of a unit whose rows stay in the cache that processors share
+inline constexpr int most_parts = plane_cells;
+inline constexpr int bins_to_a_part = 2 * color_limit;
+
+/// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
+struct SomePlaces
+{
+    std::vector<std::int32_t> lanes; ///< by part
+    std::int32_t rows[color_limit + 1] = {};
+    std::uint64_t colors = 0;            ///< that they have
+    std::vector<std::int32_t> uncolored; ///< of the unit's links
+    std::vector<WideCore> cores;
+
+    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.has(link_flag::in_lane) ? lanes[l.bin] : rows[l.bin]; }
+};
+
+/// What a task has found.
+struct SomeLinks
+{
+    std::vector<Link> links; ///< room for more than there are
+    std::size_t count = 0;
+    std::size_t first = 0;      ///< where they go among all
+    std::size_t to_compare = 0; ///< so many are of the last step, but for those that have been found
+    int touching = 0;
+    bool stay = false; ///< they are what they were
+};
+
+/// Where what may be deflected may come, and its leaves.
+struct SomeReaches
+{
+    std::vector<TreeLeaf> reaches;
+    std::vector<std::int32_t> shapes;
+};
+
+/// Where a contact should stand among the awake ones.
+struct ContactPlace
+{
+    std::uint32_t color; ///< counted over all units
+    std::int32_t contact;
+};
+
+/// What must be solved together, counted.
+struct UnitTally
+{
+    std::int32_t first = none; ///< place in awake_bodies of its first body
+    std::int32_t bodies = 0;
+    std::int32_t unloaded = 0; ///< that no contact loads; they fly unless they are a crowd
+    std::int32_t fliers = 0;
+    std::int32_t joints = 0;
+    std::int32_t contacts = 0;
+    std::int32_t bearing = 0; ///< of these, those that bore a load in the last step
+    float swing = 0;          ///< rad/s, of the joints' arms
+    std::int32_t damped = 0;  ///< of the joints, those that brake or damp what they hold
+    bool hangs = false;       ///< a joint holds to what does not move
+    std::int32_t slices = 1;  ///< of each sub-step
+    float longest_way = 0;    ///< m in this step, of its fliers that may meet something
+};
+
+/// What a unit has in a cell of the plane.
+struct CellOfUnit
+{
+    std::int32_t cell;
+    std::int32_t states;
+    std::int64_t work;
+};
+
+/// Neighbours in a list that are of one unit.
+struct UnitRun
+{
+    std::int32_t unit;
+    std::int32_t first;
+    std::int32_t count;
+    std::int32_t sorted_first = 0; ///< where they go when the list is sorted by unit
+
+    template <class Item>
+    [[nodiscard]] std::span<const Item> of(const std::vector<Item>& items) const
+    {
+        return {items.data() + first, static_cast<std::size_t>(count)};
+    }
+};
+
+inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
+
+/// Joint of a dynamic body, or of two, that takes part in a step.
+struct JointLink
+{
+    std::int32_t joint = none;
+    std::int32_t a = none; ///< as in Link: the place of the body, from copy_kinematic_bodies on its state
+    std::int32_t b = none;
+    bool hinge = false;  ///< of a kind that goes in lanes
+    bool holds = false;  ///< and does nothing else
+    bool damped = false; ///< it brakes or damps
+    bool binds = false;  ///< it does something about an angle or a length beside
+    bool flies = false;  ///< one of its bodies may fly about it
+
+    [[nodiscard]] bool operator==(const JointLink&) const = default;
+};
+
+struct KeptBody
+{
+    std::int32_t body;
+    std::uint8_t cell; ///< of the plane
+};
+
+/// What the units of the last step were made of, see cached_graph.cpp.
+struct KeptUnits
+{
+    std::vector<KeptBody> bodies;
+    std::vector<JointLink> joints;
+    std::vector<std::uint8_t> bound;    ///< of each state: rows, limits or motors hold it
+    bool are_plain = false;             ///< nothing in them depends on anything else
+    bool stay_so = false;               ///< and no body or joint has changed, come or gone since
+    bool links_stay = false;            ///< those of contacts are what they were
+    bool joints_stay = false;           ///< so that links of joints are what they were
+    bool hinges_stay = false;           ///< and wide hinges stand where they stood
+    bool has_hung = false;              ///< as Scratch::has_hung when links of joints were gathered
+    bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
+    bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
+    std::uint64_t rows_stayed_for = 0;  ///< so many steps, this one among them
+    std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
+    std::vector<std::int32_t> contacts; ///< the awake ones, when the rows were filled
+    std::vector<std::int32_t> loose;    ///< of these, those without a lane
+    int touching = 0;                   ///< of the report
+};
+
+/// A unit has a link with a kinematic body.
+struct KinematicMeeting
+{
+    std::int32_t unit;
+    std::int32_t link;
+    std::int32_t place; ///< of the body, in awake_bodies
+};
+
+/// A joint and the states of its bodies.
+struct JointPlace
+{
+    std::int32_t joint;
+    std::int32_t a;
+    std::int32_t b;
+};
+
+/// A hinge among the wide ones.
+struct JointLane
+{
+    std::int32_t bin;  ///< by color, and by whether it does something about its angle
+    std::int32_t lane; ///< group * lane_count + lane
+    JointPlace place;
+};
+
+/// A body that flies in this step, or may take off.
+struct FlierSeed
+{
+    std::int32_t state;
+    std::int32_t body;
+    std::int32_t kind; ///< none, or the hinge it turns on
+    bool landed;
+};
+
+/// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
+struct DeferredImpulse
+{
+    std::int32_t body;
+    Vec2 impulse;
+    Vec2 arm;
+    double time; ///< within the step; the unit that gave it sees the body go on from there
+};
+
+/// A body's path from a time of the step on, until its next piece.
+struct PathPiece
+{
+    std::int32_t body = none;
+    std::int32_t order = 0; ///< among all of the step
+    double start = 0;
+    FramePath path{}; ///< relative to the center of mass at the start of the step
+};
+
+/// A leaf came into or went out of a leaf of a trigger.
+struct Crossing
+{
+    std::int32_t contact = none;
+    std::int32_t trigger = none; ///< the shapes that own the leaves
+    std::int32_t visitor = none;
+    std::int32_t order = 0; ///< among all of the step
+    double time = 0;
+    bool enters = false;
+};
+
+struct RecordedPose
+{
+    std::int32_t body;
+    float time;
+    Pose pose;
+};
+
+/// A circle that moves evenly, in the world: from `time` to the end of the sub-step the body stays inside.
+struct Reach
+{
+    double x = 0; ///< at `time`
+    double y = 0;
+    double vx = 0;
+    double vy = 0;
+    double time = 0;
+    double radius = 1e300;
+};
+
+/// Energy of the rate at which a joint was being closed, lost when an impact stopped it.
+struct StoppedJoint
+{
+    std::int32_t state;
+    double energy;
+};
+
+/// What a thread tells of a unit's impacts.
+struct Told
+{
+    std::vector<ImpactEvent> impacts;
+    std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
+    std::vector<std::int32_t> kicked_shapes;
+    int bulk_impacts = 0;
+
+    Told();
+    ~Told();
+    Told(Told&&) noexcept;
+    Told& operator=(Told&&) noexcept;
+    Told(const Told&) = delete;
+    Told& operator=(const Told&) = delete;
+};
+
+/// Per unit, so that units may run side by side; merged in the order of the units.
+struct UnitOutput : Told
+{
+    std::size_t told_impacts = 0;           ///< the first so many are known to force laws
+    std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
+    std::vector<ContactRow> late_rows;
+    std::vector<ContactRow> pulled_rows; ///< see Walls
+    std::vector<DeferredImpulse> deferred;
+    std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
+    std::vector<std::int32_t> struck_lanes;   ///< of the unit, in this sub-step
+    std::vector<std::int32_t> struck_states;  ///< that rows move and what flies has struck, in this sub-step
+    std::vector<Told> told_in_parts;          ///< of the plane, empty but for while threads tell
+    std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
+    std::vector<Reach> reaches;               ///< of each of these
+    std::vector<HoldSet> hold_sets;           ///< of fliers that something has held
+    std::vector<PathPiece> path;              ///< of traced bodies, of each in the order of time
+    std::vector<std::int32_t> last_piece;     ///< of each state of the unit; empty before the first
+    std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
+    std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where a unit of this place in the order has had any
+    int flight_impacts = 0;
+    ImpactWork impact_work{};    ///< left in this sub-step
+    std::int64_t looks_left = 0; ///< at who may be met next, likewise
+    bool capped = false;
+    bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
+
+    void clear();
+    UnitOutput();
+    ~UnitOutput();
+    UnitOutput(UnitOutput&&) noexcept;
+    UnitOutput& operator=(UnitOutput&&) noexcept;
+    UnitOutput(const UnitOutput&) = delete;
+    UnitOutput& operator=(const UnitOutput&) = delete;
+};
+
+/// Shapes whose fat box changed, and what it is now.
+struct MovedBoxes
+{
+    std::vector<std::int32_t> items;
+    std::vector<FloatBox> boxes;
+    std::vector<std::int32_t> unsound; ///< bodies that would leave all numbers
+};
+
+/// What rests around eight neighbours and their ways, see safety_sweep.cpp.
+enum class Surroundings : std::uint8_t
+{
+    Unknown,
+    Clear,
+    Taken
+};
+
+struct Scratch
+{
+    std::vector<float> motion;         ///< how far any point of an awake body may move in this step, by place in awake_bodies
+    std::vector<std::int32_t> unsound; ///< bodies whose state is no longer finite
+    MovedBoxes moved;
+    std::vector<MovedBoxes> moved_of_task;
+    bool all_fitted = false; ///< the moving layer, in this step
+    std::vector<std::uint64_t> new_pairs;
+    std::vector<std::vector<std::uint64_t>> pairs_of_task;
+    std::vector<std::vector<PairFate>> fates_of_task;
+    std::vector<ContactImpulses> impulses_before; ///< see uneven_steps.h
+    std::vector<std::array<float, joint_slots>> joint_impulses_before;
+    std::vector<std::int32_t> made_contacts; ///< see ContactBatch
+    std::vector<std::int32_t> destroyed_contacts;
+    std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
+    std::vector<std::int32_t> places;            ///< by body slot, as in Link
+    std::vector<std::int32_t> placed;            ///< bodies that have one
+    std::vector<float> swings;                   ///< of joint_links, see UnitTally::swing
+    UnionFind sets;                              ///< of what hangs together, by place in awake_bodies; then of units that meet
+    std::vector<UnionFind> more_sets;            ///< of parts of the links
+    std::vector<std::int32_t> unit_of;           ///< by place in awake_bodies
+    std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
+    std::vector<ContactNews> news;
+    std::vector<std::int32_t> left_loads; ///< in order
+    std::vector<std::int32_t> of_others;  ///< contacts, of all tasks
+    std::vector<SomeNews> news_of_task;
+    std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
+    std::vector<std::int32_t> flying;        ///< places where that is not earthbound
+    std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
+    std::vector<std::uint8_t> is_loaded;     ///< by a contact, by place in awake_bodies; the last is nobody's
+    std::vector<std::uint8_t> may_meet;      ///< of what flies far: something that it touches or comes near
+    bool has_kinematic = false;              ///< a kinematic body is awake
+    bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
+    std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
+    std::vector<SomeLinks> links_of_task;
+    std::vector<Link> links;
+    std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
+    std::vector<TreeLeaf> reaches;          ///< of these
+    std::vector<SomeReaches> reaches_of_task;
+    std::vector<std::uint8_t> is_alone; ///< of what flies, by place in awake_bodies: nothing is near
+    BoxTree reach_tree;
+    std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
+    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< units that meet
+    std::vector<UnitTally> tallies;
+    std::vector<std::int32_t> unit_starts;
+    std::vector<std::vector<UnitRun>> runs_of_task;
+    std::vector<std::vector<CellOfUnit>> cells_of_task;
+    std::vector<std::int32_t> unit_of_link; ///< none: it gets no row
+    std::vector<std::uint8_t> bounced;      ///< of a unit's begins, see commit.cpp
+    std::vector<std::int32_t> in_plane;     ///< places in awake_bodies, in the order of the plane
+    std::size_t fullest_cell = 0;   ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
+    std::vector<Link> solved_links; ///< those that get rows, by unit
+    std::vector<std::vector<JointLink>> joints_of_task;
+    std::vector<JointLink> joint_links;
+    KeptUnits kept_units;
+    std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
+    std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
+    bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake
+    std::vector<JointLink> solved_joints;    ///< by unit
+    std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by unit
+    std::vector<std::int32_t> lane_links;    ///< link in each lane; none: empty
+    std::vector<std::int32_t> row_links;     ///< link of each row
+    std::vector<Unit> units;
+    std::vector<BodyState> states; ///< [0] stands for every static body
+    std::vector<StateConstants> constants;
+    std::vector<std::int32_t> state_bodies; ///< body slot of each state
+    std::vector<LawWork> laws;              ///< by unit
+    std::vector<ContactRow> rows;
+    std::vector<std::int32_t> impact_rows;
+    BlankArray<WideRow> wide_rows;
+    BlankArray<WideNotes> wide_notes;     ///< of each
+    std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
+    std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
+    std::vector<std::int32_t> joint_bin_starts;
+    std::vector<WideJoint> wide_joints;
+    std::vector<WideCore> cores;
+    std::vector<BodySpeeds> speeds;   ///< by state: when the sub-step began
+    std::vector<BodySpeeds> unpushed; ///< by state, of units that may warm start by body: without what rows gave in the sub-step
+    std::vector<JointWork> joints;
+    std::vector<Flier> fliers;
+    std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
+    std::vector<std::int32_t> flier_of_state;
+    std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
+    std::vector<UnitOutput> outputs;
+    std::size_t impacts_lender = 0; ///< whose array of impacts the events have
+    std::vector<PathPiece> paths;   ///< of all units, by body
+    std::vector<Crossing> crossings;
+    std::vector<SomePlaces> places_of_task;
+    std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
+    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit, then by link
+    std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
+    std::vector<std::uint8_t> bound_by_joint;              ///< by state
+    std::vector<std::uint16_t> parts;                      ///< of the states of units that have some
+    std::vector<JointPlace> joint_places;
+    std::vector<JointLane> joint_lanes;
+    std::vector<JointLane> sorted_lanes;
+    std::vector<FlierSeed> flier_seeds;
+    std::vector<Surroundings> surroundings;  ///< of each block of the moving layer
+    std::vector<std::uint8_t> is_tired;      ///< has been quiet for long enough, by place in awake_bodies
+    std::vector<std::uint8_t> is_kept_awake; ///< of these, by a neighbour
+    std::vector<std::int32_t> order;
+    std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
+    std::vector<ContactPlace> sorted_contacts;
+    std::vector<std::int32_t> moved_to;    ///< by contact slot
+    std::vector<std::int32_t> move_cycles; ///< see reorder.cpp
+    HilbertOrder plane_order;              ///< of the awake bodies
+
+    Scratch();
+    ~Scratch();
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+};
+
+/// Those of a unit, in flight or landed.
+[[nodiscard]] inline std::span<Flier> fliers_of(Scratch& scratch, const Unit& unit)
+{
+    return {scratch.fliers.data() + unit.first_flier, static_cast<std::size_t>(unit.flier_count)};
+}
+
+/// Those of a unit that are in no lane; what has come since the step began is in UnitOutput::late_rows.
+[[nodiscard]] inline std::span<ContactRow> rows_of(Scratch& scratch, const Unit& unit)
+{
+    return {scratch.rows.data() + unit.first_row, static_cast<std::size_t>(unit.row_count)};
+}
+
+struct StepContext
+{
+    SceneData& scene;
+    SceneState& state;
+    Scratch& scratch;
+    StepReport& report;
+    float dt; ///< of the step
+    float h;  ///< of a sub-step
+    int substeps;
+    int slices = 1; ///< of each of the scene's sub-steps, in units whose contacts turn fast
+    Softness contact_softness{};
+    Softness static_softness{}; ///< against bodies of infinite mass: twice as stiff
+    float joint_hertz = 0;
+    float rest_speed = 0; ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
+};
+
+/// The same step with each sub-step cut into slices.
+[[nodiscard]] StepContext sliced(const StepContext& ctx, int slices);
+
+/// How far any point of a body may move in this step, if nothing strikes it; 0 for what rests.
+[[nodiscard]] inline float motion_of(const StepContext& ctx, int body)
+{
+    const int place = ctx.state.bodies[body].awake_index;
+    return place == none ? 0 : ctx.scratch.motion[static_cast<std::size_t>(place)];
+}
+
+/// Displacement of a body's center of mass over the step, if nothing stops it.
+[[nodiscard]] inline Vec2 predicted_shift(const StepContext& ctx, const BodyRecord& record, const BodySim& sim)
+{
+    if (record.type != BodyType::Dynamic)
+        return ctx.dt * sim.velocity;
+    const Vec2 a = {sim.gravity_scale * ctx.state.gravity.x + sim.inverse_mass.x * sim.force.x,
+                    sim.gravity_scale * ctx.state.gravity.y + sim.inverse_mass.y * sim.force.y};
+    return ctx.dt * sim.velocity + ctx.dt * ctx.dt * a;
+}
+
+} // namespace carom::internal
