@@ -50,7 +50,7 @@ private:
 
 struct Totals
 {
-    double sweep = 0, pairs = 0, contacts = 0, units = 0, solve = 0, commit = 0, events = 0, total = 0;
+    double sweep = 0, pairs = 0, contacts = 0, islands = 0, solve = 0, commit = 0, events = 0, total = 0;
     std::uint32_t flags = 0;
 
     void add(const StepReport& report)
@@ -60,7 +60,7 @@ struct Totals
         sum(sweep, ms.sweep);
         sum(pairs, ms.pairs);
         sum(contacts, ms.contacts);
-        sum(units, ms.units);
+        sum(islands, ms.islands);
         sum(solve, ms.solve);
         sum(commit, ms.commit);
         sum(events, ms.events);
@@ -72,7 +72,7 @@ struct Totals
 nlohmann::ordered_json stage_means(const Totals& t, int steps)
 {
     const double n = steps > 0 ? steps : 1;
-    return {{"sweep", t.sweep / n}, {"pairs", t.pairs / n},   {"contacts", t.contacts / n}, {"units", t.units / n},
+    return {{"sweep", t.sweep / n}, {"pairs", t.pairs / n},   {"contacts", t.contacts / n}, {"islands", t.islands / n},
             {"solve", t.solve / n}, {"commit", t.commit / n}, {"events", t.events / n},     {"total", t.total / n}};
 }
 

@@ -183,7 +183,7 @@ void numbers(const Run& run)
     number_row("bodies", n(r.bodies) + ", awake " + n(r.awake_bodies));
     number_row("shapes, joints", n(r.shapes) + ", " + n(r.joints));
     number_row("pairs, touching", n(r.pairs) + ", " + n(r.touching));
-    number_row("units, colors", n(r.units) + ", " + n(r.colors));
+    number_row("islands, colors", n(r.islands) + ", " + n(r.colors));
     number_row("in flight", n(r.flight_bodies) + ", impacts " + n(r.flight_impacts));
     number_row("bulk impacts", n(r.bulk_impacts));
     if (r.flags != 0)

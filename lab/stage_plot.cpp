@@ -19,7 +19,7 @@ struct Stage
 
 constexpr Stage stages[] = {
     {"sweep", &StageTimes::sweep, view::rgb(0x4dabf7)},       {"pairs", &StageTimes::pairs, view::rgb(0x63e6be)},
-    {"contacts", &StageTimes::contacts, view::rgb(0xffd43b)}, {"units", &StageTimes::units, view::rgb(0xffa94d)},
+    {"contacts", &StageTimes::contacts, view::rgb(0xffd43b)}, {"islands", &StageTimes::islands, view::rgb(0xffa94d)},
     {"solve", &StageTimes::solve, view::rgb(0xff6b6b)},       {"commit", &StageTimes::commit, view::rgb(0xda77f2)},
     {"events", &StageTimes::events, view::rgb(0x868e96)},
 };

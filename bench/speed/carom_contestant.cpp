@@ -39,7 +39,7 @@ private:
 
 Stages stages_of(const carom::StageTimes& ms)
 {
-    return {ms.sweep, ms.pairs, ms.contacts, ms.units, ms.solve, ms.commit, ms.events};
+    return {ms.sweep, ms.pairs, ms.contacts, ms.islands, ms.solve, ms.commit, ms.events};
 }
 
 void add(Stages& sum, const Stages& more)

@@ -15,7 +15,7 @@
 namespace speed {
 
 /// Milliseconds by stage of the step, in the order of stage_names.
-inline constexpr std::array stage_names{"sweep", "pairs", "contacts", "units", "solve", "commit", "events"};
+inline constexpr std::array stage_names{"sweep", "pairs", "contacts", "islands", "solve", "commit", "events"};
 using Stages = std::array<double, stage_names.size()>;
 [[nodiscard]] Stages stages_of(const carom::StageTimes& ms);
 void add(Stages& sum, const Stages& more);

@@ -17,7 +17,7 @@ struct StageTimes
     float sweep = 0;    ///< paths and boxes of what moves
     float pairs = 0;    ///< broad phase
     float contacts = 0; ///< narrow phase
-    float units = 0;    ///< islands, colours, constraint rows
+    float islands = 0;  ///< islands, colours, constraint rows
     float solve = 0;    ///< all sub-steps: rows, flight, relaxation
     float commit = 0;   ///< poses, boxes, sleep
     float events = 0;   ///< events and callbacks
@@ -58,8 +58,8 @@ struct StepReport
     int joints = 0;
     int pairs = 0;    ///< pairs of shapes that may meet in the step, one awake, touching or not
     int touching = 0; ///< awake pairs that touch
-    int units = 0;    ///< groups solved on their own
-    int colors = 0;   ///< of the largest unit
+    int islands = 0;  ///< groups solved on their own
+    int colors = 0;   ///< of the largest island
     int substeps = 0;
     int flight_bodies = 0;  ///< balls that flew free in this step
     int flight_impacts = 0; ///< impacts resolved at their own time

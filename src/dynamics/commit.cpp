@@ -1,4 +1,4 @@
-// Stage 6, commit: the step's result goes back into the records, in the order of the units; deferred impulses, triggers; then bodies come to rest or
+// Stage 6, commit: the step's result goes back into the records, in the order of the islands; deferred impulses, triggers; then bodies come to rest or
 // fall asleep (sleep.cpp).
 
 #include "core/grow.h"
@@ -221,7 +221,7 @@ std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const Raw
 }
 
 // A bounce within the step: touching at neither end, it begins and ends in it.
-void end_bounces(StepContext& ctx, const UnitOutput& output)
+void end_bounces(StepContext& ctx, const IslandOutput& output)
 {
     const std::span<const std::uint8_t> bounced = find_bounces(ctx, output.begins);
     for (std::size_t i = 0; i < bounced.size(); ++i)
@@ -238,7 +238,7 @@ void end_bounces(StepContext& ctx, const UnitOutput& output)
 
 constexpr std::size_t worth_lending = 1024;
 
-// Sorted later on. Where there are many one unit has nearly all of them, and lends its array until the next step.
+// Sorted later on. Where there are many one island has nearly all of them, and lends its array until the next step.
 void take_impacts(StepContext& ctx, std::size_t u)
 {
     std::vector<ImpactEvent>& all = ctx.scene.events.impacts;
@@ -252,7 +252,7 @@ void take_impacts(StepContext& ctx, std::size_t u)
     own.clear();
 }
 
-void merge_output(StepContext& ctx, const UnitOutput& output)
+void merge_output(StepContext& ctx, const IslandOutput& output)
 {
     const SceneState& state = ctx.state;
     for (const ContactRow& row : output.late_rows)
@@ -319,7 +319,7 @@ void commit(StepContext& ctx)
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
     note_untold_impacts(ctx);
-    for (std::size_t u = 0; u < scratch.units.size(); ++u)
+    for (std::size_t u = 0; u < scratch.islands.size(); ++u)
     {
         take_impacts(ctx, u);
         merge_output(ctx, scratch.outputs[u]);

@@ -27,11 +27,11 @@ void find_deflected_pairs(StepContext& ctx);
 /// Manifolds of awake contacts; begins and ends of touching; wakes what is touched.
 void update_contacts(StepContext& ctx);
 
-/// Units, states, colours and rows.
-void build_units(StepContext& ctx);
+/// Islands, states, colours and rows.
+void build_islands(StepContext& ctx);
 
-/// All sub-steps of all units.
-void solve_units(StepContext& ctx);
+/// All sub-steps of all islands.
+void solve_islands(StepContext& ctx);
 
 /// New poses and velocities, deferred impulses, triggers, sleep.
 void commit(StepContext& ctx);

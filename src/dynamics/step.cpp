@@ -1,5 +1,5 @@
 // One step, in seven stages. First where everything may go in this step (sweep) and which boxes may meet on the way (pairs); then how near pairs
-// touch (contacts), and who must be solved together because of it (units). The units are solved through all sub-steps, balls in flight
+// touch (contacts), and who must be solved together because of it (islands). The islands are solved through all sub-steps, balls in flight
 // at their own times between the sub-steps of everything else (solve). Only then are poses written back and quiet islands put to sleep (commit), and the
 // user hears what happened (events): only force laws are called in the middle of a step.
 
@@ -89,9 +89,9 @@ const StepReport& step(SceneData& scene, float dt)
     watch.time(ms.sweep, [&] { sweep_paths(ctx); });
     watch.time(ms.pairs, [&] { find_pairs(ctx); });
     watch.time(ms.contacts, [&] { update_contacts(ctx); });
-    watch.time(ms.units, [&] { build_units(ctx); });
+    watch.time(ms.islands, [&] { build_islands(ctx); });
     note_forces(ctx);
-    watch.time(ms.solve, [&] { solve_units(ctx); });
+    watch.time(ms.solve, [&] { solve_islands(ctx); });
     watch.time(ms.commit, [&] { commit(ctx); });
     average_forces(ctx);
     watch.time(ms.events, [&] { publish_events(ctx); });

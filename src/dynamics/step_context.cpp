@@ -14,12 +14,12 @@ Told::~Told() = default;
 Told::Told(Told&&) noexcept = default;
 Told& Told::operator=(Told&&) noexcept = default;
 
-UnitOutput::UnitOutput() = default;
-UnitOutput::~UnitOutput() = default;
-UnitOutput::UnitOutput(UnitOutput&&) noexcept = default;
-UnitOutput& UnitOutput::operator=(UnitOutput&&) noexcept = default;
+IslandOutput::IslandOutput() = default;
+IslandOutput::~IslandOutput() = default;
+IslandOutput::IslandOutput(IslandOutput&&) noexcept = default;
+IslandOutput& IslandOutput::operator=(IslandOutput&&) noexcept = default;
 
-void UnitOutput::clear()
+void IslandOutput::clear()
 {
     impacts.clear();
     told_impacts = 0;

@@ -29,7 +29,7 @@ class DirectSolve;
 struct RawTouch;
 
 /// Bodies, rows and joints that are solved together through all sub-steps: an island, or islands whose paths may meet.
-struct Unit
+struct Island
 {
     std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
     std::int32_t state_count = 0;
@@ -38,9 +38,10 @@ struct Unit
     std::int32_t link_count = 0;
     std::int32_t first_row = 0; ///< contact rows, sorted by color
     std::int32_t row_count = 0;
-    std::int32_t first_wide = 0; ///< groups of wide rows, sorted by color: of large units; rows are then what does not fit there
+    std::int32_t first_wide =
+        0; ///< groups of wide rows, sorted by color: of large islands; rows are then what does not fit there
     std::int32_t wide_store =
-        0; ///< where they are kept in Scratch::wide_rows: small units of a task, one after the other, in one place
+        0; ///< where they are kept in Scratch::wide_rows: small islands of a task, one after the other, in one place
     std::int32_t wide_count = 0;
     std::int32_t first_wide_joint = 0;
     std::int32_t wide_joint_count = 0;
@@ -147,12 +148,12 @@ static_assert(sizeof(Link) == 16);
 /// A lane against what does not give way, of a ball or of what joints pull.
 struct WideCore
 {
-    std::int32_t lane;   ///< of the unit: group * lane_count + lane
+    std::int32_t lane;   ///< of the island: group * lane_count + lane
     std::int32_t points; ///< of its contact
     float depth;         ///< to which it may go
 };
 
-inline constexpr int few_parts = 16; ///< of a unit whose rows stay in the cache that processors share
+inline constexpr int few_parts = 16; ///< of an island whose rows stay in the cache that processors share
 inline constexpr int most_parts = plane_cells;
 inline constexpr int bins_to_a_part = 2 * color_limit;
 
@@ -162,7 +163,7 @@ struct SomePlaces
     std::vector<std::int32_t> lanes; ///< by part
     std::int32_t rows[color_limit + 1] = {};
     std::uint64_t colors = 0;            ///< that they have
-    std::vector<std::int32_t> uncolored; ///< of the unit's links
+    std::vector<std::int32_t> uncolored; ///< of the island's links
     std::vector<WideCore> cores;
 
     [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.has(link_flag::in_lane) ? lanes[l.bin] : rows[l.bin]; }
@@ -189,12 +190,12 @@ struct SomeReaches
 /// Where a contact should stand among the awake ones.
 struct ContactPlace
 {
-    std::uint32_t color; ///< counted over all units
+    std::uint32_t color; ///< counted over all islands
     std::int32_t contact;
 };
 
 /// What must be solved together, counted.
-struct UnitTally
+struct IslandTally
 {
     std::int32_t first = none; ///< place in awake_bodies of its first body
     std::int32_t bodies = 0;
@@ -210,21 +211,21 @@ struct UnitTally
     float longest_way = 0;    ///< m in this step, of its fliers that may meet something
 };
 
-/// What a unit has in a cell of the plane.
-struct CellOfUnit
+/// What an island has in a cell of the plane.
+struct CellOfIsland
 {
     std::int32_t cell;
     std::int32_t states;
     std::int64_t work;
 };
 
-/// Neighbours in a list that are of one unit.
-struct UnitRun
+/// Neighbours in a list that are of one island.
+struct IslandRun
 {
-    std::int32_t unit;
+    std::int32_t island;
     std::int32_t first;
     std::int32_t count;
-    std::int32_t sorted_first = 0; ///< where they go when the list is sorted by unit
+    std::int32_t sorted_first = 0; ///< where they go when the list is sorted by island
 
     template <class Item>
     [[nodiscard]] std::span<const Item> of(const std::vector<Item>& items) const
@@ -256,8 +257,8 @@ struct KeptBody
     std::uint8_t cell; ///< of the plane
 };
 
-/// What the units of the last step were made of, see cached_graph.cpp.
-struct KeptUnits
+/// What the islands of the last step were made of, see cached_graph.cpp.
+struct CachedGraph
 {
     std::vector<KeptBody> bodies;
     std::vector<JointLink> joints;
@@ -268,7 +269,7 @@ struct KeptUnits
     bool joints_stay = false;           ///< so that links of joints are what they were
     bool hinges_stay = false;           ///< and wide hinges stand where they stood
     bool has_hung = false;              ///< as Scratch::has_hung when links of joints were gathered
-    bool rows_apart = false;            ///< units have stayed: each has its wide rows in a place of its own
+    bool rows_apart = false;            ///< islands have stayed: each has its wide rows in a place of its own
     bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
     std::uint64_t rows_stayed_for = 0;  ///< so many steps, this one among them
     std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
@@ -277,10 +278,10 @@ struct KeptUnits
     int touching = 0;                   ///< of the report
 };
 
-/// A unit has a link with a kinematic body.
+/// An island has a link with a kinematic body.
 struct KinematicMeeting
 {
-    std::int32_t unit;
+    std::int32_t island;
     std::int32_t link;
     std::int32_t place; ///< of the body, in awake_bodies
 };
@@ -310,13 +311,13 @@ struct FlierSeed
     bool landed;
 };
 
-/// An impulse on a body of another unit, or one asleep: it takes effect at the end of the step.
+/// An impulse on a body of another island, or one asleep: it takes effect at the end of the step.
 struct DeferredImpulse
 {
     std::int32_t body;
     Vec2 impulse;
     Vec2 arm;
-    double time; ///< within the step; the unit that gave it sees the body go on from there
+    double time; ///< within the step; the island that gave it sees the body go on from there
 };
 
 /// A body's path from a time of the step on, until its next piece.
@@ -364,7 +365,7 @@ struct StoppedJoint
     double energy;
 };
 
-/// What a thread tells of a unit's impacts.
+/// What a thread tells of an island's impacts.
 struct Told
 {
     std::vector<ImpactEvent> impacts;
@@ -380,8 +381,8 @@ struct Told
     Told& operator=(const Told&) = delete;
 };
 
-/// Per unit, so that units may run side by side; merged in the order of the units.
-struct UnitOutput : Told
+/// Per island, so that islands may run side by side; merged in the order of the islands.
+struct IslandOutput : Told
 {
     std::size_t told_impacts = 0;           ///< the first so many are known to force laws
     std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
@@ -389,16 +390,16 @@ struct UnitOutput : Told
     std::vector<ContactRow> pulled_rows; ///< see Walls
     std::vector<DeferredImpulse> deferred;
     std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
-    std::vector<std::int32_t> struck_lanes;   ///< of the unit, in this sub-step
+    std::vector<std::int32_t> struck_lanes;   ///< of the island, in this sub-step
     std::vector<std::int32_t> struck_states;  ///< that rows move and what flies has struck, in this sub-step
     std::vector<Told> told_in_parts;          ///< of the plane, empty but for while threads tell
     std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;               ///< of each of these
     std::vector<HoldSet> hold_sets;           ///< of fliers that something has held
     std::vector<PathPiece> path;              ///< of traced bodies, of each in the order of time
-    std::vector<std::int32_t> last_piece;     ///< of each state of the unit; empty before the first
+    std::vector<std::int32_t> last_piece;     ///< of each state of the island; empty before the first
     std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
-    std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where a unit of this place in the order has had any
+    std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where an island of this place in the order has had any
     int flight_impacts = 0;
     ImpactWork impact_work{};    ///< left in this sub-step
     std::int64_t looks_left = 0; ///< at who may be met next, likewise
@@ -406,12 +407,12 @@ struct UnitOutput : Told
     bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
 
     void clear();
-    UnitOutput();
-    ~UnitOutput();
-    UnitOutput(UnitOutput&&) noexcept;
-    UnitOutput& operator=(UnitOutput&&) noexcept;
-    UnitOutput(const UnitOutput&) = delete;
-    UnitOutput& operator=(const UnitOutput&) = delete;
+    IslandOutput();
+    ~IslandOutput();
+    IslandOutput(IslandOutput&&) noexcept;
+    IslandOutput& operator=(IslandOutput&&) noexcept;
+    IslandOutput(const IslandOutput&) = delete;
+    IslandOutput& operator=(const IslandOutput&) = delete;
 };
 
 /// Shapes whose fat box changed, and what it is now.
@@ -447,10 +448,10 @@ struct Scratch
     std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
     std::vector<std::int32_t> places;            ///< by body slot, as in Link
     std::vector<std::int32_t> placed;            ///< bodies that have one
-    std::vector<float> swings;                   ///< of joint_links, see UnitTally::swing
-    UnionFind sets;                              ///< of what hangs together, by place in awake_bodies; then of units that meet
+    std::vector<float> swings;                   ///< of joint_links, see IslandTally::swing
+    UnionFind sets;                              ///< of what hangs together, by place in awake_bodies; then of islands that meet
     std::vector<UnionFind> more_sets;            ///< of parts of the links
-    std::vector<std::int32_t> unit_of;           ///< by place in awake_bodies
+    std::vector<std::int32_t> island_of;         ///< by place in awake_bodies
     std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
     std::vector<ContactNews> news;
     std::vector<std::int32_t> left_loads; ///< in order
@@ -472,57 +473,58 @@ struct Scratch
     std::vector<std::uint8_t> is_alone; ///< of what flies, by place in awake_bodies: nothing is near
     BoxTree reach_tree;
     std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
-    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< units that meet
-    std::vector<UnitTally> tallies;
-    std::vector<std::int32_t> unit_starts;
-    std::vector<std::vector<UnitRun>> runs_of_task;
-    std::vector<std::vector<CellOfUnit>> cells_of_task;
-    std::vector<std::int32_t> unit_of_link; ///< none: it gets no row
-    std::vector<std::uint8_t> bounced;      ///< of a unit's begins, see commit.cpp
-    std::vector<std::int32_t> in_plane;     ///< places in awake_bodies, in the order of the plane
+    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< islands that meet
+    std::vector<IslandTally> tallies;
+    std::vector<std::int32_t> island_starts;
+    std::vector<std::vector<IslandRun>> runs_of_task;
+    std::vector<std::vector<CellOfIsland>> cells_of_task;
+    std::vector<std::int32_t> island_of_link; ///< none: it gets no row
+    std::vector<std::uint8_t> bounced;        ///< of an island's begins, see commit.cpp
+    std::vector<std::int32_t> in_plane;       ///< places in awake_bodies, in the order of the plane
     std::size_t fullest_cell = 0;   ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
-    std::vector<Link> solved_links; ///< those that get rows, by unit
+    std::vector<Link> solved_links; ///< those that get rows, by island
     std::vector<std::vector<JointLink>> joints_of_task;
     std::vector<JointLink> joint_links;
-    KeptUnits kept_units;
+    CachedGraph cached_graph;
     std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
     std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
     bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake
-    std::vector<JointLink> solved_joints;    ///< by unit
-    std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by unit
+    std::vector<JointLink> solved_joints;    ///< by island
+    std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by island
     std::vector<std::int32_t> lane_links;    ///< link in each lane; none: empty
     std::vector<std::int32_t> row_links;     ///< link of each row
-    std::vector<Unit> units;
+    std::vector<Island> islands;
     std::vector<BodyState> states; ///< [0] stands for every static body
     std::vector<StateConstants> constants;
     std::vector<std::int32_t> state_bodies; ///< body slot of each state
-    std::vector<LawWork> laws;              ///< by unit
+    std::vector<LawWork> laws;              ///< by island
     std::vector<ContactRow> rows;
     std::vector<std::int32_t> impact_rows;
     BlankArray<WideRow> wide_rows;
     BlankArray<WideNotes> wide_notes;     ///< of each
     std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
-    std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the unit's first on
+    std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the island's first on
     std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
-    std::vector<BodySpeeds> speeds;   ///< by state: when the sub-step began
-    std::vector<BodySpeeds> unpushed; ///< by state, of units that may warm start by body: without what rows gave in the sub-step
+    std::vector<BodySpeeds> speeds; ///< by state: when the sub-step began
+    std::vector<BodySpeeds>
+        unpushed; ///< by state, of islands that may warm start by body: without what rows gave in the sub-step
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions; ///< of states: counts changes of their paths within a sub-step
-    std::vector<UnitOutput> outputs;
+    std::vector<IslandOutput> outputs;
     std::size_t impacts_lender = 0; ///< whose array of impacts the events have
-    std::vector<PathPiece> paths;   ///< of all units, by body
+    std::vector<PathPiece> paths;   ///< of all islands, by body
     std::vector<Crossing> crossings;
     std::vector<SomePlaces> places_of_task;
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
-    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by unit, then by link
+    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by island, then by link
     std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
     std::vector<std::uint8_t> bound_by_joint;              ///< by state
-    std::vector<std::uint16_t> parts;                      ///< of the states of units that have some
+    std::vector<std::uint16_t> parts;                      ///< of the states of islands that have some
     std::vector<JointPlace> joint_places;
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
@@ -543,16 +545,16 @@ struct Scratch
     Scratch& operator=(const Scratch&) = delete;
 };
 
-/// Those of a unit, in flight or landed.
-[[nodiscard]] inline std::span<Flier> fliers_of(Scratch& scratch, const Unit& unit)
+/// Those of an island, in flight or landed.
+[[nodiscard]] inline std::span<Flier> fliers_of(Scratch& scratch, const Island& island)
 {
-    return {scratch.fliers.data() + unit.first_flier, static_cast<std::size_t>(unit.flier_count)};
+    return {scratch.fliers.data() + island.first_flier, static_cast<std::size_t>(island.flier_count)};
 }
 
-/// Those of a unit that are in no lane; what has come since the step began is in UnitOutput::late_rows.
-[[nodiscard]] inline std::span<ContactRow> rows_of(Scratch& scratch, const Unit& unit)
+/// Those of an island that are in no lane; what has come since the step began is in IslandOutput::late_rows.
+[[nodiscard]] inline std::span<ContactRow> rows_of(Scratch& scratch, const Island& island)
 {
-    return {scratch.rows.data() + unit.first_row, static_cast<std::size_t>(unit.row_count)};
+    return {scratch.rows.data() + island.first_row, static_cast<std::size_t>(island.row_count)};
 }
 
 struct StepContext
@@ -564,7 +566,7 @@ struct StepContext
     float dt; ///< of the step
     float h;  ///< of a sub-step
     int substeps;
-    int slices = 1; ///< of each of the scene's sub-steps, in units whose contacts turn fast
+    int slices = 1; ///< of each of the scene's sub-steps, in islands whose contacts turn fast
     Softness contact_softness{};
     Softness static_softness{}; ///< against bodies of infinite mass: twice as stiff
     float joint_hertz = 0;

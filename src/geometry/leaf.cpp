@@ -234,10 +234,10 @@ bool normalize_shape(const Checker& check, HalfSpace& h)
 {
     if (!check.finite("HalfSpace.normal", h.normal) || !check.finite("HalfSpace.offset", h.offset))
         return false;
-    const Vec2 unit = normalize(h.normal);
-    if (!check.holds(dot(unit, unit) > 0.5f, "HalfSpace.normal", to_text(h.normal), "must not be zero"))
+    const Vec2 island = normalize(h.normal);
+    if (!check.holds(dot(island, island) > 0.5f, "HalfSpace.normal", to_text(h.normal), "must not be zero"))
         return false;
-    h.normal = unit;
+    h.normal = island;
     return true;
 }
 

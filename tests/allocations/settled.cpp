@@ -68,7 +68,7 @@ long allocations_at_rest(BodyType floor, int stacks)
     return allocations_late(scene, 600);
 }
 
-// One unit of so many contacts that it is solved in lanes and by parts of the plane.
+// One island of so many contacts that it is solved in lanes and by parts of the plane.
 long allocations_in_pyramid(TaskHooks tasks, int rows)
 {
     Scene scene(awake(tasks));
@@ -115,13 +115,13 @@ constexpr TaskHooks many_tasks{.worker_count = 8, .run = run_backwards};
 
 } // namespace
 
-TEST(Allocations, NoneInSmallUnitsAtRest)
+TEST(Allocations, NoneInSmallIslandsAtRest)
 {
     EXPECT_EQ(allocations_at_rest(BodyType::Static, 40), 0);
     EXPECT_EQ(allocations_at_rest(BodyType::Kinematic, 40), 0);
 }
 
-TEST(Allocations, NoneInALargeUnitAtRest)
+TEST(Allocations, NoneInALargeIslandAtRest)
 {
     EXPECT_EQ(allocations_in_pyramid({}, 60), 0);
     EXPECT_EQ(allocations_in_pyramid(many_tasks, 60), 0);

@@ -109,8 +109,8 @@ TEST(DeterminismThreads, HooksChangeNothing)
     }
 }
 
-// Large enough for several tasks, with units that merge and part.
-TEST(DeterminismThreads, AThousandBodiesInManyUnits)
+// Large enough for several tasks, with islands that merge and part.
+TEST(DeterminismThreads, AThousandBodiesInManyIslands)
 {
     const auto hashes = [](TaskHooks tasks)
     {

@@ -65,8 +65,8 @@ public:
             both([dt](World& w) { w.scene.step(dt); });
             stayed += rows_stay() ? 1 : 0;
             const std::string when = "step " + std::to_string(m_followed.scene.step_count());
-            EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.rows_stay);
-            EXPECT_FALSE(m_anew.scene.data().scratch.kept_units.hinges_stay);
+            EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.rows_stay);
+            EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.hinges_stay);
             EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
             EXPECT_EQ(m_followed.scene.report().touching, m_anew.scene.report().touching) << when;
             EXPECT_EQ(m_followed.scene.report().pairs, m_anew.scene.report().pairs) << when;
@@ -77,8 +77,8 @@ public:
         return stayed;
     }
 
-    [[nodiscard]] bool rows_stay() { return m_followed.scene.data().scratch.kept_units.rows_stay; }
-    [[nodiscard]] bool hinges_stay() { return m_followed.scene.data().scratch.kept_units.hinges_stay; }
+    [[nodiscard]] bool rows_stay() { return m_followed.scene.data().scratch.cached_graph.rows_stay; }
+    [[nodiscard]] bool hinges_stay() { return m_followed.scene.data().scratch.cached_graph.hinges_stay; }
     [[nodiscard]] const World& followed() const { return m_followed; }
     [[nodiscard]] const World& anew() const { return m_anew; }
 

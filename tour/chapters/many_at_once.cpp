@@ -66,7 +66,7 @@ public:
                 {"bodies", std::to_string(towers * heights)},
                 {"contacts", std::to_string(r.touching)},
                 {"awake", std::to_string(r.awake_bodies)},
-                {"units", std::to_string(r.units)},
+                {"islands", std::to_string(r.islands)},
                 {"heavy", whole(heavy)},
                 {"sink", view::number(1000 * sink(scene(), m_blocks))},
                 {"plain", view::number(1000 * sink(*m_plain, m_plain_blocks))}};

@@ -18,7 +18,7 @@ namespace {
 class OneStep : public Chapter
 {
     static constexpr int stages = 7;
-    static constexpr std::array<const char*, stages> stage_words{"sweep", "pairs", "contacts", "units", "solve", "commit", "events"};
+    static constexpr std::array<const char*, stages> stage_words{"sweep", "pairs", "contacts", "islands", "solve", "commit", "events"};
     static constexpr float seconds = 3.2f;
 
 public:

@@ -16,7 +16,7 @@ void gather_paths(StepContext& ctx)
 {
     std::vector<PathPiece>& paths = ctx.scratch.paths;
     paths.clear();
-    for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
+    for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
     {
         const std::vector<PathPiece>& pieces = ctx.scratch.outputs[u].path;
         append_all(paths, pieces);
@@ -34,7 +34,7 @@ bool took_part(const StepContext& ctx, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
     return record.type != BodyType::Static && record.awake_index != none &&
-           static_cast<std::size_t>(record.awake_index) < ctx.scratch.unit_of.size();
+           static_cast<std::size_t>(record.awake_index) < ctx.scratch.island_of.size();
 }
 
 std::span<const PathPiece> recorded(const StepContext& ctx, int body)

@@ -43,12 +43,12 @@ double least_of(std::span<const double> times)
     return best;
 }
 
-// The first by time; of equals the first in the unit.
+// The first by time; of equals the first in the island.
 Flier* earliest(const FlightSpan& span)
 {
     const std::span<const double> times =
         std::span(span.scratch.event_times)
-            .subspan(static_cast<std::size_t>(span.unit.first_flier), static_cast<std::size_t>(span.unit.flier_count));
+            .subspan(static_cast<std::size_t>(span.island.first_flier), static_cast<std::size_t>(span.island.flier_count));
     const double best = least_of(times);
     if (best > span.h)
         return nullptr;
@@ -75,7 +75,7 @@ void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::spa
     const auto has_one_shape = [&](int b) { return state.bodies[b].first_shape == state.bodies[b].last_shape; };
     for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
     {
-        Flier* f = span.flier_at(span.state_in_unit(other_body(state.contacts[edge >> 1], body)));
+        Flier* f = span.flier_at(span.state_in_island(other_body(state.contacts[edge >> 1], body)));
         if (f != nullptr && std::ranges::find(changed, f->state) == changed.end())
             has_one_shape(body) && has_one_shape(f->body) ? reconsider(span, *f, struck, edge >> 1) : find_next_event(span, *f);
     }
@@ -123,10 +123,10 @@ void note_all_reaches(const FlightSpan& span)
 }
 
 // In a sub-step: what is left over then stays where it is until the next. Some milliseconds; impacts that come out take a hundredth.
-constexpr std::int64_t work_of_unit = 20'000;
+constexpr std::int64_t work_of_island = 20'000;
 constexpr std::int64_t work_of_flier = 500;
 
-constexpr std::int64_t looks_of_unit = 200'000; // sixteen times what scenes and experiments take
+constexpr std::int64_t looks_of_island = 200'000; // sixteen times what scenes and experiments take
 constexpr std::int64_t looks_of_flier = 100;
 
 constexpr int fliers_per_share = 16;
@@ -197,7 +197,7 @@ void find_first_events(const FlightSpan& span, Crew& crew)
 
 } // namespace
 
-void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier)
+void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier)
 {
     Flier& f = scratch.fliers[static_cast<std::size_t>(flier)];
     if (f.deflected)
@@ -210,7 +210,7 @@ void note_deflected(Scratch& scratch, UnitOutput& output, std::int32_t flier)
 
 namespace {
 
-// Rows of the unit with a load, and of it the state on the other side.
+// Rows of the island with a load, and of it the state on the other side.
 template <class Visit>
 void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
 {
@@ -222,7 +222,7 @@ void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit
                 visit(row.a == state ? row.b : row.a);
         }
     };
-    look(rows_of(span.scratch, span.unit));
+    look(rows_of(span.scratch, span.island));
     look(span.output.late_rows);
 }
 
@@ -250,15 +250,15 @@ void take_off_with_bats(const FlightSpan& span, Flier& f)
 
 } // namespace
 
-void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+void raise_fast(StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
-    if (unit.flier_count == 0)
+    if (island.flier_count == 0)
         return;
-    const FlightSpan span(ctx, unit, k, output);
+    const FlightSpan span(ctx, island, k, output);
     for (Flier& f : span.fliers())
     {
         const BodyState& s = span.state_of(f.state);
-        const bool was_struck = unit.precise || f.crowded || f.deflected;
+        const bool was_struck = island.precise || f.crowded || f.deflected;
         if (f.landed && was_struck &&
             (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
             take_off_with_bats(span, f);
@@ -268,30 +268,30 @@ void raise_fast(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
 namespace {
 
 // All of it is in the air, and its path through the step is one parabola.
-bool flies_freely(const StepContext& ctx, const Unit& unit)
+bool flies_freely(const StepContext& ctx, const Island& island)
 {
-    const bool alike = unit.flier_count == unit.dynamic_count && unit.row_count == 0 && unit.wide_count == 0 &&
-                       unit.joint_count == 0 && unit.wide_joint_count == 0 && unit.law_count == 0 && unit.slices == 1;
-    if (!alike || unit.traced || ctx.scene.def.record_substeps)
+    const bool alike = island.flier_count == island.dynamic_count && island.row_count == 0 && island.wide_count == 0 &&
+                       island.joint_count == 0 && island.wide_joint_count == 0 && island.law_count == 0 && island.slices == 1;
+    if (!alike || island.traced || ctx.scene.def.record_substeps)
         return false;
     const auto falls = [&](const Flier& f)
     {
         const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(f.state)];
         return !f.landed && f.joint == none && c.linear_decay == 1 && c.angular_decay == 1;
     };
-    return std::ranges::all_of(fliers_of(ctx.scratch, unit), falls);
+    return std::ranges::all_of(fliers_of(ctx.scratch, island), falls);
 }
 
 } // namespace
 
-bool glide(const StepContext& ctx, const Unit& unit, UnitOutput& output)
+bool glide(const StepContext& ctx, const Island& island, IslandOutput& output)
 {
-    if (!flies_freely(ctx, unit))
+    if (!flies_freely(ctx, island))
         return false;
     StepContext whole = ctx;
     whole.h = ctx.dt;
     whole.substeps = 1;
-    const FlightSpan span(whole, unit, 0, output);
+    const FlightSpan span(whole, island, 0, output);
     for (Flier& f : span.fliers())
         start_flight(span, f);
     const auto meets_nothing = [&](Flier& f) { return try_find_next_event(span, f) && f.event_time > span.h; };
@@ -302,20 +302,20 @@ bool glide(const StepContext& ctx, const Unit& unit, UnitOutput& output)
     return true;
 }
 
-void trace_paths(StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+void trace_paths(StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
-    if (unit.traced)
-        trace_all(FlightSpan(ctx, unit, k, output));
+    if (island.traced)
+        trace_all(FlightSpan(ctx, island, k, output));
 }
 
 namespace {
 
 // Slices of a sub-step share what is given to it; where the first have spent all, each still has its part of as much again.
-void share_budget(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+void share_budget(const StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
     const bool starts = k % ctx.slices == 0;
-    const std::int64_t work = work_of_unit + work_of_flier * unit.flier_count;
-    const std::int64_t looks = looks_of_unit + looks_of_flier * unit.flier_count;
+    const std::int64_t work = work_of_island + work_of_flier * island.flier_count;
+    const std::int64_t looks = looks_of_island + looks_of_flier * island.flier_count;
     const std::int64_t work_left = starts ? work : std::max(output.impact_work.left, work / ctx.slices);
     output.impact_work = {.left = work_left, .whole = work_left};
     output.looks_left = starts ? looks : std::max(output.looks_left, looks / ctx.slices);
@@ -323,12 +323,12 @@ void share_budget(const StepContext& ctx, const Unit& unit, int k, UnitOutput& o
 
 } // namespace
 
-void advance_fliers(StepContext& ctx, const Unit& unit, int k, UnitOutput& output, Crew& crew)
+void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, Crew& crew)
 {
-    if (unit.flier_count == 0)
+    if (island.flier_count == 0)
         return;
-    const FlightSpan span(ctx, unit, k, output);
-    share_budget(ctx, unit, k, output);
+    const FlightSpan span(ctx, island, k, output);
+    share_budget(ctx, island, k, output);
     output.struck_states.clear();
     for (Flier& f : span.fliers())
         start_flight(span, f);

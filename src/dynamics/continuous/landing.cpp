@@ -57,12 +57,12 @@ private:
     {
         const Contact& contact = m_span.state.contacts[index];
         const int body = other_body(contact, m_flier.body);
-        const std::int32_t other = state_for_rows(m_span.ctx, m_span.unit, body);
+        const std::int32_t other = state_for_rows(m_span.ctx, m_span.island, body);
         if (other == none || m_span.flier_at(other) != nullptr || has_row(index))
-            return; // another unit's, or still in flight: the next step links them
+            return; // another island's, or still in flight: the next step links them
         const Manifold manifold = world_manifold(m_span.state, contact, pose_now(contact.body_a, other),
                                                  pose_now(contact.body_b, other), margin + motion_of(m_span.ctx, body));
-        if (manifold.count == 0 && !may_come_to_face(contact, m_span.unit))
+        if (manifold.count == 0 && !may_come_to_face(contact, m_span.island))
             return;
         m_span.state.contacts[index].manifold = manifold; // the row's points are these
         impulses_of(m_span.state, index) = {};
@@ -71,7 +71,7 @@ private:
         ContactRow row =
             prepare_row(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other, flier_is_a ? other : m_flier.state);
         hand_over(contact, row);
-        follow_closely(contact, m_span.unit, row);
+        follow_closely(contact, m_span.island, row);
         m_span.state_of(other).flags &= ~body_flag::unbound;
         m_span.output.late_rows.push_back(row);
     }

@@ -15,13 +15,13 @@
 
 namespace carom::internal {
 
-FlightSpan::FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out)
-    : ctx(context), state(context.state), scratch(context.scratch), unit(u), output(out), k(substep),
+FlightSpan::FlightSpan(StepContext& context, const Island& u, int substep, IslandOutput& out)
+    : ctx(context), state(context.state), scratch(context.scratch), island(u), output(out), k(substep),
       h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale)),
       most_impacts(u.precise ? impact_limit : crowd_impact_limit)
 {}
 
-std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, unit); }
+std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, island); }
 
 std::span<const Hold> FlightSpan::holds_of(const Flier& f) const
 {
@@ -40,13 +40,13 @@ Flier* FlightSpan::flier_at(std::int32_t state_index) const
     return &scratch.fliers[static_cast<std::size_t>(f)];
 }
 
-std::int32_t FlightSpan::state_in_unit(int body) const
+std::int32_t FlightSpan::state_in_island(int body) const
 {
     const int place = state.bodies[body].awake_index;
     if (place == none || state.bodies[body].type != BodyType::Dynamic)
         return none;
     const std::int32_t s = scratch.state_of[static_cast<std::size_t>(place)];
-    return s >= unit.first_state && s < unit.first_state + unit.state_count ? s : none;
+    return s >= island.first_state && s < island.first_state + island.state_count ? s : none;
 }
 
 Press FlightSpan::press(int a, int b) const
@@ -322,7 +322,7 @@ CenterMotion center_of(const Flier& f)
 bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w)
 {
     const BodySim& sim = span.sim_of(f.body);
-    if (!span.unit.precise)
+    if (!span.island.precise)
     { // a crowd that falls together is no shot: what counts is what this step has done
         vx -= static_cast<double>(sim.velocity.x);
         vy -= static_cast<double>(sim.velocity.y);
@@ -388,12 +388,12 @@ void take_off(const FlightSpan& span, Flier& f, double time)
                 drop(row);
         }
     };
-    drop_rows(rows_of(span.scratch, span.unit));
+    drop_rows(rows_of(span.scratch, span.island));
     drop_rows(span.output.late_rows);
     for (int edge = span.state.bodies[f.body].first_contact; edge != none; edge = span.state.contacts[edge >> 1].next[edge & 1])
     {
         if (Contact& contact = span.state.contacts[edge >> 1]; contact.wide != none)
-            drop_lane(span.ctx, contact, span.unit.first_state);
+            drop_lane(span.ctx, contact, span.island.first_state);
     }
     if (f.joint != none)
         forget_impulses(span.state.joints[f.joint]);
@@ -462,7 +462,7 @@ void follow_straight(const FlightSpan& span, int body, const BodySim& sim, doubl
     path.w = sim.angular_velocity;
     double angle = since * path.w;
     for (const DeferredImpulse& d : span.output.deferred)
-    { // what this unit has struck goes on from there
+    { // what this island has struck goes on from there
         if (d.body != body)
             continue;
         const auto dvx = static_cast<double>(sim.inverse_mass.x * d.impulse.x);
@@ -489,13 +489,13 @@ FramePath path_from(const FlightSpan& span, int body, double time, const Positio
     path.center.y = sim.center.y - origin.y;
     path.c = sim.rotation.c;
     path.s = sim.rotation.s;
-    const std::int32_t index = span.state_in_unit(body);
+    const std::int32_t index = span.state_in_island(body);
     if (const Flier* f = span.flier_at(index))
         follow_flier(span, *f, sim, time, path);
     else if (index != none)
         follow_solved(span, index, sim, time, path);
     else if (span.state.bodies[body].awake_index != none || span.state.bodies[body].type == BodyType::Dynamic)
-        follow_straight(span, body, sim, time, path); // kinematic, of another unit, or asleep
+        follow_straight(span, body, sim, time, path); // kinematic, of another island, or asleep
     return path;
 }
 

@@ -14,20 +14,20 @@ namespace carom::internal {
 inline constexpr int impact_limit = 64;
 inline constexpr int crowd_impact_limit = 16;
 
-/// A sub-step of a unit, as flight sees it.
+/// A sub-step of an island, as flight sees it.
 struct FlightSpan
 {
     StepContext& ctx;
     SceneState& state;
     Scratch& scratch;
-    const Unit& unit;
-    UnitOutput& output;
+    const Island& island;
+    IslandOutput& output;
     int k;
     double h;
     double least_approach; ///< m/s: what is slower is rounding
     int most_impacts;      ///< of a body
 
-    FlightSpan(StepContext& context, const Unit& u, int substep, UnitOutput& out);
+    FlightSpan(StepContext& context, const Island& u, int substep, IslandOutput& out);
 
     [[nodiscard]] std::span<Flier> fliers() const;
     [[nodiscard]] std::span<const Hold> holds_of(const Flier& f) const;
@@ -38,8 +38,8 @@ struct FlightSpan
         return scratch.constants[static_cast<std::size_t>(i)];
     }
     [[nodiscard]] const BodySim& sim_of(int body) const { return state.sims[static_cast<std::size_t>(body)]; }
-    /// The state of a dynamic body of this unit; none: it does not move, or belongs elsewhere.
-    [[nodiscard]] std::int32_t state_in_unit(int body) const;
+    /// The state of a dynamic body of this island; none: it does not move, or belongs elsewhere.
+    [[nodiscard]] std::int32_t state_in_island(int body) const;
     /// Of two that both give way none holds the other; what presses them together is taken in small blows.
     [[nodiscard]] Press press(int body_a, int body_b) const;
     [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }

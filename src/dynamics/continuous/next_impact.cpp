@@ -126,10 +126,10 @@ private:
         m_flier.looks += std::exchange(m_made, 0) / offers_of_a_look;
     }
 
-    // Before that time the bodies cannot meet. Only what is awake in this unit has a known way.
+    // Before that time the bodies cannot meet. Only what is awake in this island has a known way.
     [[nodiscard]] double meeting_with(int body)
     {
-        return m_span.state_in_unit(body) == none ? 0 : first_meeting(own_way().reach, reach_of(m_span, body));
+        return m_span.state_in_island(body) == none ? 0 : first_meeting(own_way().reach, reach_of(m_span, body));
     }
 
     // The angle reaches a limit of the hinge: the first root of angle + w t + alpha t²/2.
@@ -240,7 +240,7 @@ private:
         const auto [time, order, own, shape, contact] = offer;
         SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
-        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
+        const Flier* other = m_span.flier_at(m_span.state_in_island(body));
         if (m_flier.looks > most_looks)
         {
             m_flier.crowded = true; // its way is checked against walls
@@ -290,7 +290,7 @@ private:
         m_flier.event_time = start + hit->time;
         m_flier.event_own = own;
         m_flier.event_shape = shape;
-        m_flier.event_state = m_span.state_in_unit(body);
+        m_flier.event_state = m_span.state_in_island(body);
         m_flier.event_version = version_of(m_span, m_flier.event_state);
     }
 
@@ -299,7 +299,7 @@ private:
     {
         if (m_flier.deflected)
             return false;
-        const Flier* other = m_span.flier_at(m_span.state_in_unit(body));
+        const Flier* other = m_span.flier_at(m_span.state_in_island(body));
         if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->deflected))
             return false;
         return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
@@ -394,7 +394,7 @@ Reach reach_of_flier(const FlightSpan& span, const Flier& f, const BodySim& sim)
 Reach reach_of(const FlightSpan& span, int body)
 {
     const BodySim& sim = span.sim_of(body);
-    const std::int32_t s = span.state_in_unit(body);
+    const std::int32_t s = span.state_in_island(body);
     if (const Flier* f = span.flier_at(s))
         return reach_of_flier(span, *f, sim);
     // The solver has put it where it is at the end of the sub-step.

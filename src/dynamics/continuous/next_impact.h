@@ -20,7 +20,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     return state == none ? 0 : span.scratch.versions[static_cast<std::size_t>(state)];
 }
 
-/// Of a dynamic body of the unit, whether it flies or not, for the rest of the sub-step.
+/// Of a dynamic body of the island, whether it flies or not, for the rest of the sub-step.
 [[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
 /// Before that time the two cannot meet; 1e300: they do not.
 [[nodiscard]] double first_meeting(const Reach& a, const Reach& b);

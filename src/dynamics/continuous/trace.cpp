@@ -18,8 +18,8 @@ std::int32_t& last_piece_of(const FlightSpan& span, std::int32_t state)
 {
     std::vector<std::int32_t>& last = span.output.last_piece;
     if (last.empty())
-        last.assign(static_cast<std::size_t>(span.unit.state_count), none);
-    return last[static_cast<std::size_t>(state - span.unit.first_state)];
+        last.assign(static_cast<std::size_t>(span.island.state_count), none);
+    return last[static_cast<std::size_t>(state - span.island.first_state)];
 }
 
 FramePath at_rest(const BodySim& sim)
@@ -79,9 +79,9 @@ void trace(const FlightSpan& span, std::int32_t state, double time)
 
 void trace_all(const FlightSpan& span)
 {
-    if (span.unit.traced)
+    if (span.island.traced)
     {
-        for (int i = span.unit.first_state; i < span.unit.first_state + span.unit.state_count; ++i)
+        for (int i = span.island.first_state; i < span.island.first_state + span.island.state_count; ++i)
             trace(span, i, 0);
         return;
     }

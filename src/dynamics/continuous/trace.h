@@ -10,7 +10,7 @@ namespace carom::internal {
 /// The path of a state, if it is to be recorded, from a time of the sub-step on.
 void trace(const FlightSpan& span, std::int32_t state, double time);
 
-/// The paths of all such states of the unit from the start of the sub-step on, when the solver has moved its bodies.
+/// The paths of all such states of the island from the start of the sub-step on, when the solver has moved its bodies.
 void trace_all(const FlightSpan& span);
 
 } // namespace carom::internal

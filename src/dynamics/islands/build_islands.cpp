@@ -1,4 +1,4 @@
-// Stage 4, units: first who flies, what joints hold (joint_edges.cpp) and who is solved together (island_graph.cpp), then all that each unit needs side by side
+// Stage 4, islands: first who flies, what joints hold (joint_edges.cpp) and who is solved together (island_graph.cpp), then all that each island needs side by side
 // (island_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (cached_graph.cpp), and so do rows (cached_constraints.cpp)
 // and hinges (WideKernels::follow_joints).
 
@@ -11,27 +11,27 @@
 
 namespace carom::internal {
 
-void build_units(StepContext& ctx)
+void build_islands(StepContext& ctx)
 {
     ctx.scratch.fullest_cell = 0;
-    if (ctx.scratch.kept_units.rows_stay)
+    if (ctx.scratch.cached_graph.rows_stay)
     {
-        refill_units(ctx);
+        refill_islands(ctx);
         return;
     }
     list_fliers(ctx);
     gather_joints(ctx);
-    ctx.scratch.kept_units.hinges_stay = units_stay(ctx);
-    if (ctx.scratch.kept_units.hinges_stay)
+    ctx.scratch.cached_graph.hinges_stay = graph_is_unchanged(ctx);
+    if (ctx.scratch.cached_graph.hinges_stay)
     {
-        refill_units(ctx);
+        refill_islands(ctx);
         keep_rows(ctx);
         return;
     }
-    ctx.scratch.kept_units.rows_apart = false;
-    build_unit_graph(ctx);
-    lay_out_units(ctx);
-    keep_units(ctx);
+    ctx.scratch.cached_graph.rows_apart = false;
+    build_island_graph(ctx);
+    lay_out_islands(ctx);
+    cache_graph(ctx);
 }
 
 } // namespace carom::internal

@@ -1,5 +1,5 @@
-// Who is solved with whom, in which colour and in which lane, depends on bodies, links and joints alone where units are large and nothing flies: slices,
-// heaps and flight, which depend on speeds as well, are for small units. Where all of these are what they were, so is the plan of the last step. It is
+// Who is solved with whom, in which colour and in which lane, depends on bodies, links and joints alone where islands are large and nothing flies: slices,
+// heaps and flight, which depend on speeds as well, are for small islands. Where all of these are what they were, so is the plan of the last step. It is
 // compared, not assumed: whatever a user has changed shows there.
 
 #include "dynamics/islands/cached_graph.h"
@@ -16,37 +16,37 @@ namespace carom::internal {
 namespace {
 
 // Large enough for everything in them to go by links alone.
-bool is_plain(const Unit& unit)
+bool is_plain(const Island& island)
 {
-    const bool has_joints = unit.joint_count > 0 || unit.joint_lane_count > 0;
-    return unit.dynamic_count > (has_joints ? UnitEnergy::most_bodies : precise_limit) && unit.row_count == 0 &&
-           unit.core_count == 0 && !unit.heap && !unit.alone;
+    const bool has_joints = island.joint_count > 0 || island.joint_lane_count > 0;
+    return island.dynamic_count > (has_joints ? IslandEnergy::most_bodies : precise_limit) && island.row_count == 0 &&
+           island.core_count == 0 && !island.heap && !island.alone;
 }
 
 } // namespace
 
 bool bodies_stay(const StepContext& ctx)
 {
-    const KeptUnits& kept = ctx.scratch.kept_units;
+    const CachedGraph& kept = ctx.scratch.cached_graph;
     return std::equal(kept.bodies.begin(), kept.bodies.end(), ctx.state.awake_bodies.begin(), ctx.state.awake_bodies.end(),
                       [&](const KeptBody& k, std::int32_t body)
                       { return k.body == body && k.cell == ctx.state.bodies[body].plane_cell; });
 }
 
-bool units_stay(const StepContext& ctx)
+bool graph_is_unchanged(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
-    const KeptUnits& kept = scratch.kept_units;
+    const CachedGraph& kept = scratch.cached_graph;
     return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() && kept.links_stay &&
            (kept.joints_stay || kept.joints == scratch.joint_links);
 }
 
-void keep_units(StepContext& ctx)
+void cache_graph(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    KeptUnits& kept = scratch.kept_units;
+    CachedGraph& kept = scratch.cached_graph;
     kept.are_plain = ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flier_seeds.empty() &&
-                     std::all_of(scratch.units.begin(), scratch.units.end(), is_plain);
+                     std::all_of(scratch.islands.begin(), scratch.islands.end(), is_plain);
     if (!kept.are_plain)
         return;
     kept.bodies.clear();

@@ -1,4 +1,4 @@
-// Rows of a unit stand sorted by colour, those of a large unit eight to a group and part of the plane by part, see partitions.h. What had a row in the last
+// Rows of an island stand sorted by colour, those of a large island eight to a group and part of the plane by part, see partitions.h. What had a row in the last
 // step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Links are counted by tasks, each its own, and
 // then put where the counts of all say.
 
@@ -26,21 +26,21 @@ namespace {
 
 constexpr int links_to_a_part = 2048;      // of few
 constexpr int links_to_a_huge_part = 8192; // their rows stay in a cache from solving to relaxing
-constexpr std::size_t most_tasks = 64;     // of a unit: each counts all of its bins
+constexpr std::size_t most_tasks = 64;     // of an island: each counts all of its bins
 constexpr std::uint16_t no_part = 65535;   // of what does not give way
 
 class RowPlaces
 {
 public:
-    RowPlaces(StepContext& ctx, Unit& unit) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_unit(unit) {}
+    RowPlaces(StepContext& ctx, Island& island) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_island(island) {}
 
     void find()
     {
-        m_unit.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
-        m_unit.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
-        m_unit.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
-        m_unit.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
-        m_is_uniform = m_unit.wide && is_uniform(m_ctx, m_unit);
+        m_island.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
+        m_island.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
+        m_island.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
+        m_island.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
+        m_is_uniform = m_island.wide && is_uniform(m_ctx, m_island);
         find_parts();
         name_copies();
         const std::span<SomePlaces> tasks = count_links();
@@ -49,10 +49,10 @@ public:
         run_tasks(m_ctx.scene.def.tasks, static_cast<int>(tasks.size()),
                   [&](int t) { place(as_index(t) * links_of_task(), tasks[as_index(t)]); });
         gather(tasks);
-        m_unit.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - m_unit.first_wide;
-        m_unit.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - m_unit.first_row;
-        m_unit.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_unit.first_core;
-        m_unit.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - m_unit.first_impact_row;
+        m_island.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - m_island.first_wide;
+        m_island.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - m_island.first_row;
+        m_island.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_island.first_core;
+        m_island.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - m_island.first_impact_row;
     }
 
 private:
@@ -61,46 +61,46 @@ private:
     // Of whole cells of the plane, and about as much work to each.
     void find_parts()
     {
-        if (m_unit.parts == 0)
+        if (m_island.parts == 0)
             return;
-        std::fill_n(m_scratch.parts.begin() + m_unit.first_state, m_unit.state_count, no_part);
-        const std::vector<CellOfUnit>& cells = find_cells();
+        std::fill_n(m_scratch.parts.begin() + m_island.first_state, m_island.state_count, no_part);
+        const std::vector<CellOfIsland>& cells = find_cells();
         std::int64_t all = 0;
-        for (const CellOfUnit& cell : cells)
+        for (const CellOfIsland& cell : cells)
             all += cell.work;
         std::int64_t before = 0;
-        auto to = m_scratch.parts.begin() + m_unit.first_state + 1;
-        for (const CellOfUnit& cell : cells)
+        auto to = m_scratch.parts.begin() + m_island.first_state + 1;
+        for (const CellOfIsland& cell : cells)
         {
-            to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_unit.parts / all));
+            to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_island.parts / all));
             before += cell.work;
         }
     }
 
     // In the order in which the states stand; on all threads, and then those that lie in two tasks become one.
-    [[nodiscard]] const std::vector<CellOfUnit>& find_cells() const
+    [[nodiscard]] const std::vector<CellOfIsland>& find_cells() const
     {
-        using Some = std::vector<CellOfUnit>;
+        using Some = std::vector<CellOfIsland>;
         const std::span<Some> tasks =
-            find_in_parts(m_ctx.scene.def.tasks, as_index(m_unit.dynamic_count), bodies_per_task, m_scratch.cells_of_task,
+            find_in_parts(m_ctx.scene.def.tasks, as_index(m_island.dynamic_count), bodies_per_task, m_scratch.cells_of_task,
                           [&](std::size_t first, std::size_t last, Some& cells)
                           {
                               cells.clear();
                               for (std::size_t i = first; i < last; ++i)
                               {
-                                  const int body = m_scratch.state_bodies[as_index(m_unit.first_state + 1) + i];
+                                  const int body = m_scratch.state_bodies[as_index(m_island.first_state + 1) + i];
                                   add_to_cells(cells, {m_state.bodies[body].plane_cell, 1, work_of(body)});
                               }
                           });
         for (const Some& cells : tasks.subspan(1))
         {
-            for (const CellOfUnit& cell : cells)
+            for (const CellOfIsland& cell : cells)
                 add_to_cells(tasks[0], cell);
         }
         return tasks[0];
     }
 
-    static void add_to_cells(std::vector<CellOfUnit>& cells, const CellOfUnit& more)
+    static void add_to_cells(std::vector<CellOfIsland>& cells, const CellOfIsland& more)
     {
         if (cells.empty() || cells.back().cell != more.cell)
         {
@@ -114,25 +114,26 @@ private:
     // As many rows as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
     [[nodiscard]] std::int64_t work_of(int body) const
     {
-        return m_unit.parts > few_parts ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
+        return m_island.parts > few_parts ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
     }
 
     // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
     [[nodiscard]] int part_of(const Link& l) const
     {
-        if (m_unit.parts == 0)
+        if (m_island.parts == 0)
             return 0;
         const std::uint16_t a = m_scratch.parts[as_index(l.a)];
         const std::uint16_t b = m_scratch.parts[as_index(l.b)];
-        return a == b || b == no_part ? a : a == no_part ? b : m_unit.parts;
+        return a == b || b == no_part ? a : a == no_part ? b : m_island.parts;
     }
 
     // --- states -----------------------------------------------------------------------------------------------------------------------
 
-    // Of kinematic bodies each unit has its own.
+    // Of kinematic bodies each island has its own.
     void name_copies()
     {
-        for (std::int32_t s = m_unit.first_state + 1 + m_unit.dynamic_count; s < m_unit.first_state + m_unit.state_count; ++s)
+        for (std::int32_t s = m_island.first_state + 1 + m_island.dynamic_count; s < m_island.first_state + m_island.state_count;
+             ++s)
         {
             const int body = m_scratch.state_bodies[as_index(s)];
             m_scratch.state_of[as_index(m_state.bodies[body].awake_index)] = s;
@@ -142,21 +143,21 @@ private:
     // Of a place as in Link.
     [[nodiscard]] std::int32_t state_at(std::int32_t place) const
     {
-        return place == none ? m_unit.first_state : m_scratch.state_of[as_index(place >= 0 ? place : -2 - place)];
+        return place == none ? m_island.first_state : m_scratch.state_of[as_index(place >= 0 ? place : -2 - place)];
     }
 
     // --- colours and counts -----------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] std::span<Link> links() const
     {
-        return std::span(m_scratch.solved_links).subspan(as_index(m_unit.first_link), as_index(m_unit.link_count));
+        return std::span(m_scratch.solved_links).subspan(as_index(m_island.first_link), as_index(m_island.link_count));
     }
 
-    // A small unit is one task.
+    // A small island is one task.
     [[nodiscard]] std::size_t links_of_task() const
     {
-        return m_unit.parts > 0 ? std::max(links_per_task, links().size() / most_tasks)
-                                : std::max<std::size_t>(links().size(), 1);
+        return m_island.parts > 0 ? std::max(links_per_task, links().size() / most_tasks)
+                                  : std::max<std::size_t>(links().size(), 1);
     }
 
     // They name states from here on.
@@ -166,7 +167,7 @@ private:
                              m_scratch.places_of_task,
                              [&](std::size_t first, std::size_t last, SomePlaces& some)
                              {
-                                 some.lanes.resize(std::max(some.lanes.size(), as_index((m_unit.parts + 1) * bins_to_a_part)));
+                                 some.lanes.resize(std::max(some.lanes.size(), as_index((m_island.parts + 1) * bins_to_a_part)));
                                  some.uncolored.clear();
                                  some.cores.clear();
                                  some.colors = 0;
@@ -218,7 +219,7 @@ private:
     {
         const int color = l.color();
         const bool in_lane =
-            m_unit.wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
+            m_island.wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
         l.about = static_cast<std::uint16_t>(l.about | (in_lane ? link_flag::in_lane : 0));
         l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
         ++some.place_for(l);
@@ -239,23 +240,23 @@ private:
         std::uint64_t colors = 0;
         for (const SomePlaces& some : tasks)
             colors |= some.colors;
-        m_unit.colors = static_cast<std::int32_t>(std::bit_width(colors));
+        m_island.colors = static_cast<std::int32_t>(std::bit_width(colors));
         auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
-        m_unit.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
-        m_unit.bin_count = 2 * m_unit.colors;
-        for (std::int32_t part = 0; part <= m_unit.parts; ++part)
+        m_island.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
+        m_island.bin_count = 2 * m_island.colors;
+        for (std::int32_t part = 0; part <= m_island.parts; ++part)
         {
-            for (std::int32_t bin = 0; bin < m_unit.bin_count; ++bin)
+            for (std::int32_t bin = 0; bin < m_island.bin_count; ++bin)
             {
-                m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
+                m_scratch.bin_starts.push_back(lane / lane_count - m_island.first_wide);
                 give_out(
                     tasks, [&](SomePlaces& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
                     lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
         }
-        m_scratch.bin_starts.push_back(lane / lane_count - m_unit.first_wide);
-        auto row = m_unit.first_row;
+        m_scratch.bin_starts.push_back(lane / lane_count - m_island.first_wide);
+        auto row = m_island.first_row;
         for_each_row_bin(
             [&](int color)
             {
@@ -277,7 +278,7 @@ private:
     template <class Visit>
     void for_each_row_bin(const Visit& visit) const
     {
-        for (int color = 0; color < m_unit.colors; ++color)
+        for (int color = 0; color < m_island.colors; ++color)
             visit(color);
         visit(color_limit);
     }
@@ -289,26 +290,26 @@ private:
             const Link& l = links()[i];
             const std::int32_t at = some.place_for(l)++;
             (l.has(link_flag::in_lane) ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
-                m_unit.first_link + static_cast<std::int32_t>(i);
+                m_island.first_link + static_cast<std::int32_t>(i);
             if (l.has(link_flag::in_lane) && l.points() > 0)
                 add_core(l, at, some);
         }
-        for (std::int32_t part = 0; part <= m_unit.parts; ++part)
-            std::fill_n(some.lanes.begin() + part * bins_to_a_part, m_unit.bin_count, 0);
+        for (std::int32_t part = 0; part <= m_island.parts; ++part)
+            std::fill_n(some.lanes.begin() + part * bins_to_a_part, m_island.bin_count, 0);
         for_each_row_bin([&](int color) { some.rows[color] = 0; });
     }
 
     // Balls and bodies in joints have a core against walls.
     void add_core(const Link& l, std::int32_t lane, SomePlaces& some) const
     {
-        const bool a_gives = is_dynamic(m_unit, l.a);
-        if (a_gives && is_dynamic(m_unit, l.b))
+        const bool a_gives = is_dynamic(m_island, l.a);
+        if (a_gives && is_dynamic(m_island, l.b))
             return;
         const Contact& contact = m_state.contacts[l.contact];
         const ShapeRecord& shape = m_state.shapes[a_gives ? contact.shape_a : contact.shape_b];
         if (shape.leaf.type == LeafType::Circle || m_state.bodies[shape.body].first_joint != none)
             some.cores.push_back(
-                {lane - m_unit.first_wide * lane_count, l.points(), core_depth(m_state, contact, contact.manifold, a_gives)});
+                {lane - m_island.first_wide * lane_count, l.points(), core_depth(m_state, contact, contact.manifold, a_gives)});
     }
 
     // Cores of one body are of different colours: in the order of lanes wherever in a bin these are.
@@ -316,8 +317,8 @@ private:
     {
         for (const SomePlaces& some : tasks)
             append_all(m_scratch.cores, some.cores);
-        std::ranges::sort(m_scratch.cores.begin() + m_unit.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
-        for (auto row = m_unit.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
+        std::ranges::sort(m_scratch.cores.begin() + m_island.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
+        for (auto row = m_island.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
         {
             if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].has(link_flag::bears))
                 m_scratch.impact_rows.push_back(row);
@@ -327,17 +328,17 @@ private:
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    Unit& m_unit;
+    Island& m_island;
     bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
 };
 
 // Whatever the number of threads: the order in which rows are solved depends on it.
-int parts_of(const Unit& unit)
+int parts_of(const Island& island)
 {
-    const int few = std::min(unit.link_count / links_to_a_part, few_parts);
-    const int many = std::min({unit.link_count / links_to_a_huge_part, unit.dynamic_count / bodies_to_a_cell, most_parts});
+    const int few = std::min(island.link_count / links_to_a_part, few_parts);
+    const int many = std::min({island.link_count / links_to_a_huge_part, island.dynamic_count / bodies_to_a_cell, most_parts});
     const int parts = std::max(few, many);
-    return unit.wide && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
+    return island.wide && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
 } // namespace
@@ -345,16 +346,17 @@ int parts_of(const Unit& unit)
 void sort_links(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    sort_by_unit(
-        {}, scratch, scratch.links, scratch.solved_links, links_per_task, [&](std::size_t i) { return scratch.unit_of_link[i]; },
-        [](Unit& unit, int first, int count)
+    sort_by_island(
+        {}, scratch, scratch.links, scratch.solved_links, links_per_task,
+        [&](std::size_t i) { return scratch.island_of_link[i]; },
+        [](Island& island, int first, int count)
         {
-            unit.first_link = first;
-            unit.link_count = count;
+            island.first_link = first;
+            island.link_count = count;
         });
 }
 
-void place_rows_of_small_units(StepContext& ctx)
+void place_rows_of_small_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     set_size(scratch.parts, scratch.state_bodies.size());
@@ -363,20 +365,20 @@ void place_rows_of_small_units(StepContext& ctx)
     scratch.impact_rows.clear();
     scratch.cores.clear();
     scratch.bin_starts.clear();
-    for (Unit& unit : scratch.units)
+    for (Island& island : scratch.islands)
     {
-        unit.parts = parts_of(unit);
-        if (unit.parts == 0)
-            RowPlaces(ctx, unit).find();
+        island.parts = parts_of(island);
+        if (island.parts == 0)
+            RowPlaces(ctx, island).find();
     }
 }
 
-void place_rows_of_large_units(StepContext& ctx)
+void place_rows_of_large_islands(StepContext& ctx)
 {
-    for (Unit& unit : ctx.scratch.units)
+    for (Island& island : ctx.scratch.islands)
     {
-        if (unit.parts > 0)
-            RowPlaces(ctx, unit).find();
+        if (island.parts > 0)
+            RowPlaces(ctx, island).find();
     }
 }
 

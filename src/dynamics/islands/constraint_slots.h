@@ -1,16 +1,16 @@
 #pragma once
 
-// Where contact rows stand: the last part of the units stage.
+// Where contact rows stand: the last part of the islands stage.
 
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// Links stand unit by unit. By one thread: others have states to place.
+/// Links stand island by island. By one thread: others have states to place.
 void sort_links(StepContext& ctx);
 
-/// After both states and links have their places, those of small units one after the other; large ones, on all threads, behind them.
-void place_rows_of_small_units(StepContext& ctx);
-void place_rows_of_large_units(StepContext& ctx);
+/// After both states and links have their places, those of small islands one after the other; large ones, on all threads, behind them.
+void place_rows_of_small_islands(StepContext& ctx);
+void place_rows_of_large_islands(StepContext& ctx);
 
 } // namespace carom::internal

@@ -130,7 +130,7 @@ ContactLinks::ContactLinks(StepContext& ctx, std::size_t contacts_to_a_task)
     // Links of the last step are compared with these, and give their place to them.
     SomeLinks& all = links_of(0);
     all.links.swap(scratch.links);
-    all.stay = scratch.kept_units.are_plain;
+    all.stay = scratch.cached_graph.are_plain;
     all.to_compare = all.stay ? all.links.size() : 0;
     set_size(all.links, std::max(all.links.size(), ctx.state.awake_contacts.size()));
 }
@@ -207,10 +207,10 @@ void ContactLinks::join()
     {
         parts[0].links.resize(count);
         scratch.links.swap(parts[0].links);
-        scratch.kept_units.links_stay = parts[0].stay && count == parts[0].to_compare;
+        scratch.cached_graph.links_stay = parts[0].stay && count == parts[0].to_compare;
         return;
     }
-    const bool may_stay = scratch.kept_units.are_plain && scratch.links.size() == count;
+    const bool may_stay = scratch.cached_graph.are_plain && scratch.links.size() == count;
     set_size(scratch.links, count);
     for_each_in_parts(m_ctx.scene.def.tasks, parts.size(), parts_joined_at_once,
                       [&](std::size_t i)
@@ -220,7 +220,7 @@ void ContactLinks::join()
                           parts[i].stay = may_stay && std::equal(found.begin(), found.end(), to, is_same);
                           std::ranges::copy(found, to);
                       });
-    scratch.kept_units.links_stay = may_stay && std::ranges::all_of(parts, &SomeLinks::stay);
+    scratch.cached_graph.links_stay = may_stay && std::ranges::all_of(parts, &SomeLinks::stay);
 }
 
 } // namespace carom::internal

@@ -1,5 +1,5 @@
-// Units are what touches, is joined or may come to touch in this step, through dynamic bodies, joined further where flight paths may meet. A unit's kind
-// depends on its content alone, never on threads or the order of other units.
+// Islands are what touches, is joined or may come to touch in this step, through dynamic bodies, joined further where flight paths may meet. An island's kind
+// depends on its content alone, never on threads or the order of other islands.
 
 #include "dynamics/islands/island_graph.h"
 
@@ -31,7 +31,7 @@ constexpr int hinge_slice_limit = 64; // between bodies that move by themselves:
 constexpr std::size_t fliers_per_task = 128;
 constexpr std::size_t reaches_per_task = 4; // blocks of eight
 constexpr float calm_swing = 0.1f;          // rad, in a step
-constexpr int enough_bodies = 256;          // in a unit of heaps, or of bodies that are alone
+constexpr int enough_bodies = 256;          // in an island of heaps, or of bodies that are alone
 constexpr std::size_t enough_joints = 8;    // in a heap
 constexpr int most_sets = 4;                // that are linked side by side
 
@@ -44,13 +44,13 @@ bool gets_rows(const SceneState& state, const Contact& contact)
 
 // --- the graph --------------------------------------------------------------------------------------------------------------------
 
-class UnitGraph
+class IslandGraph
 {
 public:
-    explicit UnitGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+    explicit IslandGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
     // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
-    void link_units()
+    void link_islands()
     {
         const int worth = 1 + static_cast<int>((scratch.links.size() + scratch.joint_links.size()) / links_per_task);
         const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, std::min(worth, most_sets));
@@ -128,19 +128,19 @@ public:
         {
             if (!l.has(link_flag::solved))
                 continue;
-            UnitTally& t = tally(unit_of_link(l));
+            IslandTally& t = tally(island_of_link(l));
             ++t.contacts;
             t.bearing += l.has(link_flag::bears) ? 1 : 0;
         }
     }
 
-    [[nodiscard]] UnitTally& tally(std::int32_t unit) { return scratch.tallies[static_cast<std::size_t>(unit)]; }
-    [[nodiscard]] UnitTally& tally_of(std::int32_t place) { return tally(scratch.unit_of[static_cast<std::size_t>(place)]); }
+    [[nodiscard]] IslandTally& tally(std::int32_t island) { return scratch.tallies[static_cast<std::size_t>(island)]; }
+    [[nodiscard]] IslandTally& tally_of(std::int32_t place) { return tally(scratch.island_of[static_cast<std::size_t>(place)]); }
     [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
     template <class AnyLink>
-    [[nodiscard]] std::int32_t unit_of_link(const AnyLink& l) const
+    [[nodiscard]] std::int32_t island_of_link(const AnyLink& l) const
     {
-        return scratch.unit_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
+        return scratch.island_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
     }
 
     // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
@@ -148,21 +148,21 @@ public:
     {
         const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
                               std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
-                                          [](const UnitTally& t) { return t.bodies <= precise_limit; });
+                                          [](const IslandTally& t) { return t.bodies <= precise_limit; });
         if (may_turn)
-            for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+            for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
                               [&](std::size_t place) { slice_at_contacts_of(static_cast<std::int32_t>(place)); });
         find_swings();
         for (std::size_t i = 0; i < scratch.joint_links.size(); ++i)
         {
             const JointLink& j = scratch.joint_links[i];
-            UnitTally& t = tally(unit_of_link(j));
+            IslandTally& t = tally(island_of_link(j));
             ++t.joints;
             t.hangs |= j.a < 0 || j.b < 0;
             t.damped += j.damped ? 1 : 0;
             t.swing = std::max(t.swing, scratch.swings[i]);
         }
-        for (UnitTally& t : scratch.tallies)
+        for (IslandTally& t : scratch.tallies)
             t.slices = std::max(t.slices, slices_for(t.swing, slice_swing, slice_limit));
     }
 
@@ -171,33 +171,33 @@ public:
         return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
     }
 
-    // Of a small unit.
+    // Of a small island.
     void slice_at_contacts_of(std::int32_t place)
     {
-        const std::int32_t unit = scratch.unit_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
-        if (unit == none || tally(unit).bodies > precise_limit)
+        const std::int32_t island = scratch.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
+        if (island == none || tally(island).bodies > precise_limit)
             return;
         for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
         {
             const Contact& contact = state.contacts[edge >> 1];
             if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
-                slice_at_contact(contact, unit);
+                slice_at_contact(contact, island);
         }
     }
 
     // Others may do so as well: the most that anyone wants.
-    void slice_at_contact(const Contact& contact, std::int32_t unit)
+    void slice_at_contact(const Contact& contact, std::int32_t island)
     {
         const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
         const std::int32_t wanted = slices_for(turn_rate(contact), slice_turn, both_move ? hinge_slice_limit : slice_limit);
-        const std::atomic_ref slices(tally(unit).slices);
+        const std::atomic_ref slices(tally(island).slices);
         std::int32_t before = slices.load(std::memory_order_relaxed);
         while (before < wanted && !slices.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
         {
         }
     }
 
-    // Of joints in small units, on all threads.
+    // Of joints in small islands, on all threads.
     void find_swings()
     {
         set_size(scratch.swings, scratch.joint_links.size());
@@ -205,53 +205,53 @@ public:
                           [&](std::size_t i)
                           {
                               const JointLink& j = scratch.joint_links[i];
-                              const bool small = tally(unit_of_link(j)).bodies <= UnitEnergy::most_bodies;
+                              const bool small = tally(island_of_link(j)).bodies <= IslandEnergy::most_bodies;
                               scratch.swings[i] = small ? swing_rate(state.joints[j.joint]) : 0;
                           });
     }
 
-    // Heaps are solved side by side, several in a unit: its lanes are fuller, and none sees the others. So are bodies that are alone, for they are many.
-    void form_units()
+    // Heaps are solved side by side, several in an island: its lanes are fuller, and none sees the others. So are bodies that are alone, for they are many.
+    void form_islands()
     {
         find_alone();
-        std::vector<std::int32_t>& unit_of_group = scratch.order;
-        unit_of_group.clear();
-        scratch.units.clear();
+        std::vector<std::int32_t>& island_of_group = scratch.order;
+        island_of_group.clear();
+        scratch.islands.clear();
         Batch heaps;
         Batch lone;
-        for (const UnitTally& t : scratch.tallies)
+        for (const IslandTally& t : scratch.tallies)
         {
             const bool heap = is_heap(t);
             const bool alone = t.bodies == 1 && t.fliers == 1 && scratch.is_alone[static_cast<std::size_t>(t.first)] != 0;
             Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
-            if (batch == nullptr || batch->unit == none || batch->bodies >= enough_bodies)
+            if (batch == nullptr || batch->island == none || batch->bodies >= enough_bodies)
             {
-                append(scratch.units, {});
-                Unit& unit = scratch.units.back();
-                unit.slices = heap ? 1 : t.slices;
-                unit.heap = heap;
-                unit.alone = alone;
+                append(scratch.islands, {});
+                Island& island = scratch.islands.back();
+                island.slices = heap ? 1 : t.slices;
+                island.heap = heap;
+                island.alone = alone;
                 if (batch != nullptr)
-                    *batch = {static_cast<std::int32_t>(scratch.units.size()) - 1, 0};
+                    *batch = {static_cast<std::int32_t>(scratch.islands.size()) - 1, 0};
             }
             if (batch != nullptr)
                 batch->bodies += t.bodies;
-            unit_of_group.push_back(batch != nullptr ? batch->unit : static_cast<std::int32_t>(scratch.units.size()) - 1);
+            island_of_group.push_back(batch != nullptr ? batch->island : static_cast<std::int32_t>(scratch.islands.size()) - 1);
         }
-        ctx.report.units = static_cast<int>(scratch.tallies.size());
-        if (scratch.units.size() == scratch.tallies.size())
+        ctx.report.islands = static_cast<int>(scratch.tallies.size());
+        if (scratch.islands.size() == scratch.tallies.size())
             return;
-        for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+        for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
                           [&](std::size_t place)
                           {
-                              std::int32_t& u = scratch.unit_of[place];
-                              u = u == none ? none : unit_of_group[static_cast<std::size_t>(u)];
+                              std::int32_t& u = scratch.island_of[place];
+                              u = u == none ? none : island_of_group[static_cast<std::size_t>(u)];
                           });
     }
 
     struct Batch
     {
-        std::int32_t unit = none;
+        std::int32_t island = none;
         int bodies = 0;
     };
 
@@ -296,12 +296,12 @@ public:
 
     // What joints hold exactly otherwise is held softly here, as in piles: where it lies on something, for four joints a contact bears a load; and where
     // all joints brake or damp what they hold, and none of it turns fast near something that it may meet. None holds to what does not move.
-    [[nodiscard]] bool is_heap(const UnitTally& t) const
+    [[nodiscard]] bool is_heap(const IslandTally& t) const
     {
         const bool calm = t.slices == 1;
         const bool lies = 4 * t.bearing >= t.joints && calm;
         const bool wearies = t.damped == t.joints && (t.contacts == 0 || (calm && ctx.dt * t.swing < calm_swing));
-        return static_cast<std::size_t>(t.joints) >= enough_joints && t.bodies <= UnitEnergy::most_bodies && !t.hangs &&
+        return static_cast<std::size_t>(t.joints) >= enough_joints && t.bodies <= IslandEnergy::most_bodies && !t.hangs &&
                t.fliers == 0 && (lies || wearies);
     }
 
@@ -342,8 +342,8 @@ public:
                       : 0;
     }
 
-    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same unit, or the
-    // two would meet in different times. True where units have become one.
+    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same island, or the
+    // two would meet in different times. True where islands have become one.
     bool link_deflected()
     {
         find_deflected();
@@ -360,8 +360,8 @@ public:
         bool linked = false;
         for (const Meetings& some : parts)
         {
-            for (const auto& [unit, other] : some)
-                linked |= scratch.sets.link(unit, other, false);
+            for (const auto& [island, other] : some)
+                linked |= scratch.sets.link(island, other, false);
         }
         return linked;
     }
@@ -386,10 +386,10 @@ public:
             state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
     }
 
-    // A struck body may leave as fast as the one that strikes it comes. So each unit notes the longest way of its fliers that may still meet something.
+    // A struck body may leave as fast as the one that strikes it comes. So each island notes the longest way of its fliers that may still meet something.
     void find_fastest()
     {
-        for (UnitTally& t : scratch.tallies)
+        for (IslandTally& t : scratch.tallies)
             t.longest_way = 0;
         set_size(scratch.may_meet, state.awake_bodies.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
@@ -419,7 +419,7 @@ public:
         {
             const std::int32_t item = scratch.flying[i];
             const auto place = static_cast<std::size_t>(item);
-            const float way = scratch.tallies[static_cast<std::size_t>(scratch.unit_of[place])].longest_way;
+            const float way = scratch.tallies[static_cast<std::size_t>(scratch.island_of[place])].longest_way;
             if (way == 0 || !(flies_far(item) ? scratch.may_meet[place] != 0 : may_meet(item)))
                 continue;
             scratch.is_deflected[place] = 1;
@@ -447,18 +447,18 @@ public:
         return edge != none;
     }
 
-    // Units that meet; notes what else may be struck.
+    // Islands that meet; notes what else may be struck.
     void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
     {
         const BoxTree& tree = scratch.reach_tree;
         meetings.clear();
         const auto note = [&](std::int32_t place, std::int32_t other)
         {
-            const std::pair units(scratch.unit_of[static_cast<std::size_t>(place)],
-                                  scratch.unit_of[static_cast<std::size_t>(other)]);
-            const bool is_known = !meetings.empty() && meetings.back() == units;
-            if (units.second != none && units.first != units.second && !is_known) // kinematic bodies have none
-                meetings.push_back(units);
+            const std::pair islands(scratch.island_of[static_cast<std::size_t>(place)],
+                                    scratch.island_of[static_cast<std::size_t>(other)]);
+            const bool is_known = !meetings.empty() && meetings.back() == islands;
+            if (islands.second != none && islands.first != islands.second && !is_known) // kinematic bodies have none
+                meetings.push_back(islands);
         };
         for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
         {
@@ -489,14 +489,14 @@ public:
         return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
     }
 
-    // What must be solved together, in the order of its first body; every dynamic body gets its unit, and is counted there. Who is first is not asked by a
+    // What must be solved together, in the order of its first body; every dynamic body gets its island, and is counted there. Who is first is not asked by a
     // branch: it would be guessed wrong.
-    void number_units()
+    void number_islands()
     {
         const std::size_t n = state.awake_bodies.size();
         std::vector<std::int32_t>& firsts = scratch.order;
         set_size(firsts, n + 1);
-        set_size(scratch.unit_of, n);
+        set_size(scratch.island_of, n);
         std::int32_t count = 0;
         for (std::size_t i = 0; i < n; ++i)
         {
@@ -504,27 +504,27 @@ public:
             const bool moves = !scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic;
             const bool is_first = before == i;
             firsts[static_cast<std::size_t>(count)] = static_cast<std::int32_t>(i);
-            scratch.unit_of[i] = is_first ? (moves ? count : none) : scratch.unit_of[before];
+            scratch.island_of[i] = is_first ? (moves ? count : none) : scratch.island_of[before];
             count += is_first && moves ? 1 : 0;
         }
         scratch.tallies.clear();
         set_size(scratch.tallies, static_cast<std::size_t>(count));
-        for (std::int32_t unit = 0; unit < count; ++unit)
-            tally(unit).first = firsts[static_cast<std::size_t>(unit)];
+        for (std::int32_t island = 0; island < count; ++island)
+            tally(island).first = firsts[static_cast<std::size_t>(island)];
         for_each_run(
-            0, n, [&](std::size_t i) { return scratch.unit_of[i]; },
-            [&](const UnitRun& run) { tally(run.unit).bodies += run.count; });
+            0, n, [&](std::size_t i) { return scratch.island_of[i]; },
+            [&](const IslandRun& run) { tally(run.island).bodies += run.count; });
     }
 
-    // After units have become one: those that are left keep their order.
-    void renumber_units()
+    // After islands have become one: those that are left keep their order.
+    void renumber_islands()
     {
         std::vector<std::int32_t>& numbers = scratch.order;
         set_size(numbers, scratch.tallies.size());
         std::int32_t count = 0;
         for (std::size_t u = 0; u < scratch.tallies.size(); ++u)
         {
-            const UnitTally old{.first = scratch.tallies[u].first, .bodies = scratch.tallies[u].bodies};
+            const IslandTally old{.first = scratch.tallies[u].first, .bodies = scratch.tallies[u].bodies};
             const auto before = static_cast<std::size_t>(scratch.sets.before(u));
             numbers[u] = before == u ? count++ : numbers[before];
             if (before == u)
@@ -533,11 +533,11 @@ public:
                 tally(numbers[u]).bodies += old.bodies;
         }
         scratch.tallies.resize(static_cast<std::size_t>(count));
-        for_each_in_parts(ctx.scene.def.tasks, scratch.unit_of.size(), bodies_per_task,
+        for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
                           [&](std::size_t place)
                           {
-                              std::int32_t& unit = scratch.unit_of[place]; // kinematic bodies have none
-                              unit = unit == none ? none : numbers[static_cast<std::size_t>(unit)];
+                              std::int32_t& island = scratch.island_of[place]; // kinematic bodies have none
+                              island = island == none ? none : numbers[static_cast<std::size_t>(island)];
                           });
     }
 
@@ -549,9 +549,9 @@ public:
     }
 
     // On all threads: what follows goes by these alone.
-    void find_units_of_links()
+    void find_islands_of_links()
     {
-        set_size(scratch.unit_of_link, scratch.links.size());
+        set_size(scratch.island_of_link, scratch.links.size());
         using Some = std::vector<KinematicMeeting>;
         const std::span<Some> parts =
             find_in_parts(ctx.scene.def.tasks, scratch.links.size(), links_per_task, scratch.meetings_with_kinematic_of_task,
@@ -561,41 +561,41 @@ public:
                               for (std::size_t i = first; i < last; ++i)
                               {
                                   const Link& l = scratch.links[i];
-                                  const std::int32_t unit = scratch.unit_of_link[i] = unit_of_row(l);
+                                  const std::int32_t island = scratch.island_of_link[i] = island_of_row(l);
                                   const std::int32_t kinematic = std::min(l.a, l.b); // if either is
-                                  if (kinematic < none && unit != none)
-                                      meetings.push_back({unit, static_cast<std::int32_t>(i), -2 - kinematic});
+                                  if (kinematic < none && island != none)
+                                      meetings.push_back({island, static_cast<std::int32_t>(i), -2 - kinematic});
                               }
                           });
         scratch.meetings_with_kinematic.clear();
         for (const Some& some : parts)
             append_all(scratch.meetings_with_kinematic, some);
         std::ranges::sort(scratch.meetings_with_kinematic, {},
-                          [](const KinematicMeeting& m) { return std::pair(m.unit, m.link); });
+                          [](const KinematicMeeting& m) { return std::pair(m.island, m.link); });
     }
 
     void sort_joints()
     {
-        sort_by_unit(
+        sort_by_island(
             ctx.scene.def.tasks, scratch, scratch.joint_links, scratch.solved_joints, joints_per_task,
-            [&](std::size_t i) { return unit_of_link(scratch.joint_links[i]); },
-            [](Unit& unit, int first, int count)
+            [&](std::size_t i) { return island_of_link(scratch.joint_links[i]); },
+            [](Island& island, int first, int count)
             {
-                unit.first_joint = first;
-                unit.joint_count = count;
+                island.first_joint = first;
+                island.joint_count = count;
             });
     }
 
-    // By unit, and of a unit by where they lie in the plane: threads that take parts of a unit seldom meet in one body.
+    // By island, and of an island by where they lie in the plane: threads that take parts of an island seldom meet in one body.
     void sort_bodies()
     {
-        sort_by_unit(
+        sort_by_island(
             ctx.scene.def.tasks, scratch, scratch.in_plane, scratch.solved_bodies, bodies_per_task,
-            [&](std::size_t i) { return scratch.unit_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
-            [](Unit& unit, int first, int count)
+            [&](std::size_t i) { return scratch.island_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
+            [](Island& island, int first, int count)
             {
-                unit.first_state = first;
-                unit.dynamic_count = count;
+                island.first_state = first;
+                island.dynamic_count = count;
             });
     }
 
@@ -617,10 +617,10 @@ public:
 
 private:
     // None where it gets no row.
-    [[nodiscard]] std::int32_t unit_of_row(const Link& l) const
+    [[nodiscard]] std::int32_t island_of_row(const Link& l) const
     {
         if (gets_row(l))
-            return unit_of_link(l);
+            return island_of_link(l);
         if (l.has(link_flag::solved))
             leave_row(state, l.contact);
         return none;
@@ -633,21 +633,21 @@ private:
 
 } // namespace
 
-void build_unit_graph(StepContext& ctx)
+void build_island_graph(StepContext& ctx)
 {
-    UnitGraph graph(ctx);
-    graph.link_units();
-    run_both(ctx.scene.def.tasks, [&] { graph.number_units(); }, [&] { graph.sort_by_cell(); });
+    IslandGraph graph(ctx);
+    graph.link_islands();
+    run_both(ctx.scene.def.tasks, [&] { graph.number_islands(); }, [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
     while (graph.link_deflected())
     {
-        graph.renumber_units();
+        graph.renumber_islands();
         graph.ground_crowds();
     }
     graph.count_contacts();
     graph.choose_slices();
-    graph.form_units();
-    graph.find_units_of_links();
+    graph.form_islands();
+    graph.find_islands_of_links();
     graph.sort_joints();
     graph.sort_bodies();
     ctx.state.graph_dirty = false;

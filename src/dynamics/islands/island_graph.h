@@ -1,6 +1,6 @@
 #pragma once
 
-// Who is solved together in this step, and what a body does in it: the first half of the units stage.
+// Who is solved together in this step, and what a body does in it: the first half of the islands stage.
 
 #include "dynamics/solver/contact/coloring.h"
 #include "dynamics/step_context.h"
@@ -10,7 +10,7 @@ namespace carom::internal {
 inline constexpr int precise_limit =
     16; ///< bodies, as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
 
-/// When all links are known: fills Scratch::units with how many states and joints each has, solved_bodies and solved_joints in their order, unit_of_link, and who flies.
-void build_unit_graph(StepContext& ctx);
+/// When all links are known: fills Scratch::islands with how many states and joints each has, solved_bodies and solved_joints in their order, island_of_link, and who flies.
+void build_island_graph(StepContext& ctx);
 
 } // namespace carom::internal

@@ -1,5 +1,5 @@
-// Everything that a unit needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its rows (constraint_slots.cpp), its joints.
-// States are filled here, on all threads; rows and joints in island_constraints.cpp, just before the unit is solved.
+// Everything that an island needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its rows (constraint_slots.cpp), its joints.
+// States are filled here, on all threads; rows and joints in island_constraints.cpp, just before the island is solved.
 
 #include "dynamics/islands/island_layout.h"
 
@@ -31,16 +31,16 @@ namespace {
 constexpr std::int32_t places_per_task = 512;
 
 // Are its contacts solved in lanes? Not what is looked at anew within the step, sliced, or watched for its energy.
-bool is_wide(const Unit& unit)
+bool is_wide(const Island& island)
 {
-    return unit.heap ||
-           (!unit.precise && unit.slices == 1 && (unit.joint_count == 0 || unit.dynamic_count > UnitEnergy::most_bodies));
+    return island.heap || (!island.precise && island.slices == 1 &&
+                           (island.joint_count == 0 || island.dynamic_count > IslandEnergy::most_bodies));
 }
 
-class UnitLayout
+class IslandLayout
 {
 public:
-    explicit UnitLayout(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch) {}
+    explicit IslandLayout(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch) {}
 
     // --- places of states -------------------------------------------------------------------------------------------------------------
 
@@ -49,8 +49,8 @@ public:
         m_scratch.state_bodies.clear();
         m_scratch.state_of.assign(m_state.awake_bodies.size(), none);
         m_scratch.flier_seeds.clear();
-        for (Unit& unit : m_scratch.units)
-            place_states_of(unit);
+        for (Island& island : m_scratch.islands)
+            place_states_of(island);
         set_size(m_scratch.states, m_scratch.state_bodies.size());
         set_size(m_scratch.constants, m_scratch.state_bodies.size());
         set_size(m_scratch.flier_of_state, m_scratch.state_bodies.size());
@@ -69,15 +69,15 @@ public:
                   [&](int task)
                   {
                       if (task == 0)
-                          place_rows_of_small_units(m_ctx);
+                          place_rows_of_small_islands(m_ctx);
                       else if (task == 1)
                           place_joints();
                       else
                           fill_some_states(task - 2);
                   });
-        place_rows_of_large_units(m_ctx);
-        for (Unit& unit : m_scratch.units)
-            let_drift(unit);
+        place_rows_of_large_islands(m_ctx);
+        for (Island& island : m_scratch.islands)
+            let_drift(island);
         unbind_those(
             [&](std::size_t s)
             {
@@ -97,25 +97,25 @@ public:
                   [&](int task)
                   {
                       for_items(
-                          task, count, [](const Unit& unit) { return unit.first_flier; },
-                          [&](const StepContext& unit_ctx, const Unit&, std::int32_t i) { add_flier(unit_ctx, i); });
+                          task, count, [](const Island& island) { return island.first_flier; },
+                          [&](const StepContext& island_ctx, const Island&, std::int32_t i) { add_flier(island_ctx, i); });
                   });
     }
 
     void add_laws()
     {
         m_scratch.laws.clear();
-        for (Unit& unit : m_scratch.units)
+        for (Island& island : m_scratch.islands)
         {
-            unit.first_law = static_cast<std::int32_t>(m_scratch.laws.size());
-            for (std::int32_t s = unit.first_state + 1; m_ctx.scene.law_count > 0 && s <= unit.first_state + unit.dynamic_count;
-                 ++s)
+            island.first_law = static_cast<std::int32_t>(m_scratch.laws.size());
+            for (std::int32_t s = island.first_state + 1;
+                 m_ctx.scene.law_count > 0 && s <= island.first_state + island.dynamic_count; ++s)
             {
                 const StateConstants& c = m_scratch.constants[as_index(s)];
                 if (force_law_of(m_ctx, m_scratch.state_bodies[as_index(s)]) != nullptr)
                     m_scratch.laws.push_back({s, c.angular_acceleration, c.acceleration});
             }
-            unit.law_count = static_cast<std::int32_t>(m_scratch.laws.size()) - unit.first_law;
+            island.law_count = static_cast<std::int32_t>(m_scratch.laws.size()) - island.first_law;
         }
     }
 
@@ -130,13 +130,13 @@ public:
     // What held each state when the rows were placed holds it still.
     void bind_as_before()
     {
-        unbind_those([&](std::size_t s) { return m_scratch.kept_units.bound[s] != 0; });
+        unbind_those([&](std::size_t s) { return m_scratch.cached_graph.bound[s] != 0; });
     }
 
     void count()
     {
-        for (const Unit& unit : m_scratch.units)
-            m_ctx.report.colors = std::max(m_ctx.report.colors, static_cast<int>(unit.colors));
+        for (const Island& island : m_scratch.islands)
+            m_ctx.report.colors = std::max(m_ctx.report.colors, static_cast<int>(island.colors));
     }
 
 private:
@@ -159,51 +159,52 @@ private:
     void fill_some_states(int task)
     {
         for_items(
-            task, static_cast<std::int32_t>(m_scratch.state_bodies.size()), [](const Unit& unit) { return unit.first_state; },
-            [&](const StepContext& unit_ctx, const Unit& unit, std::int32_t i) { fill_state(unit_ctx, unit, i); });
+            task, static_cast<std::int32_t>(m_scratch.state_bodies.size()),
+            [](const Island& island) { return island.first_state; },
+            [&](const StepContext& island_ctx, const Island& island, std::int32_t i) { fill_state(island_ctx, island, i); });
     }
 
-    // Those of a task, with the step of the item's unit. Items stand unit by unit.
+    // Those of a task, with the step of the item's island. Items stand island by island.
     template <class First, class Visit>
     void for_items(int task, std::int32_t count, const First& first_of, const Visit& visit)
     {
-        const std::vector<Unit>& units = m_scratch.units;
+        const std::vector<Island>& islands = m_scratch.islands;
         const std::int32_t begin = task * places_per_task;
         const std::int32_t end = std::min(begin + places_per_task, count);
-        auto unit =
-            std::upper_bound(units.begin(), units.end(), begin, [&](std::int32_t i, const Unit& u) { return i < first_of(u); }) -
-            1;
-        for (std::int32_t i = begin; i < end; ++unit)
+        auto island = std::upper_bound(islands.begin(), islands.end(), begin,
+                                       [&](std::int32_t i, const Island& u) { return i < first_of(u); }) -
+                      1;
+        for (std::int32_t i = begin; i < end; ++island)
         {
-            const std::int32_t last = unit + 1 != units.end() ? std::min(end, first_of(*(unit + 1))) : end;
+            const std::int32_t last = island + 1 != islands.end() ? std::min(end, first_of(*(island + 1))) : end;
             if (last <= i)
                 continue;
-            const StepContext unit_ctx = unit->slices > 1 ? sliced(m_ctx, unit->slices) : m_ctx;
+            const StepContext island_ctx = island->slices > 1 ? sliced(m_ctx, island->slices) : m_ctx;
             for (; i < last; ++i)
-                visit(unit_ctx, *unit, i);
+                visit(island_ctx, *island, i);
         }
     }
 
-    // The first state stands for every body that does not move, so that units share nothing; then the dynamic bodies in the order of the plane,
+    // The first state stands for every body that does not move, so that islands share nothing; then the dynamic bodies in the order of the plane,
     // then copies of kinematic ones.
-    void place_states_of(Unit& unit)
+    void place_states_of(Island& island)
     {
-        const std::int32_t first = unit.first_state;
-        unit.first_state = add_state(none);
-        unit.precise = unit.dynamic_count <= precise_limit && !unit.heap && !unit.alone;
-        unit.wide = is_wide(unit);
-        unit.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
-        for (std::int32_t i = first; i < first + unit.dynamic_count; ++i)
+        const std::int32_t first = island.first_state;
+        island.first_state = add_state(none);
+        island.precise = island.dynamic_count <= precise_limit && !island.heap && !island.alone;
+        island.wide = is_wide(island);
+        island.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
+        for (std::int32_t i = first; i < first + island.dynamic_count; ++i)
         {
             const std::int32_t place = m_scratch.solved_bodies[as_index(i)];
             const int body = m_state.awake_bodies[as_index(place)];
             m_scratch.state_of[as_index(place)] = add_state(body);
-            seed_flier(unit, place);
+            seed_flier(island, place);
         }
-        unit.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - unit.first_flier;
-        m_ctx.report.flight_bodies += unit.alone ? unit.dynamic_count : 0;
-        copy_kinematic_bodies(unit);
-        unit.state_count = static_cast<std::int32_t>(m_scratch.state_bodies.size()) - unit.first_state;
+        island.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - island.first_flier;
+        m_ctx.report.flight_bodies += island.alone ? island.dynamic_count : 0;
+        copy_kinematic_bodies(island);
+        island.state_count = static_cast<std::int32_t>(m_scratch.state_bodies.size()) - island.first_state;
     }
 
     std::int32_t add_state(int body)
@@ -212,9 +213,9 @@ private:
         return static_cast<std::int32_t>(m_scratch.state_bodies.size()) - 1;
     }
 
-    void seed_flier(const Unit& unit, std::int32_t place)
+    void seed_flier(const Island& island, std::int32_t place)
     {
-        if (unit.alone)
+        if (island.alone)
             return;
         const std::int32_t kind = m_scratch.flight[as_index(place)];
         const std::int32_t could = m_scratch.grounded[as_index(place)];
@@ -227,7 +228,7 @@ private:
                 forget_impulses(m_state.joints[kind]);
             m_scratch.flier_seeds.push_back({s, body, kind, false});
         }
-        else if (could != earthbound && (unit.precise || may_take_off(place, could)))
+        else if (could != earthbound && (island.precise || may_take_off(place, could)))
         {
             m_scratch.flier_seeds.push_back({s, body, could, true});
         }
@@ -240,57 +241,57 @@ private:
                force_law_of(m_ctx, m_state.awake_bodies[as_index(place)]) != nullptr;
     }
 
-    // Kinematic bodies are copied into every unit they meet: their path is a function of time alone, and units then share nothing that is
+    // Kinematic bodies are copied into every island they meet: their path is a function of time alone, and islands then share nothing that is
     // written. A flier may land on one. Links of joints name states from here on.
-    void copy_kinematic_bodies(const Unit& unit)
+    void copy_kinematic_bodies(const Island& island)
     {
-        const auto index = static_cast<std::int32_t>(&unit - m_scratch.units.data());
+        const auto index = static_cast<std::int32_t>(&island - m_scratch.islands.data());
         for (const KinematicMeeting& m :
-             std::ranges::equal_range(m_scratch.meetings_with_kinematic, index, {}, &KinematicMeeting::unit))
-            static_cast<void>(state_for(unit, m_state.awake_bodies[as_index(m.place)]));
-        for (std::int32_t i = unit.first_joint; i < unit.first_joint + unit.joint_count; ++i)
+             std::ranges::equal_range(m_scratch.meetings_with_kinematic, index, {}, &KinematicMeeting::island))
+            static_cast<void>(state_for(island, m_state.awake_bodies[as_index(m.place)]));
+        for (std::int32_t i = island.first_joint; i < island.first_joint + island.joint_count; ++i)
         {
             JointLink& j = m_scratch.solved_joints[as_index(i)];
-            j.a = state_at(unit, j.a);
-            j.b = state_at(unit, j.b);
+            j.a = state_at(island, j.a);
+            j.b = state_at(island, j.b);
         }
         if (!m_scratch.has_kinematic)
             return;
-        for (std::int32_t i = unit.first_flier; i < unit.first_flier + unit.flier_count; ++i)
-            copy_those_near(unit, m_scratch.flier_seeds[as_index(i)].body);
-        for (std::int32_t s = 1; unit.precise && s <= unit.dynamic_count; ++s)
-            copy_those_near(unit, m_scratch.state_bodies[as_index(unit.first_state + s)]);
+        for (std::int32_t i = island.first_flier; i < island.first_flier + island.flier_count; ++i)
+            copy_those_near(island, m_scratch.flier_seeds[as_index(i)].body);
+        for (std::int32_t s = 1; island.precise && s <= island.dynamic_count; ++s)
+            copy_those_near(island, m_scratch.state_bodies[as_index(island.first_state + s)]);
     }
 
-    void copy_those_near(const Unit& unit, int body)
+    void copy_those_near(const Island& island, int body)
     {
         for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
         {
             const int other = other_body(m_state.contacts[edge >> 1], body);
             if (m_state.bodies[other].type == BodyType::Kinematic)
-                static_cast<void>(state_for(unit, other));
+                static_cast<void>(state_for(island, other));
         }
     }
 
-    [[nodiscard]] std::int32_t state_at(const Unit& unit, std::int32_t place)
+    [[nodiscard]] std::int32_t state_at(const Island& island, std::int32_t place)
     {
         if (place >= 0)
             return m_scratch.state_of[as_index(place)];
-        return state_for(unit, place == none ? none : m_state.awake_bodies[as_index(-2 - place)]);
+        return state_for(island, place == none ? none : m_state.awake_bodies[as_index(-2 - place)]);
     }
 
-    // The state of a body as this unit's rows see it.
-    std::int32_t state_for(const Unit& unit, int body)
+    // The state of a body as this island's rows see it.
+    std::int32_t state_for(const Island& island, int body)
     {
         if (body == none || m_state.bodies[body].awake_index == none)
-            return unit.first_state;
+            return island.first_state;
         std::int32_t& copy = m_scratch.state_of[as_index(m_state.bodies[body].awake_index)];
-        if (copy < unit.first_state)
+        if (copy < island.first_state)
             copy = add_state(body);
         return copy;
     }
 
-    void fill_state(const StepContext& unit_ctx, const Unit& unit, std::int32_t i)
+    void fill_state(const StepContext& island_ctx, const Island& island, std::int32_t i)
     {
         const int body = m_scratch.state_bodies[as_index(i)];
         BodyState& s = m_scratch.states[as_index(i)];
@@ -301,22 +302,22 @@ private:
             s = {};
         else
             start_state(m_state, body, s);
-        if (!is_dynamic(unit, i))
+        if (!is_dynamic(island, i))
         {
             c = {};
             return;
         }
-        set_constants(unit_ctx, body, c);
-        m_state.sims[as_index(body)].crowded = !unit.precise && !unit.alone;
-        if (unit.alone)
+        set_constants(island_ctx, body, c);
+        m_state.sims[as_index(body)].crowded = !island.precise && !island.alone;
+        if (island.alone)
             s.flags |= body_flag::alone;
     }
 
-    void add_flier(const StepContext& unit_ctx, std::int32_t i)
+    void add_flier(const StepContext& island_ctx, std::int32_t i)
     {
         const FlierSeed& seed = m_scratch.flier_seeds[as_index(i)];
         Flier& flier = m_scratch.fliers[as_index(i)];
-        flier = make_flier(unit_ctx, seed.state, seed.body, seed.kind);
+        flier = make_flier(island_ctx, seed.state, seed.body, seed.kind);
         flier.landed = seed.landed;
         m_scratch.event_times[as_index(i)] = 1e300;
         m_scratch.flier_of_state[as_index(seed.state)] = i;
@@ -334,28 +335,28 @@ private:
         m_scratch.bound_by_joint.assign(m_scratch.state_bodies.size(), 0);
         set_size(m_scratch.joint_colors, m_scratch.state_bodies.size());
         m_groups = 0;
-        for (Unit& unit : m_scratch.units)
-            place_joints_of(unit);
+        for (Island& island : m_scratch.islands)
+            place_joints_of(island);
     }
 
     // Where joints are solved directly and nothing touches, axes are solved for the drift along parabolas, too.
-    void let_drift(Unit& unit)
+    void let_drift(Island& island)
     {
-        const auto places = std::span(m_scratch.joint_places).subspan(as_index(unit.first_joint), as_index(unit.joint_count));
+        const auto places = std::span(m_scratch.joint_places).subspan(as_index(island.first_joint), as_index(island.joint_count));
         const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
                                          { return sum + most_rows_of(m_state.joints[place.joint]); });
-        unit.direct = unit.joint_count > 0 && unit.wide_joint_count == 0 && rows <= DirectSolve::most_rows;
-        unit.drifts = unit.direct && unit.row_count == 0 && unit.wide_count == 0;
-        if (unit.drifts)
-            std::fill_n(m_scratch.bound_by_joint.begin() + unit.first_state, unit.state_count, 0);
+        island.direct = island.joint_count > 0 && island.wide_joint_count == 0 && rows <= DirectSolve::most_rows;
+        island.drifts = island.direct && island.row_count == 0 && island.wide_count == 0;
+        if (island.drifts)
+            std::fill_n(m_scratch.bound_by_joint.begin() + island.first_state, island.state_count, 0);
     }
 
     // Marks it as taken.
-    int free_color(const Unit& unit, std::int32_t a, std::int32_t b)
+    int free_color(const Island& island, std::int32_t a, std::int32_t b)
     {
         std::uint64_t& of_a = m_scratch.joint_colors[as_index(a)];
         std::uint64_t& of_b = m_scratch.joint_colors[as_index(b)];
-        const int color = std::countr_one((is_dynamic(unit, a) ? of_a : 0) | (is_dynamic(unit, b) ? of_b : 0));
+        const int color = std::countr_one((is_dynamic(island, a) ? of_a : 0) | (is_dynamic(island, b) ? of_b : 0));
         if (color >= color_limit)
             return color_limit;
         of_a |= std::uint64_t{1} << color;
@@ -363,39 +364,39 @@ private:
         return color;
     }
 
-    // The hinges of a unit with more joints than are solved directly go side by side, by colour; the others one by one.
-    void place_joints_of(Unit& unit)
+    // The hinges of an island with more joints than are solved directly go side by side, by colour; the others one by one.
+    void place_joints_of(Island& island)
     {
-        const std::int32_t first = unit.first_joint;
-        const std::int32_t count = unit.joint_count;
-        const bool wide = unit.wide && (unit.heap || count > DirectSolve::most_rows / 2);
-        const bool uniform = wide && is_uniform(m_ctx, unit);
-        unit.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
-        unit.first_wide_joint = m_groups;
+        const std::int32_t first = island.first_joint;
+        const std::int32_t count = island.joint_count;
+        const bool wide = island.wide && (island.heap || count > DirectSolve::most_rows / 2);
+        const bool uniform = wide && is_uniform(m_ctx, island);
+        island.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
+        island.first_wide_joint = m_groups;
         if (wide)
-            std::fill_n(m_scratch.joint_colors.begin() + unit.first_state, unit.state_count, 0);
+            std::fill_n(m_scratch.joint_colors.begin() + island.first_state, island.state_count, 0);
         const std::size_t first_lane = m_scratch.joint_lanes.size();
         for (std::int32_t i = first; i < first + count; ++i)
         {
             const JointLink& j = m_scratch.solved_joints[as_index(i)];
-            if (!wide || !place_joint_in_lane(unit, j, uniform))
+            if (!wide || !place_joint_in_lane(island, j, uniform))
                 m_scratch.joint_places.push_back({j.joint, j.a, j.b});
             if (j.binds)
                 m_scratch.bound_by_joint[as_index(j.a)] = m_scratch.bound_by_joint[as_index(j.b)] = 1;
         }
-        group_joints(unit, first_lane);
-        unit.first_joint_lane = static_cast<std::int32_t>(first_lane);
-        unit.joint_lane_count = static_cast<std::int32_t>(m_scratch.joint_lanes.size() - first_lane);
-        unit.joint_count = static_cast<std::int32_t>(m_scratch.joint_places.size()) - unit.first_joint;
-        unit.wide_joint_count = m_groups - unit.first_wide_joint;
+        group_joints(island, first_lane);
+        island.first_joint_lane = static_cast<std::int32_t>(first_lane);
+        island.joint_lane_count = static_cast<std::int32_t>(m_scratch.joint_lanes.size() - first_lane);
+        island.joint_count = static_cast<std::int32_t>(m_scratch.joint_places.size()) - island.first_joint;
+        island.wide_joint_count = m_groups - island.first_wide_joint;
     }
 
     // Finds its colour; false where it must stand alone.
-    bool place_joint_in_lane(const Unit& unit, const JointLink& j, bool uniform)
+    bool place_joint_in_lane(const Island& island, const JointLink& j, bool uniform)
     {
         if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, j)))
             return false;
-        const std::int32_t color = free_color(unit, j.a, j.b);
+        const std::int32_t color = free_color(island, j.a, j.b);
         if (color == color_limit)
             return false;
         m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, {j.joint, j.a, j.b}});
@@ -421,18 +422,18 @@ private:
     }
 
     // Sorted by bin, eight by eight; each learns its lane.
-    void group_joints(Unit& unit, std::size_t first)
+    void group_joints(Island& island, std::size_t first)
     {
         const auto begin = m_scratch.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
         sort_by_bin(first);
-        unit.first_joint_bin = static_cast<std::int32_t>(m_scratch.joint_bin_starts.size());
+        island.first_joint_bin = static_cast<std::int32_t>(m_scratch.joint_bin_starts.size());
         std::int32_t bin = none;
         int lane = 0;
         std::int32_t next_bin = 0; // to begin
         for (auto l = begin; l != m_scratch.joint_lanes.end(); ++l)
         {
             for (; next_bin <= l->bin; ++next_bin)
-                m_scratch.joint_bin_starts.push_back(m_groups - unit.first_wide_joint);
+                m_scratch.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
             if (l->bin != bin || lane == lane_count)
             {
                 ++m_groups;
@@ -442,9 +443,9 @@ private:
             l->lane = (m_groups - 1) * lane_count + lane++;
         }
         for (; next_bin % 2 != 0; ++next_bin)
-            m_scratch.joint_bin_starts.push_back(m_groups - unit.first_wide_joint);
-        m_scratch.joint_bin_starts.push_back(m_groups - unit.first_wide_joint);
-        unit.joint_bin_count = next_bin;
+            m_scratch.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
+        m_scratch.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
+        island.joint_bin_count = next_bin;
     }
 
     StepContext& m_ctx;
@@ -455,9 +456,9 @@ private:
 
 } // namespace
 
-bool is_uniform(const StepContext& ctx, const Unit& unit)
+bool is_uniform(const StepContext& ctx, const Island& island)
 {
-    for (std::int32_t s = unit.first_state; ctx.scratch.has_uneven && s < unit.first_state + unit.state_count; ++s)
+    for (std::int32_t s = island.first_state; ctx.scratch.has_uneven && s < island.first_state + island.state_count; ++s)
     {
         if (!gives_evenly(ctx, s))
             return false;
@@ -474,20 +475,20 @@ bool gives_evenly(const StepContext& ctx, std::int32_t state)
     return inverse_mass.x == inverse_mass.y;
 }
 
-void refill_units(StepContext& ctx)
+void refill_islands(StepContext& ctx)
 {
-    UnitLayout layout(ctx);
+    IslandLayout layout(ctx);
     layout.fill_states();
     layout.bind_as_before();
     layout.add_fliers();
     layout.add_laws();
     layout.count();
-    ctx.report.units = static_cast<int>(ctx.scratch.units.size());
+    ctx.report.islands = static_cast<int>(ctx.scratch.islands.size());
 }
 
-void lay_out_units(StepContext& ctx)
+void lay_out_islands(StepContext& ctx)
 {
-    UnitLayout layout(ctx);
+    IslandLayout layout(ctx);
     run_both(ctx.scene.def.tasks, [&] { layout.place_states(); }, [&] { sort_links(ctx); });
     layout.fill_states_and_place_rows_and_joints();
     layout.add_fliers();

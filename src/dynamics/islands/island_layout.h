@@ -1,19 +1,19 @@
 #pragma once
 
-// States, rows and joints of the step's units side by side: the second half of the units stage.
+// States, rows and joints of the step's islands side by side: the second half of the islands stage.
 
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
 /// Fills the arrays of Scratch that the solver runs over.
-void lay_out_units(StepContext& ctx);
+void lay_out_islands(StepContext& ctx);
 
-/// The same for units whose places are those of the last step.
-void refill_units(StepContext& ctx);
+/// The same for islands whose places are those of the last step.
+void refill_islands(StepContext& ctx);
 
 /// May all of its bodies move along every axis, or along none?
-[[nodiscard]] bool is_uniform(const StepContext& ctx, const Unit& unit);
+[[nodiscard]] bool is_uniform(const StepContext& ctx, const Island& island);
 [[nodiscard]] bool gives_evenly(const StepContext& ctx, std::int32_t state);
 
 /// Contacts that roll or convey, and what holds a body that may not move along every axis, have rows of their own.
@@ -24,9 +24,9 @@ template <class AnyLink>
 }
 
 /// Not a copy of a kinematic body, nor what stands for all that rests.
-[[nodiscard]] inline bool is_dynamic(const Unit& unit, std::int32_t state)
+[[nodiscard]] inline bool is_dynamic(const Island& island, std::int32_t state)
 {
-    return static_cast<std::uint32_t>(state - unit.first_state - 1) < static_cast<std::uint32_t>(unit.dynamic_count);
+    return static_cast<std::uint32_t>(state - island.first_state - 1) < static_cast<std::uint32_t>(island.dynamic_count);
 }
 
 } // namespace carom::internal

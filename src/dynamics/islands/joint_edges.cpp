@@ -1,5 +1,5 @@
 // What takes part in a step: awake bodies, links of joints between them, and who may fly as far as single bodies and their contacts tell. Links of contacts are
-// found while these are updated (contact_edges.cpp). All that follows in the units stage goes by these.
+// found while these are updated (contact_edges.cpp). All that follows in the islands stage goes by these.
 
 #include "dynamics/islands/joint_edges.h"
 
@@ -101,7 +101,7 @@ public:
     // But for what may fly, they say nothing that a step changes.
     void gather_joints()
     {
-        KeptUnits& kept = scratch.kept_units;
+        CachedGraph& kept = scratch.cached_graph;
         kept.stay_so = kept.are_plain && !state.graph_dirty && bodies_stay(ctx);
         kept.joints_stay = kept.stay_so && !scratch.has_hung && !kept.has_hung;
         kept.has_hung = scratch.has_hung;

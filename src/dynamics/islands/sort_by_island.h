@@ -1,6 +1,6 @@
 #pragma once
 
-// Links, joints and bodies stand unit by unit where units are laid out. Neighbours in a list are mostly of one unit: they are counted and moved a run of them
+// Links, joints and bodies stand island by island where islands are laid out. Neighbours in a list are mostly of one island: they are counted and moved a run of them
 // at a time, on all threads.
 
 #include "core/grow.h"
@@ -17,59 +17,59 @@
 
 namespace carom::internal {
 
-/// Calls visit(run) where items first ... last that follow each other are of one unit, not none. Neighbours mostly are.
-template <class UnitOf, class Visit>
-void for_each_run(std::size_t first, std::size_t last, const UnitOf& unit_of, const Visit& visit)
+/// Calls visit(run) where items first ... last that follow each other are of one island, not none. Neighbours mostly are.
+template <class IslandOf, class Visit>
+void for_each_run(std::size_t first, std::size_t last, const IslandOf& island_of, const Visit& visit)
 {
     while (first < last)
     {
-        const std::int32_t unit = unit_of(first);
+        const std::int32_t island = island_of(first);
         std::size_t end = first + 1;
-        while (end < last && unit_of(end) == unit)
+        while (end < last && island_of(end) == island)
             ++end;
-        if (unit != none)
-            visit(UnitRun{unit, static_cast<std::int32_t>(first), static_cast<std::int32_t>(end - first)});
+        if (island != none)
+            visit(IslandRun{island, static_cast<std::int32_t>(first), static_cast<std::int32_t>(end - first)});
         first = end;
     }
 }
 
-/// A stable counting sort of items by unit_of(index), a run of one unit after the other: fills `sorted` and calls set_range(unit, first, count). Where
-/// unit_of says none, the item is left out.
-template <class Item, class UnitOf, class SetRange>
-void sort_by_unit(const TaskHooks& tasks, Scratch& scratch, const std::vector<Item>& items, std::vector<Item>& sorted,
-                  std::size_t items_per_task, const UnitOf& unit_of, const SetRange& set_range)
+/// A stable counting sort of items by island_of(index), a run of one island after the other: fills `sorted` and calls set_range(island, first, count). Where
+/// island_of says none, the item is left out.
+template <class Item, class IslandOf, class SetRange>
+void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<Item>& items, std::vector<Item>& sorted,
+                    std::size_t items_per_task, const IslandOf& island_of, const SetRange& set_range)
 {
-    using Runs = std::vector<UnitRun>;
+    using Runs = std::vector<IslandRun>;
     const std::span<Runs> parts =
         find_in_parts(tasks, items.size(), items_per_task, scratch.runs_of_task,
                       [&](std::size_t first, std::size_t last, Runs& runs)
                       {
                           runs.clear();
-                          for_each_run(first, last, unit_of, [&](const UnitRun& run) { append(runs, run); });
+                          for_each_run(first, last, island_of, [&](const IslandRun& run) { append(runs, run); });
                       });
-    std::vector<std::int32_t>& starts = scratch.unit_starts;
-    starts.assign(scratch.units.size() + 1, 0);
+    std::vector<std::int32_t>& starts = scratch.island_starts;
+    starts.assign(scratch.islands.size() + 1, 0);
     for (const Runs& runs : parts)
     {
-        for (const UnitRun& run : runs)
-            starts[static_cast<std::size_t>(run.unit) + 1] += run.count;
+        for (const IslandRun& run : runs)
+            starts[static_cast<std::size_t>(run.island) + 1] += run.count;
     }
-    for (std::size_t u = 0; u < scratch.units.size(); ++u)
+    for (std::size_t u = 0; u < scratch.islands.size(); ++u)
     {
-        set_range(scratch.units[u], starts[u], starts[u + 1]);
+        set_range(scratch.islands[u], starts[u], starts[u + 1]);
         starts[u + 1] += starts[u];
     }
     for (Runs& runs : parts)
     {
-        for (UnitRun& run : runs)
-            run.sorted_first =
-                std::exchange(starts[static_cast<std::size_t>(run.unit)], starts[static_cast<std::size_t>(run.unit)] + run.count);
+        for (IslandRun& run : runs)
+            run.sorted_first = std::exchange(starts[static_cast<std::size_t>(run.island)],
+                                             starts[static_cast<std::size_t>(run.island)] + run.count);
     }
-    set_size(sorted, static_cast<std::size_t>(starts[scratch.units.empty() ? 0 : scratch.units.size() - 1]));
+    set_size(sorted, static_cast<std::size_t>(starts[scratch.islands.empty() ? 0 : scratch.islands.size() - 1]));
     run_tasks(tasks, static_cast<int>(parts.size()),
               [&](int task)
               {
-                  for (const UnitRun& run : parts[static_cast<std::size_t>(task)])
+                  for (const IslandRun& run : parts[static_cast<std::size_t>(task)])
                       std::ranges::copy(run.of(items), sorted.begin() + run.sorted_first);
               });
 }

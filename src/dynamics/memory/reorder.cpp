@@ -1,5 +1,5 @@
 // What is walked together is kept together: every 32nd step contacts move, among the slots that they have, to the order in which their lanes were
-// last filled: unit by unit, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
+// last filled: island by island, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
 // in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
 
 #include "core/grow.h"
@@ -83,13 +83,13 @@ public:
         find_bodies();
         m_order.clear();
         make_room(m_order, m_state.awake_contacts.size());
-        for (const Unit& unit : m_scratch.units)
+        for (const Island& island : m_scratch.islands)
         {
             const auto lanes = std::span(m_scratch.lane_links);
-            place(lanes.subspan(static_cast<std::size_t>(unit.first_wide) * lane_count,
-                                static_cast<std::size_t>(unit.wide_count) * lane_count));
+            place(lanes.subspan(static_cast<std::size_t>(island.first_wide) * lane_count,
+                                static_cast<std::size_t>(island.wide_count) * lane_count));
             const auto rows = std::span(m_scratch.row_links);
-            place(rows.subspan(static_cast<std::size_t>(unit.first_row), static_cast<std::size_t>(unit.row_count)));
+            place(rows.subspan(static_cast<std::size_t>(island.first_row), static_cast<std::size_t>(island.row_count)));
         }
         ++m_color;
         for (const std::int32_t contact : m_state.awake_contacts)
@@ -347,7 +347,7 @@ private:
     std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, once it is
     const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
-    Link m_last; ///< placed among those of one unit
+    Link m_last; ///< placed among those of one island
 };
 
 } // namespace
@@ -364,7 +364,7 @@ void tidy(StepContext& ctx)
     }
     sort_bodies(ctx.state);
     part_bodies(ctx);
-    if (ctx.scratch.kept_units.rows_stayed_for >= steps_between)
+    if (ctx.scratch.cached_graph.rows_stayed_for >= steps_between)
         return; // in the order that they were left in
     ContactOrder order(ctx);
     order.find();

@@ -26,11 +26,11 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t units_per_task = 4;
+constexpr std::size_t islands_per_task = 4;
 
 bool are_in_place(const StepContext& ctx)
 {
-    const KeptUnits& kept = ctx.scratch.kept_units;
+    const CachedGraph& kept = ctx.scratch.cached_graph;
     return kept.rows_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
            ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx);
 }
@@ -50,7 +50,7 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index)
 
 bool loose_stay(const StepContext& ctx)
 {
-    const std::vector<std::int32_t>& loose = ctx.scratch.kept_units.loose;
+    const std::vector<std::int32_t>& loose = ctx.scratch.cached_graph.loose;
     std::atomic<bool> stay{true};
     for_each_in_parts(ctx.scene.def.tasks, loose.size(), contacts_per_task,
                       [&](std::size_t i)
@@ -67,17 +67,17 @@ bool are_marked(const SceneState& state, const WideNotes& notes)
                                { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InRow; });
 }
 
-// Those of a large unit by the threads that solve them, of small ones a few units to a task.
+// Those of a large island by the threads that solve them, of small ones a few islands to a task.
 bool rows_stay(const StepContext& ctx)
 {
-    const std::vector<Unit>& units = ctx.scratch.units;
+    const std::vector<Island>& islands = ctx.scratch.islands;
     std::atomic<bool> stay{true};
-    const auto follow = [&](const Unit& unit, int first, int last)
+    const auto follow = [&](const Island& island, int first, int last)
     {
         RowFollower follower(ctx);
-        WideRow* const rows = ctx.scratch.wide_rows.data() + unit.wide_store;
-        WideNotes* const all_notes = ctx.scratch.wide_notes.data() + unit.wide_store;
-        const bool asks_ahead = !is_large(unit); // a thread has much of a large one in its cache still
+        WideRow* const rows = ctx.scratch.wide_rows.data() + island.wide_store;
+        WideNotes* const all_notes = ctx.scratch.wide_notes.data() + island.wide_store;
+        const bool asks_ahead = !is_large(island); // a thread has much of a large one in its cache still
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
             WideNotes& notes = all_notes[g];
@@ -92,17 +92,18 @@ bool rows_stay(const StepContext& ctx)
                 stay.store(false, std::memory_order_relaxed);
         }
     };
-    for (const Unit& unit : units)
+    for (const Island& island : islands)
     {
-        if (is_large(unit))
-            Crew::run(ctx.scene.def.tasks, [&](Crew& crew)
-                      { contact_bins(ctx.scratch, unit).all(crew, [&](int first, int last) { follow(unit, first, last); }); });
+        if (is_large(island))
+            Crew::run(
+                ctx.scene.def.tasks, [&](Crew& crew)
+                { contact_bins(ctx.scratch, island).all(crew, [&](int first, int last) { follow(island, first, last); }); });
     }
-    for_each_in_parts(ctx.scene.def.tasks, units.size(), units_per_task,
+    for_each_in_parts(ctx.scene.def.tasks, islands.size(), islands_per_task,
                       [&](std::size_t u)
                       {
-                          if (!is_large(units[u]))
-                              follow(units[u], 0, units[u].wide_count);
+                          if (!is_large(islands[u]))
+                              follow(islands[u], 0, islands[u].wide_count);
                       });
     return stay;
 }
@@ -132,7 +133,7 @@ bool leans_on_statics(const SceneState& state, const Link& l)
 bool follow_rows(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    KeptUnits& kept = scratch.kept_units;
+    CachedGraph& kept = scratch.cached_graph;
     kept.rows_stay = false;
     const std::uint64_t stayed_for = std::exchange(kept.rows_stayed_for, 0);
     scratch.is_looked_at.clear();
@@ -154,10 +155,10 @@ bool follow_rows(StepContext& ctx)
 void keep_rows(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    KeptUnits& kept = scratch.kept_units;
+    CachedGraph& kept = scratch.cached_graph;
     const auto may_stay = [&](const Link& l)
     { return !l.has(link_flag::solved) || (l.has(link_flag::plain) && leans_on_statics(ctx.state, l)); };
-    kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.units.empty() &&
+    kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.islands.empty() &&
                       std::ranges::all_of(scratch.links, may_stay);
     if (!kept.rows_apart)
         return;

@@ -191,7 +191,7 @@ void keep_awake(const StepContext& ctx, int body)
         sleep_time.store(0, std::memory_order_relaxed);
 }
 
-// Something fast that may hit a sleeper in this step wakes it before the units are built.
+// Something fast that may hit a sleeper in this step wakes it before the islands are built.
 bool may_hit(const StepContext& ctx, const Contact& contact)
 {
     const bool moves = relative_motion(ctx.state, contact) > ctx.scene.tolerances.speculation;
@@ -448,7 +448,7 @@ void update_contacts(StepContext& ctx)
     if (follow_rows(ctx))
     {
         ctx.report.pairs = static_cast<int>(ctx.state.awake_contacts.size());
-        ctx.report.touching = ctx.scratch.kept_units.touching;
+        ctx.report.touching = ctx.scratch.cached_graph.touching;
         return;
     }
     SceneState& state = ctx.state;

@@ -247,7 +247,7 @@ void mark_traced(StepContext& ctx)
                 continue;
             scratch.states[static_cast<std::size_t>(scratch.state_of[static_cast<std::size_t>(place)])].flags |=
                 body_flag::traced;
-            scratch.units[static_cast<std::size_t>(scratch.unit_of[static_cast<std::size_t>(place)])].traced = true;
+            scratch.islands[static_cast<std::size_t>(scratch.island_of[static_cast<std::size_t>(place)])].traced = true;
         }
     }
 }

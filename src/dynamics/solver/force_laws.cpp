@@ -18,7 +18,7 @@ namespace {
 bool takes_part(BodyId body, const ImpactEvent& event) { return event.body_a == body || event.body_b == body; }
 
 // What has struck the body since its law was last called.
-std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k, UnitOutput& output)
+std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k, IslandOutput& output)
 {
     output.law_impacts.clear();
     if (k == 0)
@@ -58,7 +58,7 @@ bool exceeds(const ForceLaw& law, const Load& load)
     return length(load.force) > rounding * law.greatest_force || std::fabs(load.torque) > rounding * law.greatest_torque;
 }
 
-void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOutput& output)
+void apply_force_law(const StepContext& ctx, const LawWork& work, int k, IslandOutput& output)
 {
     Scratch& scratch = ctx.scratch;
     const auto index = static_cast<std::size_t>(work.state);
@@ -86,11 +86,11 @@ void apply_force_law(const StepContext& ctx, const LawWork& work, int k, UnitOut
 
 } // namespace
 
-void apply_force_laws(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output)
+void apply_force_laws(const StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
-    if (unit.law_count == 0)
+    if (island.law_count == 0)
         return;
-    for (std::int32_t i = unit.first_law; i < unit.first_law + unit.law_count; ++i)
+    for (std::int32_t i = island.first_law; i < island.first_law + island.law_count; ++i)
         apply_force_law(ctx, ctx.scratch.laws[static_cast<std::size_t>(i)], k, output);
     output.told_impacts = output.impacts.size();
 }
@@ -101,15 +101,16 @@ void note_untold_impacts(StepContext& ctx)
     if (ctx.scene.law_count == 0)
         return;
     const SceneState& state = ctx.state;
-    const auto note = [&](std::size_t unit, std::size_t i, BodyId id, const ImpactEvent& event)
+    const auto note = [&](std::size_t island, std::size_t i, BodyId id, const ImpactEvent& event)
     {
         const int body = slot_of(id);
         const int place = state.bodies[body].awake_index;
-        const bool of_unit = place != none && ctx.scratch.unit_of[static_cast<std::size_t>(place)] == static_cast<int>(unit);
-        if (force_law_of(ctx, body) != nullptr && !(of_unit && i < ctx.scratch.outputs[unit].told_impacts))
+        const bool of_island =
+            place != none && ctx.scratch.island_of[static_cast<std::size_t>(place)] == static_cast<int>(island);
+        if (force_law_of(ctx, body) != nullptr && !(of_island && i < ctx.scratch.outputs[island].told_impacts))
             ctx.scene.untold_impacts.push_back({body, event});
     };
-    for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
+    for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
     {
         const std::vector<ImpactEvent>& impacts = ctx.scratch.outputs[u].impacts;
         for (std::size_t i = 0; i < impacts.size(); ++i)

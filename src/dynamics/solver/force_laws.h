@@ -37,10 +37,10 @@ inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a bound beyond it says
     return std::min(ctx.dt * law->greatest_torque * ctx.state.sims[static_cast<std::size_t>(body)].inverse_inertia, most_of_law);
 }
 
-/// Asks the laws of a unit for the loads of the sub-step k.
-void apply_force_laws(const StepContext& ctx, const Unit& unit, int k, UnitOutput& output);
+/// Asks the laws of an island for the loads of the sub-step k.
+void apply_force_laws(const StepContext& ctx, const Island& island, int k, IslandOutput& output);
 
-/// Keeps the impacts of this step that no law was told: those of the last sub-step, and those that another unit resolved.
+/// Keeps the impacts of this step that no law was told: those of the last sub-step, and those that another island resolved.
 void note_untold_impacts(StepContext& ctx);
 
 } // namespace carom::internal

@@ -42,13 +42,13 @@ void for_each_place(Crew& crew, std::int32_t begin, std::int32_t count, const Vi
     prefetch(ctx.state.impulses[as_index(contact)]);
 }
 
-// The unit's g-th.
-void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
+// The island's g-th.
+void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
 {
     const Scratch& scratch = ctx.scratch;
-    const std::int32_t first_lane = (unit.first_wide + g) * lane_count;
-    WideRow& row = ctx.scratch.wide_rows[as_index(unit.wide_store + g)];
-    WideNotes& notes = ctx.scratch.wide_notes[as_index(unit.wide_store + g)];
+    const std::int32_t first_lane = (island.first_wide + g) * lane_count;
+    WideRow& row = ctx.scratch.wide_rows[as_index(island.wide_store + g)];
+    WideNotes& notes = ctx.scratch.wide_notes[as_index(island.wide_store + g)];
     notes.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
@@ -56,7 +56,7 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
         const std::int32_t link = scratch.lane_links[as_index(first_lane + i)];
         if (link == none)
         {
-            row.a.v[i] = row.b.v[i] = unit.first_state;
+            row.a.v[i] = row.b.v[i] = island.first_state;
             notes.contact.v[i] = none;
             continue;
         }
@@ -66,19 +66,19 @@ void fill_group(const StepContext& ctx, const Unit& unit, std::int32_t g)
         notes.contact.v[i] = l.contact;
         notes.count = l.points(); // the same in all lanes
         Contact& contact = ctx.state.contacts[l.contact];
-        contact.wide = (unit.wide_store + g) * lane_count + i;
+        contact.wide = (island.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
     }
     wide_kernels().fill(row, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
 }
 
-void fill_row(const StepContext& ctx, const Unit& unit, std::int32_t i)
+void fill_row(const StepContext& ctx, const Island& island, std::int32_t i)
 {
     const Link& l = ctx.scratch.solved_links[as_index(ctx.scratch.row_links[as_index(i)])];
     const Contact& contact = ctx.state.contacts[l.contact];
     ContactRow& row = ctx.scratch.rows[as_index(i)];
     row = prepare_row(ctx, l.contact, contact.manifold, l.a, l.b);
-    follow_closely(contact, unit, row);
+    follow_closely(contact, island, row);
 }
 
 // The hinge of a lane that is filled later, and still later where it holds.
@@ -102,18 +102,18 @@ void fill_joint_group(const StepContext& ctx, WideJoint& group)
                                ctx.scratch.constants.data(), ctx.h);
 }
 
-void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
+void fill_joint_groups(const StepContext& ctx, const Island& island, int first, int last)
 {
     const auto lanes =
-        std::span(ctx.scratch.joint_lanes).subspan(as_index(unit.first_joint_lane), as_index(unit.joint_lane_count));
+        std::span(ctx.scratch.joint_lanes).subspan(as_index(island.first_joint_lane), as_index(island.joint_lane_count));
     const auto of_group = [&](int g)
-    { return std::ranges::lower_bound(lanes, (unit.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
+    { return std::ranges::lower_bound(lanes, (island.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
     auto l = of_group(first);
-    for (int g = unit.first_wide_joint + first; g < unit.first_wide_joint + last; ++g)
+    for (int g = island.first_wide_joint + first; g < island.first_wide_joint + last; ++g)
     {
         WideJoint& group = ctx.scratch.wide_joints[as_index(g)];
-        std::ranges::fill(group.a.v, unit.first_state);
-        std::ranges::fill(group.b.v, unit.first_state);
+        std::ranges::fill(group.a.v, island.first_state);
+        std::ranges::fill(group.b.v, island.first_state);
         std::ranges::fill(group.joint.v, none);
         for (; l != lanes.end() && l->lane / lane_count == g; ++l)
         {
@@ -128,10 +128,10 @@ void fill_joint_groups(const StepContext& ctx, const Unit& unit, int first, int 
     }
 }
 
-void follow_joint_groups(const StepContext& ctx, const Unit& unit, int first, int last)
+void follow_joint_groups(const StepContext& ctx, const Island& island, int first, int last)
 {
     for (WideJoint& group :
-         std::span(ctx.scratch.wide_joints).subspan(as_index(unit.first_wide_joint + first), as_index(last - first)))
+         std::span(ctx.scratch.wide_joints).subspan(as_index(island.first_wide_joint + first), as_index(last - first)))
     {
         if (group.turns == 0)
             wide_kernels().follow_joints(group, ctx.state.sims.data());
@@ -153,54 +153,54 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 
 } // namespace
 
-void fill_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
+void fill_island(const StepContext& ctx, const Island& island, Crew& crew)
 {
-    const StepContext unit_ctx = unit.slices > 1 ? sliced(ctx, unit.slices) : ctx;
-    if (!ctx.scratch.kept_units.rows_stay)
-        contact_bins(ctx.scratch, unit).for_each(crew, [&](int g) { fill_group(unit_ctx, unit, g); });
-    for_each_place(crew, unit.first_row, unit.row_count, [&](std::int32_t i) { fill_row(unit_ctx, unit, i); });
-    for_each_place(crew, unit.first_joint, unit.joint_count,
+    const StepContext island_ctx = island.slices > 1 ? sliced(ctx, island.slices) : ctx;
+    if (!ctx.scratch.cached_graph.rows_stay)
+        contact_bins(ctx.scratch, island).for_each(crew, [&](int g) { fill_group(island_ctx, island, g); });
+    for_each_place(crew, island.first_row, island.row_count, [&](std::int32_t i) { fill_row(island_ctx, island, i); });
+    for_each_place(crew, island.first_joint, island.joint_count,
                    [&](std::int32_t i)
                    {
                        const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
-                       ctx.scratch.joints[as_index(i)] = prepare_joint(unit_ctx, unit, place);
+                       ctx.scratch.joints[as_index(i)] = prepare_joint(island_ctx, island, place);
                    });
-    joint_bins(ctx.scratch, unit)
+    joint_bins(ctx.scratch, island)
         .all(crew,
              [&](int first, int last)
              {
-                 if (ctx.scratch.kept_units.hinges_stay)
-                     follow_joint_groups(unit_ctx, unit, first, last);
+                 if (ctx.scratch.cached_graph.hinges_stay)
+                     follow_joint_groups(island_ctx, island, first, last);
                  else
-                     fill_joint_groups(unit_ctx, unit, first, last);
+                     fill_joint_groups(island_ctx, island, first, last);
              });
 }
 
-void commit_unit(const StepContext& ctx, const Unit& unit, Crew& crew)
+void commit_island(const StepContext& ctx, const Island& island, Crew& crew)
 {
     Scratch& scratch = ctx.scratch;
-    WideRow* const rows = scratch.wide_rows.data() + unit.wide_store;
-    WideNotes* const notes = scratch.wide_notes.data() + unit.wide_store;
-    contact_bins(scratch, unit)
+    WideRow* const rows = scratch.wide_rows.data() + island.wide_store;
+    WideNotes* const notes = scratch.wide_notes.data() + island.wide_store;
+    contact_bins(scratch, island)
         .for_each(crew,
                   [&](int g)
                   {
-                      if (are_rows_far(unit))
+                      if (are_rows_far(island))
                       { // beyond the last there is nothing, which does no harm
                           prefetch(rows[as_index(g) + turns_ahead]);
                           prefetch(notes[as_index(g) + turns_ahead]);
                       }
                       wide_kernels().take_impulses(rows[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
                   });
-    for_each_place(crew, unit.first_row, unit.row_count,
+    for_each_place(crew, island.first_row, island.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
-    for_each_place(crew, unit.first_joint, unit.joint_count,
+    for_each_place(crew, island.first_joint, island.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
-    joint_bins(scratch, unit)
+    joint_bins(scratch, island)
         .for_each(crew,
                   [&](int g)
                   {
-                      wide_kernels().take_joint_impulses(scratch.wide_joints[as_index(unit.first_wide_joint + g)],
+                      wide_kernels().take_joint_impulses(scratch.wide_joints[as_index(island.first_wide_joint + g)],
                                                          &ctx.state.joints[0], ctx.dt);
                   });
 }

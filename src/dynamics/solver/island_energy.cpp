@@ -45,13 +45,13 @@ double stored(const JointRecord& joint, const JointPose& pose)
 
 } // namespace
 
-double UnitEnergy::Body::twice_kinetic(const BodyState& s, const Motion& frame) const
+double IslandEnergy::Body::twice_kinetic(const BodyState& s, const Motion& frame) const
 {
     return mass_x * square(as_double(s.velocity.x) - frame.x) + mass_y * square(as_double(s.velocity.y) - frame.y) +
            inertia * square(as_double(s.angular_velocity) - frame.w);
 }
 
-void UnitEnergy::Drift::add(const Body& body, const BodyState& s, const Arm& at)
+void IslandEnergy::Drift::add(const Body& body, const BodyState& s, const Arm& at)
 {
     mass_x += body.mass_x;
     mass_y += body.mass_y;
@@ -61,14 +61,14 @@ void UnitEnergy::Drift::add(const Body& body, const BodyState& s, const Arm& at)
     y += body.mass_x * at.y;
 }
 
-void UnitEnergy::Drift::center()
+void IslandEnergy::Drift::center()
 {
     x = mass_x > 0 ? x / mass_x : 0;
     y = mass_x > 0 ? y / mass_x : 0;
 }
 
 // Bodies with locked axes do not turn about a common center.
-void UnitEnergy::Drift::add_spin(const Body& body, const BodyState& s, const Arm& at)
+void IslandEnergy::Drift::add_spin(const Body& body, const BodyState& s, const Arm& at)
 {
     if (mass_x != mass_y)
         return;
@@ -79,21 +79,21 @@ void UnitEnergy::Drift::add_spin(const Body& body, const BodyState& s, const Arm
             body.mass_x * (dx * (as_double(s.velocity.y) - vy()) - dy * (as_double(s.velocity.x) - vx()));
 }
 
-void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Unit& unit)
+void IslandEnergy::begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Island& island)
 {
     m_view = view;
     m_state = &ctx.state;
     m_joints = joints;
     m_slop = ctx.scene.tolerances.slop;
     m_rest_speed = ctx.rest_speed;
-    m_slices = unit.slices;
-    m_first = unit.first_state + 1;
-    m_count = std::min(unit.dynamic_count, most_bodies);
+    m_slices = island.slices;
+    m_first = island.first_state + 1;
+    m_count = std::min(island.dynamic_count, most_bodies);
     m_has_held_back = false;
     m_all_driven = all_driven();
     if (m_all_driven)
         return;
-    find_carrier(ctx, unit);
+    find_carrier(ctx, island);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
         place_body(ctx, i);
     add_kinetic(1);
@@ -102,7 +102,7 @@ void UnitEnergy::begin(const SolverView& view, const StepContext& ctx, std::span
         body(i).first = body(i).missing;
 }
 
-void UnitEnergy::place_body(const StepContext& ctx, std::int32_t state)
+void IslandEnergy::place_body(const StepContext& ctx, std::int32_t state)
 {
     const BodyState& s = m_view.states[state];
     const StateConstants& c = m_view.constants[state];
@@ -127,10 +127,10 @@ void UnitEnergy::place_body(const StepContext& ctx, std::int32_t state)
 // --- seen from what is driven -------------------------------------------------------------------------------------------------------
 
 // Kinematic bodies stand behind the dynamic ones. With two that move there is no frame in which neither does work.
-void UnitEnergy::find_carrier(const StepContext& ctx, const Unit& unit)
+void IslandEnergy::find_carrier(const StepContext& ctx, const Island& island)
 {
     m_carrier = none;
-    for (std::int32_t i = m_first + unit.dynamic_count; i < unit.first_state + unit.state_count; ++i)
+    for (std::int32_t i = m_first + island.dynamic_count; i < island.first_state + island.state_count; ++i)
     {
         const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(i)];
         if (s.velocity == Vec2{} && s.angular_velocity == 0)
@@ -143,7 +143,7 @@ void UnitEnergy::find_carrier(const StepContext& ctx, const Unit& unit)
     }
 }
 
-UnitEnergy::Arm UnitEnergy::arm_of(std::int32_t state)
+IslandEnergy::Arm IslandEnergy::arm_of(std::int32_t state)
 {
     const Vec2 own = m_view.states[state].delta_position;
     const Vec2 carrier = m_view.states[m_carrier].delta_position;
@@ -151,14 +151,14 @@ UnitEnergy::Arm UnitEnergy::arm_of(std::int32_t state)
     return {center.x + as_double(own.x) - as_double(carrier.x), center.y + as_double(own.y) - as_double(carrier.y)};
 }
 
-UnitEnergy::Motion UnitEnergy::carried_motion(const Arm& arm) const
+IslandEnergy::Motion IslandEnergy::carried_motion(const Arm& arm) const
 {
     const BodyState& c = m_view.states[m_carrier];
     const double w = as_double(c.angular_velocity);
     return {as_double(c.velocity.x) - w * arm.y, as_double(c.velocity.y) + w * arm.x, w};
 }
 
-UnitEnergy::Energy UnitEnergy::energy_of(std::int32_t state)
+IslandEnergy::Energy IslandEnergy::energy_of(std::int32_t state)
 {
     const BodyState& s = m_view.states[state];
     const Body& b = body(state);
@@ -172,14 +172,14 @@ UnitEnergy::Energy UnitEnergy::energy_of(std::int32_t state)
 }
 
 // What a way from the carrier's center gives.
-double UnitEnergy::driven_outwards(const Body& b, const Arm& arm) const
+double IslandEnergy::driven_outwards(const Body& b, const Arm& arm) const
 {
     return 0.5 * square(as_double(m_view.states[m_carrier].angular_velocity)) *
            (b.mass_x * square(arm.x) + b.mass_y * square(arm.y));
 }
 
 // Forces are even over the sub-step: they work along the way that was gone, however it bent.
-UnitEnergy::Energy UnitEnergy::work_on(std::int32_t state)
+IslandEnergy::Energy IslandEnergy::work_on(std::int32_t state)
 {
     const BodyState& s = m_view.states[state];
     const StateConstants& c = m_view.constants[state];
@@ -204,7 +204,7 @@ UnitEnergy::Energy UnitEnergy::work_on(std::int32_t state)
 // --- what comes and goes ------------------------------------------------------------------------------------------------------------
 
 // Every body hangs on a joint that may do work.
-bool UnitEnergy::all_driven()
+bool IslandEnergy::all_driven()
 {
     std::uint64_t driven = 0;
     for (const JointWork& work : m_joints)
@@ -218,7 +218,7 @@ bool UnitEnergy::all_driven()
 }
 
 // What has landed counts from here.
-void UnitEnergy::after_impacts(std::span<const StoppedJoint> stopped)
+void IslandEnergy::after_impacts(std::span<const StoppedJoint> stopped)
 {
     if (m_all_driven)
         return;
@@ -250,7 +250,7 @@ void UnitEnergy::after_impacts(std::span<const StoppedJoint> stopped)
     }
 }
 
-void UnitEnergy::before_impacts()
+void IslandEnergy::before_impacts()
 {
     if (m_all_driven)
         return;
@@ -262,7 +262,7 @@ void UnitEnergy::before_impacts()
     }
 }
 
-void UnitEnergy::add_kinetic(double sign)
+void IslandEnergy::add_kinetic(double sign)
 {
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
@@ -271,7 +271,7 @@ void UnitEnergy::add_kinetic(double sign)
     }
 }
 
-void UnitEnergy::add_springs(double sign)
+void IslandEnergy::add_springs(double sign)
 {
     for (const JointWork& work : m_joints)
     {
@@ -283,7 +283,7 @@ void UnitEnergy::add_springs(double sign)
     }
 }
 
-void UnitEnergy::add_work()
+void IslandEnergy::add_work()
 {
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
@@ -297,7 +297,7 @@ void UnitEnergy::add_work()
 
 // --- who belongs together -----------------------------------------------------------------------------------------------------------
 
-void UnitEnergy::connect(std::int32_t a, std::int32_t b)
+void IslandEnergy::connect(std::int32_t a, std::int32_t b)
 {
     if (!is_ours(a) || !is_ours(b) || body(a).group == body(b).group)
         return;
@@ -310,7 +310,7 @@ void UnitEnergy::connect(std::int32_t a, std::int32_t b)
     }
 }
 
-void UnitEnergy::connect_rows(std::span<const ContactRow> rows)
+void IslandEnergy::connect_rows(std::span<const ContactRow> rows)
 {
     for (const ContactRow& row : rows)
     {
@@ -319,7 +319,7 @@ void UnitEnergy::connect_rows(std::span<const ContactRow> rows)
     }
 }
 
-void UnitEnergy::join(std::int32_t own, std::int32_t other)
+void IslandEnergy::join(std::int32_t own, std::int32_t other)
 {
     Group& group = group_of(own);
     group.is_joined = true;
@@ -335,7 +335,7 @@ void UnitEnergy::join(std::int32_t own, std::int32_t other)
 }
 
 // Impulse times the way on which a row has made good what others had moved.
-double UnitEnergy::take_work(JointWork& work) const
+double IslandEnergy::take_work(JointWork& work) const
 {
     const JointRecord& joint = m_state->joints[work.joint];
     const JointErrors errors = work.errors();
@@ -353,7 +353,7 @@ double UnitEnergy::take_work(JointWork& work) const
     return sum * as_double(m_view.inverse_h);
 }
 
-void UnitEnergy::note_joint(JointWork& work)
+void IslandEnergy::note_joint(JointWork& work)
 {
     const JointRecord& joint = m_state->joints[work.joint];
     Group& first = group_of(is_ours(work.a) ? work.a : work.b);
@@ -370,7 +370,7 @@ void UnitEnergy::note_joint(JointWork& work)
     }
 }
 
-void UnitEnergy::note_rows(std::span<const ContactRow> rows)
+void IslandEnergy::note_rows(std::span<const ContactRow> rows)
 {
     for (const ContactRow& row : rows)
     {
@@ -380,7 +380,7 @@ void UnitEnergy::note_rows(std::span<const ContactRow> rows)
 }
 
 // Load times the way on which it has pushed an overlap out; the impulse of a blow is no load.
-double UnitEnergy::push_out_of(const ContactRow& row) const
+double IslandEnergy::push_out_of(const ContactRow& row) const
 {
     double work = 0;
     for (int i = 0; i < row.count; ++i)
@@ -393,7 +393,7 @@ double UnitEnergy::push_out_of(const ContactRow& row) const
     return work;
 }
 
-void UnitEnergy::note_row(const ContactRow& row)
+void IslandEnergy::note_row(const ContactRow& row)
 {
     group_of(is_ours(row.a) ? row.a : row.b).push_out += push_out_of(row);
     for (const auto& [own, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}})
@@ -407,7 +407,7 @@ void UnitEnergy::note_row(const ContactRow& row)
     }
 }
 
-void UnitEnergy::note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows)
+void IslandEnergy::note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows)
 {
     if (m_all_driven)
         return;
@@ -423,7 +423,7 @@ void UnitEnergy::note_load(std::span<const ContactRow> rows, std::span<const Con
 
 // --- scaling ------------------------------------------------------------------------------------------------------------------------
 
-void UnitEnergy::restore(bool exact)
+void IslandEnergy::restore(bool exact)
 {
     if (m_all_driven)
         return;
@@ -449,13 +449,13 @@ void UnitEnergy::restore(bool exact)
     }
 }
 
-double UnitEnergy::force_on(std::int32_t state)
+double IslandEnergy::force_on(std::int32_t state)
 {
     const Vec2 a = m_view.constants[state].acceleration;
     return std::sqrt(square(body(state).mass_x * as_double(a.x)) + square(body(state).mass_y * as_double(a.y)));
 }
 
-UnitEnergy::Drift UnitEnergy::drift_of(int index)
+IslandEnergy::Drift IslandEnergy::drift_of(int index)
 {
     Drift drift;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
@@ -472,7 +472,7 @@ UnitEnergy::Drift UnitEnergy::drift_of(int index)
     return drift;
 }
 
-UnitEnergy::Arm UnitEnergy::place_of(std::int32_t state)
+IslandEnergy::Arm IslandEnergy::place_of(std::int32_t state)
 {
     const Arm& center = body(state).center;
     const Vec2 way = m_view.states[state].delta_position;
@@ -481,7 +481,7 @@ UnitEnergy::Arm UnitEnergy::place_of(std::int32_t state)
 
 // What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves
 // against the carrier.
-UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
+IslandEnergy::Motion IslandEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
 {
     if (group.is_carried)
         return carried_motion(arm_of(state));
@@ -491,7 +491,7 @@ UnitEnergy::Motion UnitEnergy::frame_of(const Group& group, const Drift& drift, 
     return {drift.vx() - drift.w() * (at.y - drift.y), drift.vy() + drift.w() * (at.x - drift.x), drift.w()};
 }
 
-double UnitEnergy::inner_energy(int index, const Drift& drift)
+double IslandEnergy::inner_energy(int index, const Drift& drift)
 {
     double energy = 0;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
@@ -503,7 +503,7 @@ double UnitEnergy::inner_energy(int index, const Drift& drift)
     return energy;
 }
 
-void UnitEnergy::scale(int index, bool exact)
+void IslandEnergy::scale(int index, bool exact)
 {
     const Group& group = m_groups[static_cast<std::size_t>(index)];
     const double missing = group.of(group.missing) + group.row_work;
@@ -543,7 +543,7 @@ void UnitEnergy::scale(int index, bool exact)
 }
 
 // Bodies that go against the forces without energy for it go so much less far.
-void UnitEnergy::hold_back(int index, double share)
+void IslandEnergy::hold_back(int index, double share)
 {
     m_has_held_back = true;
     const bool is_carried = m_groups[static_cast<std::size_t>(index)].is_carried;
@@ -555,7 +555,7 @@ void UnitEnergy::hold_back(int index, double share)
 }
 
 // Its own way is that against the carrier, which takes it along.
-void UnitEnergy::hold_back_body(std::int32_t state, float rest, bool is_carried)
+void IslandEnergy::hold_back_body(std::int32_t state, float rest, bool is_carried)
 {
     BodyState& s = m_view.states[state];
     const Body& b = body(state);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The energy of a small unit over a sub-step.
+// The energy of a small island over a sub-step.
 
 #include "dynamics/solver/joint/joint_bodies.h"
 
@@ -13,13 +13,13 @@ namespace carom::internal {
 /// forces, springs and impacts give, and does not fall either where joints alone hold them: the speeds at which they move against each other
 /// are scaled to it. What is left of the error of finite steps is one of phase. Bodies on one that is driven evenly, such as a turning drum, are seen
 /// from it: there it does no work, and the Jacobi integral takes the place of the energy, with a potential of -m w^2 r^2 / 2.
-class UnitEnergy
+class IslandEnergy
 {
 public:
     static constexpr int most_bodies = 64;
 
     /// Before the forces of a sub-step.
-    void begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Unit& unit);
+    void begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Island& island);
     /// Around what happens in flight: energy that impacts took or gave stays so; what the solver had put into joints and impacts stopped does not.
     void before_impacts();
     void after_impacts(std::span<const StoppedJoint> stopped);
@@ -122,7 +122,7 @@ private:
     [[nodiscard]] Group& group_of(std::int32_t state) { return m_groups[static_cast<std::size_t>(body(state).group)]; }
     [[nodiscard]] bool flies(std::int32_t state) const { return (m_view.states[state].flags & body_flag::flier) != 0; }
     [[nodiscard]] bool all_driven();
-    void find_carrier(const StepContext& ctx, const Unit& unit);
+    void find_carrier(const StepContext& ctx, const Island& island);
     [[nodiscard]] bool has_carrier() const { return m_carrier != none; }
     void place_body(const StepContext& ctx, std::int32_t state);
     [[nodiscard]] Arm arm_of(std::int32_t state);

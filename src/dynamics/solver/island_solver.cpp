@@ -1,5 +1,5 @@
-// One unit through all its sub-steps. In every sub-step the soft rows advance first, then the unit's balls in flight through the same interval, then
-// everything relaxes and bounces (restitution.cpp). In a huge unit balls fly after everything has relaxed: solve_by_parts.
+// One island through all its sub-steps. In every sub-step the soft rows advance first, then the island's balls in flight through the same interval, then
+// everything relaxes and bounces (restitution.cpp). In a huge island balls fly after everything has relaxed: solve_by_parts.
 
 #include "dynamics/solver/island_solver.h"
 
@@ -67,24 +67,25 @@ void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
     std::copy(std::begin(points), std::end(points), std::begin(row.points));
 }
 
-class UnitSolver
+class IslandSolver
 {
 public:
-    UnitSolver(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy, Crew& crew)
-        : m_ctx(unit.slices > 1 ? sliced(ctx, unit.slices) : ctx), m_scratch(ctx.scratch), m_unit(unit), m_output(output),
+    IslandSolver(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, Crew& crew)
+        : m_ctx(island.slices > 1 ? sliced(ctx, island.slices) : ctx), m_scratch(ctx.scratch), m_island(island), m_output(output),
           m_energy(energy), m_crew(crew),
-          m_watches_energy(unit.precise || (!unit.heap && unit.dynamic_count <= UnitEnergy::most_bodies && unit.joint_count > 0)),
+          m_watches_energy(island.precise ||
+                           (!island.heap && island.dynamic_count <= IslandEnergy::most_bodies && island.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
-          m_rows(rows_of(ctx.scratch, unit)),
+          m_rows(rows_of(ctx.scratch, island)),
           m_joints(std::span(ctx.scratch.joints)
-                       .subspan(static_cast<std::size_t>(unit.first_joint), static_cast<std::size_t>(unit.joint_count))),
-          m_wide(ctx.scratch.wide_rows.data() + unit.wide_store), m_notes(ctx.scratch.wide_notes.data() + unit.wide_store),
-          m_struck(ctx.scratch.struck.data() + unit.wide_store),
+                       .subspan(static_cast<std::size_t>(island.first_joint), static_cast<std::size_t>(island.joint_count))),
+          m_wide(ctx.scratch.wide_rows.data() + island.wide_store), m_notes(ctx.scratch.wide_notes.data() + island.wide_store),
+          m_struck(ctx.scratch.struck.data() + island.wide_store),
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness, m_ctx.rest_speed},
-          m_wide_joints(ctx.scratch.wide_joints.data() + unit.first_wide_joint),
+          m_wide_joints(ctx.scratch.wide_joints.data() + island.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
-          m_may_start_by_body(unit.wide_count > 0 && unit.joint_count == 0 && unit.wide_joint_count == 0),
-          m_bins(contact_bins(m_scratch, unit)), m_joint_bins(joint_bins(m_scratch, unit))
+          m_may_start_by_body(island.wide_count > 0 && island.joint_count == 0 && island.wide_joint_count == 0),
+          m_bins(contact_bins(m_scratch, island)), m_joint_bins(joint_bins(m_scratch, island))
     {}
 
     void run()
@@ -114,7 +115,7 @@ private:
                     continue;
                 m_view.states[s].flags |= body_flag::jointed;
                 const int body = m_scratch.state_bodies[as_index(s)];
-                if (m_unit.wide_count > 0)
+                if (m_island.wide_count > 0)
                     for_each_contact(m_ctx.state, body, [&](int contact) { add_pulled_row(contact, body, s); });
             }
         }
@@ -125,7 +126,7 @@ private:
         const Contact& contact = m_ctx.state.contacts[index];
         if (contact.manifold.count == 0 || is_left_out(contact))
             return;
-        const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
+        const std::int32_t other = state_for_rows(m_ctx, m_island, other_body(contact, body));
         if (other == none || is_dynamic(other))
             return;
         const bool is_a = contact.body_a == body;
@@ -141,10 +142,10 @@ private:
 
     void add_rows_beyond_seams()
     {
-        if (!m_unit.precise)
+        if (!m_island.precise)
             return;
         const SceneState& state = m_ctx.state;
-        for (std::int32_t s = m_unit.first_state + 1; s <= m_unit.first_state + m_unit.dynamic_count; ++s)
+        for (std::int32_t s = m_island.first_state + 1; s <= m_island.first_state + m_island.dynamic_count; ++s)
         {
             if ((m_view.states[s].flags & body_flag::flier) != 0)
                 continue;
@@ -157,21 +158,21 @@ private:
     void add_row_beyond_seam(int index, int body, std::int32_t own)
     {
         const Contact& contact = m_ctx.state.contacts[index];
-        if (contact.manifold.count > 0 || is_left_out(contact) || !may_come_to_face(contact, m_unit))
+        if (contact.manifold.count > 0 || is_left_out(contact) || !may_come_to_face(contact, m_island))
             return;
         const bool is_a = contact.body_a == body;
-        const std::int32_t other = state_for_rows(m_ctx, m_unit, other_body(contact, body));
+        const std::int32_t other = state_for_rows(m_ctx, m_island, other_body(contact, body));
         const bool is_others_too = other != none && (m_view.states[other].flags & body_flag::dynamic) != 0;
         if (other == none || (is_others_too && !is_a))
             return;
         m_output.late_rows.push_back(prepare_row(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
-        follow_closely(contact, m_unit, m_output.late_rows.back());
+        follow_closely(contact, m_island, m_output.late_rows.back());
     }
 
     void substep(int k)
     {
-        apply_force_laws(m_ctx, m_unit, k, m_output);
-        raise_fast(m_ctx, m_unit, k, m_output);
+        apply_force_laws(m_ctx, m_island, k, m_output);
+        raise_fast(m_ctx, m_island, k, m_output);
         if (is_airborne())
         {
             fly_alone(k);
@@ -202,7 +203,7 @@ private:
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
         kick_springs_after(m_view, m_ctx.state, m_joints);
         walls().guard_cores();
-        if (m_unit.precise && has_fliers())
+        if (m_island.precise && has_fliers())
             relax(); // they must not meet what overlap is pushed out with
         fly(k);
         relax();
@@ -213,15 +214,15 @@ private:
     // The solver has nothing of it: hinges fly with their bodies.
     [[nodiscard]] bool is_airborne() const
     {
-        return m_unit.flier_count == m_unit.dynamic_count && m_unit.state_count == m_unit.dynamic_count + 1 && m_rows.empty() &&
-               m_output.late_rows.empty() && m_unit.wide_count == 0 && m_unit.wide_joint_count == 0 &&
-               std::ranges::none_of(fliers_of(m_scratch, m_unit), &Flier::landed);
+        return m_island.flier_count == m_island.dynamic_count && m_island.state_count == m_island.dynamic_count + 1 &&
+               m_rows.empty() && m_output.late_rows.empty() && m_island.wide_count == 0 && m_island.wide_joint_count == 0 &&
+               std::ranges::none_of(fliers_of(m_scratch, m_island), &Flier::landed);
     }
 
     // What lands on the way is the solver's from there on.
     void fly_alone(int k)
     {
-        advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
+        advance_fliers(m_ctx, m_island, k, m_output, m_crew);
         if (!is_airborne())
         {
             begin_energy();
@@ -244,7 +245,7 @@ private:
             });
         for (JointWork& work : m_joints)
             work.errors_before = work.errors();
-        m_energy.begin(m_view, m_ctx, m_joints, m_unit);
+        m_energy.begin(m_view, m_ctx, m_joints, m_island);
     }
 
     void bounce_and_restore(int k)
@@ -258,11 +259,11 @@ private:
             place_joints(m_view, m_ctx.state, m_joints);
     }
 
-    // Nothing but lanes is solved, and nothing comes between solving and relaxing. In a huge unit something always flies: there it flies after both.
+    // Nothing but lanes is solved, and nothing comes between solving and relaxing. In a huge island something always flies: there it flies after both.
     [[nodiscard]] bool goes_by_parts() const
     {
-        return m_unit.parts > 0 && m_joints.empty() && m_unit.wide_joint_count == 0 && m_rows.empty() &&
-               m_output.late_rows.empty() && !m_unit.traced && (m_unit.parts > few_parts || !has_fliers());
+        return m_island.parts > 0 && m_joints.empty() && m_island.wide_joint_count == 0 && m_rows.empty() &&
+               m_output.late_rows.empty() && !m_island.traced && (m_island.parts > few_parts || !has_fliers());
     }
 
     // Each part goes from solving through its new poses to relaxing at once, while its rows are in the cache. What crosses from part to part is solved before
@@ -271,16 +272,17 @@ private:
     {
         const auto solve = [this](int first, int last) { solve_lanes(first, last); };
         const auto relax = [this](int first, int last) { relax_lanes(first, last); };
-        const int first_kinematic = m_unit.first_state + 1 + m_unit.dynamic_count;
-        integrate_positions(first_kinematic, m_unit.first_state + m_unit.state_count);
-        const auto parts = std::span(m_scratch.parts).subspan(as_index(m_unit.first_state + 1), as_index(m_unit.dynamic_count));
+        const int first_kinematic = m_island.first_state + 1 + m_island.dynamic_count;
+        integrate_positions(first_kinematic, m_island.first_state + m_island.state_count);
+        const auto parts =
+            std::span(m_scratch.parts).subspan(as_index(m_island.first_state + 1), as_index(m_island.dynamic_count));
         const Walls walls = this->walls();
         m_bins.crossing(m_crew, solve);
         m_bins.in_parts(m_crew,
                         [&](int part)
                         {
                             const auto states = std::ranges::equal_range(parts, static_cast<std::uint16_t>(part));
-                            const auto first = static_cast<int>(states.begin() - parts.begin()) + m_unit.first_state + 1;
+                            const auto first = static_cast<int>(states.begin() - parts.begin()) + m_island.first_state + 1;
                             m_bins.of_part(part, solve);
                             integrate_positions(first, first + static_cast<int>(states.size()));
                             m_bins.of_part(part, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
@@ -289,14 +291,14 @@ private:
         m_bins.crossing(m_crew, relax);
     }
 
-    // In a huge unit: what has flown into some bodies finds them relaxed already, and what has landed has rows only now.
+    // In a huge island: what has flown into some bodies finds them relaxed already, and what has landed has rows only now.
     void relax_struck()
     {
         std::vector<std::int32_t>& parts = m_output.struck_states;
         if (parts.empty() && late_rows().empty())
             return;
         std::ranges::transform(parts, parts.begin(), [&](std::int32_t state) { return m_scratch.parts[as_index(state)]; });
-        std::erase_if(parts, [&](std::int32_t part) { return part >= m_unit.parts; }); // of what does not give way
+        std::erase_if(parts, [&](std::int32_t part) { return part >= m_island.parts; }); // of what does not give way
         std::ranges::sort(parts);
         parts.erase(std::ranges::unique(parts).begin(), parts.end());
         const auto relax = [this](int first, int last)
@@ -328,7 +330,7 @@ private:
     // Groups of one bin.
     [[nodiscard]] WideBin lanes(int first, int last) const
     {
-        return {m_wide + first, m_notes + first, last - first, are_rows_far(m_unit)};
+        return {m_wide + first, m_notes + first, last - first, are_rows_far(m_island)};
     }
 
     void solve_lanes(int first, int last) const { m_kernels.solve(lanes(first, last), m_view.states, m_softness); }
@@ -341,15 +343,15 @@ private:
             std::atomic_ref(m_is_deep).store(1, std::memory_order_relaxed);
     }
 
-    // Where many bodies overlap far, the speeds at which they are pushed out add up, and one pass takes out little of it: they would fly apart. In units that
+    // Where many bodies overlap far, the speeds at which they are pushed out add up, and one pass takes out little of it: they would fly apart. In islands that
     // are cut into parts it would cost too much.
     void relax_deep_overlaps()
     {
-        if (std::exchange(m_is_deep, 0) == 0 || m_unit.parts > 0)
+        if (std::exchange(m_is_deep, 0) == 0 || m_island.parts > 0)
             return;
         for (int i = 0; i < passes_of_deep_overlaps; ++i)
         {
-            take_from_sums(0, m_unit.wide_count);
+            take_from_sums(0, m_island.wide_count);
             m_bins.by_color(m_crew, [this](int first, int last) { relax_lanes(first, last); });
             solve_rows(m_view, m_rows, false);
             solve_rows(m_view, late_rows(), false);
@@ -377,21 +379,21 @@ private:
 
     [[nodiscard]] bool has_fliers() const
     {
-        const std::span<const Flier> fliers = fliers_of(m_scratch, m_unit);
+        const std::span<const Flier> fliers = fliers_of(m_scratch, m_island);
         return std::any_of(fliers.begin(), fliers.end(), [](const Flier& f) { return !f.landed; });
     }
 
     void fly(int k)
     {
-        if (m_unit.flier_count == 0)
+        if (m_island.flier_count == 0)
         {
-            trace_paths(m_ctx, m_unit, k, m_output);
+            trace_paths(m_ctx, m_island, k, m_output);
             return;
         }
         if (m_watches_energy)
             m_energy.before_impacts();
         m_output.stopped_joints.clear();
-        advance_fliers(m_ctx, m_unit, k, m_output, m_crew);
+        advance_fliers(m_ctx, m_island, k, m_output, m_crew);
         if (m_watches_energy)
             m_energy.after_impacts(m_output.stopped_joints);
     }
@@ -464,8 +466,8 @@ private:
     template <class Work>
     void over_ranges(const Work& work)
     {
-        m_crew.share(m_unit.state_count, enough_states,
-                     [&](int first, int last) { work(m_unit.first_state + first, m_unit.first_state + last); });
+        m_crew.share(m_island.state_count, enough_states,
+                     [&](int first, int last) { work(m_island.first_state + first, m_island.first_state + last); });
     }
 
     static_assert(sizeof(BodySpeeds) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);
@@ -539,7 +541,7 @@ private:
     {
         if (m_joints.empty())
             return;
-        if (m_unit.flier_count > 0)
+        if (m_island.flier_count > 0)
             m_output.direct->look_again();
         m_output.direct->prepare(m_view, m_ctx.state, m_joints, masses);
     }
@@ -557,19 +559,19 @@ private:
             return;
         m_output.direct->yield();
         if (!use_bias)
-            take_from_sums(0, m_unit.wide_count);
+            take_from_sums(0, m_island.wide_count);
         solve_in_turns(use_bias);
     }
 
-    [[nodiscard]] bool has_contacts() { return !m_rows.empty() || !late_rows().empty() || m_unit.wide_count > 0; }
+    [[nodiscard]] bool has_contacts() { return !m_rows.empty() || !late_rows().empty() || m_island.wide_count > 0; }
 
     // Where bodies are few, joints and contacts take turns. Contacts of a few bodies are solved until they agree: what a wall stops last still comes into its
     // neighbours, and overlap is pushed out against the forces.
     void solve_in_turns(bool use_bias)
     {
         const std::size_t contacts = m_rows.size() + late_rows().size();
-        const bool alternate = is_direct() && contacts > 0 && m_unit.wide_count == 0;
-        const bool settles = m_unit.precise && contacts > 0 && contacts + m_joints.size() > 1;
+        const bool alternate = is_direct() && contacts > 0 && m_island.wide_count == 0;
+        const bool settles = m_island.precise && contacts > 0 && contacts + m_joints.size() > 1;
         const int most = settles ? settle_turns : alternate ? turns : 1;
         for (int turn = 0; turn < most; ++turn)
         {
@@ -602,9 +604,9 @@ private:
 
     void note_velocities()
     {
-        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        for (int i = 0; i < m_island.dynamic_count; ++i)
         {
-            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
+            const BodyState& s = m_view.states[m_island.first_state + 1 + i];
             m_velocities[static_cast<std::size_t>(i)] = {s.velocity, s.angular_velocity};
         }
     }
@@ -615,10 +617,10 @@ private:
     [[nodiscard]] bool have_settled() const
     {
         const float tiny = tiny_speed();
-        for (int i = 0; i < m_unit.dynamic_count; ++i)
+        for (int i = 0; i < m_island.dynamic_count; ++i)
         {
-            const BodyState& s = m_view.states[m_unit.first_state + 1 + i];
-            const StateConstants& c = m_view.constants[m_unit.first_state + 1 + i];
+            const BodyState& s = m_view.states[m_island.first_state + 1 + i];
+            const StateConstants& c = m_view.constants[m_island.first_state + 1 + i];
             const Velocity& old = m_velocities[static_cast<std::size_t>(i)];
             const Vec2 dv = s.velocity - old.linear;
             const float dw = s.angular_velocity - old.angular;
@@ -658,11 +660,11 @@ private:
 
     [[nodiscard]] Walls walls()
     {
-        const auto cores = std::span(m_scratch.cores).subspan(as_index(m_unit.first_core), as_index(m_unit.core_count));
-        return {m_view, {m_rows, late_rows(), m_output.pulled_rows, {m_wide, as_index(m_unit.wide_count)}, cores}};
+        const auto cores = std::span(m_scratch.cores).subspan(as_index(m_island.first_core), as_index(m_island.core_count));
+        return {m_view, {m_rows, late_rows(), m_output.pulled_rows, {m_wide, as_index(m_island.wide_count)}, cores}};
     }
 
-    // --- contacts in small units: looked at anew within the step -----------------------------------------------------------------------
+    // --- contacts in small islands: looked at anew within the step -----------------------------------------------------------------------
 
     [[nodiscard]] BodyPose pose_of(int body, std::int32_t state, float ahead) const
     {
@@ -835,7 +837,7 @@ private:
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------
 
-    [[nodiscard]] BouncingUnit bouncing() { return {m_ctx, m_unit, m_output, m_view, m_may_start_by_body}; }
+    [[nodiscard]] BouncingIsland bouncing() { return {m_ctx, m_island, m_output, m_view, m_may_start_by_body}; }
 
     // True where something kicked.
     bool bounce(int k)
@@ -897,7 +899,7 @@ private:
                 for (RowPoint& p : row.points)
                     p.normal_impulse = p.tangent_impulse = 0;
             });
-        for (WideRow& row : std::span(m_wide, as_index(m_unit.wide_count)))
+        for (WideRow& row : std::span(m_wide, as_index(m_island.wide_count)))
         {
             for (int i = 0; i < lane_count; ++i)
             {
@@ -922,9 +924,9 @@ private:
 
     StepContext m_ctx;
     Scratch& m_scratch;
-    const Unit& m_unit;
-    UnitOutput& m_output;
-    UnitEnergy& m_energy; ///< memory that the units of a task share
+    const Island& m_island;
+    IslandOutput& m_output;
+    IslandEnergy& m_energy; ///< memory that the islands of a task share
     Crew& m_crew;
     bool m_watches_energy;
     SolverView m_view;
@@ -939,15 +941,15 @@ private:
     bool m_may_start_by_body;
     bool m_starts_by_body = false; ///< in this sub-step
     int m_is_deep = 0;             ///< some overlap of lanes is pushed out as fast as allowed
-    UnitBins m_bins;
-    UnitBins m_joint_bins;
+    Partitions m_bins;
+    Partitions m_joint_bins;
     const WideKernels& m_kernels = wide_kernels();
-    std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise units
+    std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise islands
 };
 
-void UnitSolver::record_poses(int k)
+void IslandSolver::record_poses(int k)
 {
-    for (int i = m_unit.first_state; i < m_unit.first_state + m_unit.state_count; ++i)
+    for (int i = m_island.first_state; i < m_island.first_state + m_island.state_count; ++i)
     {
         const int body = m_scratch.state_bodies[static_cast<std::size_t>(i)];
         if (body != none && (m_scratch.states[static_cast<std::size_t>(i)].flags & body_flag::dynamic) != 0)
@@ -957,9 +959,9 @@ void UnitSolver::record_poses(int k)
 
 } // namespace
 
-void solve_unit(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy, Crew& crew)
+void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, Crew& crew)
 {
-    UnitSolver(ctx, unit, output, energy, crew).run();
+    IslandSolver(ctx, island, output, energy, crew).run();
 }
 
 } // namespace carom::internal

@@ -6,7 +6,7 @@
 
 namespace carom::internal {
 
-/// All sub-steps of a unit whose rows are filled. `energy` is memory; `crew` shares a large unit's work.
-void solve_unit(const StepContext& ctx, const Unit& unit, UnitOutput& output, UnitEnergy& energy, Crew& crew);
+/// All sub-steps of an island whose rows are filled. `energy` is memory; `crew` shares a large island's work.
+void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, Crew& crew);
 
 } // namespace carom::internal

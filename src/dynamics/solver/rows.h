@@ -77,7 +77,7 @@ struct RowPoint
     float tangent_impulse = 0;
     float normal_mass = 0;
     float tangent_mass = 0;
-    float separation_before = 0; ///< at the start of the sub-step, in units that are watched for their energy
+    float separation_before = 0; ///< at the start of the sub-step, in islands that are watched for their energy
     float approach = 0;          ///< speed at the start of the sub-step, of rows that bear nothing yet
     float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
@@ -183,7 +183,7 @@ struct Flier
     float limit_reaction = 0; ///< N m s, of the limits, over the step
 
     static constexpr int most_held = 12;
-    std::int32_t hold_set = none; ///< in UnitOutput::hold_sets; none: nothing has held it in this step
+    std::int32_t hold_set = none; ///< in IslandOutput::hold_sets; none: nothing has held it in this step
     std::int32_t held_count = 0;
     bool rests = false; ///< against something that gives way
     bool led = false;   ///< what holds it does not give way
@@ -197,7 +197,7 @@ struct Flier
     double event_time = 0; ///< beyond the sub-step: none
     std::int32_t event_own = none;
     std::int32_t event_shape = none; ///< none: a limit of the hinge, or a hold to be renewed
-    std::int32_t event_state = none; ///< of the body that is hit, in this unit; none: it does not move or belongs elsewhere
+    std::int32_t event_state = none; ///< of the body that is hit, in this island; none: it does not move or belongs elsewhere
     std::int32_t passes = none;      ///< contact with a one-way shape that it was found to go through, not noted yet
     std::int32_t event_version = 0;  ///< of that state when the event was computed
     bool deflected = false;          ///< its path is no longer the one that the pairs of this step were found with

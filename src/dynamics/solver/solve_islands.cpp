@@ -1,5 +1,5 @@
-// Stage 5, solve: large units one after the other on all threads, small ones side by side, a batch of them to a task, or by threads that a large one has
-// nothing for. A unit's rows are filled just before it is solved (island_solver.cpp) and committed right after.
+// Stage 5, solve: large islands one after the other on all threads, small ones side by side, a batch of them to a task, or by threads that a large one has
+// nothing for. An island's rows are filled just before it is solved (island_solver.cpp) and committed right after.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
@@ -44,26 +44,26 @@ void fall(const StepContext& ctx, std::int32_t index)
     turn_from_start(s, static_cast<double>(sum(s.angular_velocity, c.angular_acceleration, c.angular_decay)));
 }
 
-void fall(const StepContext& ctx, const Unit& unit)
+void fall(const StepContext& ctx, const Island& island)
 {
-    for (std::int32_t s = unit.first_state + 1; s <= unit.first_state + unit.dynamic_count; ++s)
+    for (std::int32_t s = island.first_state + 1; s <= island.first_state + island.dynamic_count; ++s)
         fall(ctx, s);
 }
 
-void solve(const StepContext& ctx, std::size_t u, UnitEnergy& energy, Crew& crew)
+void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, Crew& crew)
 {
-    const Unit& unit = ctx.scratch.units[u];
-    if (glide(ctx, unit, ctx.scratch.outputs[u]))
+    const Island& island = ctx.scratch.islands[u];
+    if (glide(ctx, island, ctx.scratch.outputs[u]))
         return;
-    fill_unit(ctx, unit, crew);
-    solve_unit(ctx, unit, ctx.scratch.outputs[u], energy, crew);
-    commit_unit(ctx, unit, crew);
+    fill_island(ctx, island, crew);
+    solve_island(ctx, island, ctx.scratch.outputs[u], energy, crew);
+    commit_island(ctx, island, crew);
 }
 
-// Batches of about so many bodies: enough work for a task, and a choice that depends on the units alone.
+// Batches of about so many bodies: enough work for a task, and a choice that depends on the islands alone.
 constexpr int batch_bodies = 64;
 
-// The units of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
+// The islands of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
 // next step. Fills Scratch::order with where batches begin.
 void form_batches(Scratch& scratch)
 {
@@ -71,23 +71,23 @@ void form_batches(Scratch& scratch)
     starts.assign(1, 0);
     std::int32_t store = 0;
     std::int32_t large = 0;
-    std::int32_t most = 0; // groups of a unit of the batch
+    std::int32_t most = 0; // groups of an island of the batch
     int bodies = 0;
-    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+    for (std::size_t i = 0; i < scratch.islands.size(); ++i)
     {
-        Unit& unit = scratch.units[i];
-        unit.wide_store = store;
-        if (is_large(unit))
+        Island& island = scratch.islands[i];
+        island.wide_store = store;
+        if (is_large(island))
         {
-            unit.wide_store = large;
-            large += unit.wide_count;
+            island.wide_store = large;
+            large += island.wide_count;
         }
         else
         {
-            bodies += unit.state_count;
-            most = std::max(most, unit.wide_count);
+            bodies += island.state_count;
+            most = std::max(most, island.wide_count);
         }
-        if (bodies < batch_bodies && i + 1 < scratch.units.size())
+        if (bodies < batch_bodies && i + 1 < scratch.islands.size())
             continue;
         starts.push_back(static_cast<std::int32_t>(i) + 1);
         store += most;
@@ -95,13 +95,13 @@ void form_batches(Scratch& scratch)
         bodies = 0;
     }
     std::int32_t groups = store + large;
-    for (Unit& unit : scratch.units)
+    for (Island& island : scratch.islands)
     {
-        unit.wide_store += is_large(unit) ? store : 0; // the large ones come behind
-        if (scratch.kept_units.rows_apart)
+        island.wide_store += is_large(island) ? store : 0; // the large ones come behind
+        if (scratch.cached_graph.rows_apart)
         {
-            unit.wide_store = unit.first_wide;
-            groups = unit.first_wide + unit.wide_count;
+            island.wide_store = island.first_wide;
+            groups = island.first_wide + island.wide_count;
         }
     }
     scratch.wide_rows.make_room(static_cast<std::size_t>(groups));
@@ -112,10 +112,10 @@ void form_batches(Scratch& scratch)
 // All threads on one after the other.
 void solve_large(const StepContext& ctx, Crew& crew)
 {
-    UnitEnergy energy;
-    for (std::size_t u = 0; u < ctx.scratch.units.size(); ++u)
+    IslandEnergy energy;
+    for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
     {
-        if (is_large(ctx.scratch.units[u]))
+        if (is_large(ctx.scratch.islands[u]))
             solve(ctx, u, energy, crew);
     }
 }
@@ -123,29 +123,29 @@ void solve_large(const StepContext& ctx, Crew& crew)
 void solve_batch(const StepContext& ctx, int batch)
 {
     const Scratch& scratch = ctx.scratch;
-    UnitEnergy energy;
+    IslandEnergy energy;
     Crew alone;
     const auto b = static_cast<std::size_t>(batch);
     for (auto u = static_cast<std::size_t>(scratch.order[b]); u < static_cast<std::size_t>(scratch.order[b + 1]); ++u)
     {
-        const Unit& unit = scratch.units[u];
-        if (unit.alone)
-            fall(ctx, unit);
-        else if (!is_large(unit))
+        const Island& island = scratch.islands[u];
+        if (island.alone)
+            fall(ctx, island);
+        else if (!is_large(island))
             solve(ctx, u, energy, alone);
     }
 }
 
 } // namespace
 
-void solve_units(StepContext& ctx)
+void solve_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    if (scratch.outputs.size() < scratch.units.size())
-        set_size(scratch.outputs, scratch.units.size());
+    if (scratch.outputs.size() < scratch.islands.size())
+        set_size(scratch.outputs, scratch.islands.size());
     if (scratch.impacts_lender < scratch.outputs.size())
         std::swap(scratch.outputs[scratch.impacts_lender].impacts, ctx.scene.events.impacts); // see take_impacts()
-    for (std::size_t i = 0; i < scratch.units.size(); ++i)
+    for (std::size_t i = 0; i < scratch.islands.size(); ++i)
         scratch.outputs[i].clear();
     mark_traced(ctx);
     set_size(scratch.unpushed, scratch.states.size());
@@ -154,11 +154,11 @@ void solve_units(StepContext& ctx)
     const TaskHooks& tasks = ctx.scene.def.tasks;
     const int batches = static_cast<int>(scratch.order.size()) - 1;
     const auto solve_some = [&](int batch) { solve_batch(ctx, batch); };
-    if (std::ranges::any_of(scratch.units, is_large))
+    if (std::ranges::any_of(scratch.islands, is_large))
         Crew::run(tasks, [&](Crew& crew) { solve_large(ctx, crew); }, batches, solve_some);
     else
         run_tasks(tasks, batches, solve_some);
-    ctx.state.rows_stamp = ++scratch.kept_units.stamp;
+    ctx.state.rows_stamp = ++scratch.cached_graph.stamp;
 }
 
 } // namespace carom::internal

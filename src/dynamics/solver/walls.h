@@ -7,7 +7,7 @@
 
 namespace carom::internal {
 
-/// The contacts of a unit with bodies that do not give way: nothing goes through these, whatever pulls.
+/// The contacts of an island with bodies that do not give way: nothing goes through these, whatever pulls.
 class Walls
 {
 public:

@@ -57,7 +57,7 @@ struct alignas(64) BodySim
     float size = 1e30f; ///< least inner radius of its shapes
     float mass = 0;
     float inertia = 0;
-    bool crowded = false;       ///< was solved in a large unit in the last step; or never is, for it is not dynamic
+    bool crowded = false;       ///< was solved in a large island in the last step; or never is, for it is not dynamic
     Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
     float sleep_time = 0; ///< s below the sleep speed
@@ -178,7 +178,7 @@ inline constexpr std::uint32_t passing = 4;      ///< one-way: went through from
 inline constexpr std::uint32_t fresh = 8;        ///< never updated
 inline constexpr std::uint32_t round = 16;       ///< a circle takes part
 inline constexpr std::uint32_t loaded = 32;      ///< had an impulse at the end of the last step
-inline constexpr std::uint32_t begun = 64;       ///< began to touch while the units were solved, and this is not yet told
+inline constexpr std::uint32_t begun = 64;       ///< began to touch while the islands were solved, and this is not yet told
 inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
 inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
 inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
@@ -388,7 +388,7 @@ struct SceneState
     std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
     float substep_of_impulses = 0;          ///< s, of which the impulses are that contacts and joints keep
     float longest_substep = 0;              ///< s, of late
-    bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since units were built
+    bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since islands were built
     Vec2 gravity{};
     float slop = 0;                 ///< the scene's, see Tolerances
     float greatest_sleep_speed = 0; ///< that any body has had; the scene's, or more

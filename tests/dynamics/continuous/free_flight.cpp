@@ -103,7 +103,7 @@ TEST(FreeFlight, WhatIsAloneFallsAsIfByItself)
     for (int i = 0; i < count; ++i)
         balls.push_back(throw_ball(all, i));
     steps(all, 20);
-    EXPECT_EQ(all.report().units, count);
+    EXPECT_EQ(all.report().islands, count);
     EXPECT_EQ(all.report().flight_bodies, count);
     for (const int i : {0, 1, 255, 256, 599})
     {

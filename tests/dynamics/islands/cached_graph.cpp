@@ -1,4 +1,4 @@
-// Units that stay in place from step to step must come out as units that are built anew.
+// Islands that stay in place from step to step must come out as islands that are built anew.
 
 #include "support/test_scene.h"
 
@@ -50,7 +50,7 @@ struct PilesAndSheet
     Scene scene{sleepless()};
     std::vector<BodyId> bodies{};
 
-    // What flies high above keeps all units from staying in place.
+    // What flies high above keeps all islands from staying in place.
     explicit PilesAndSheet(bool with_flier)
     {
         add_static(scene, box(60, 0.5f, {0, -0.5f}));
@@ -68,7 +68,7 @@ struct PilesAndSheet
 
 } // namespace
 
-TEST(DynamicsKeptUnits, AreThoseBuiltAnew)
+TEST(DynamicsCachedGraph, AreThoseBuiltAnew)
 {
     PilesAndSheet kept(false);
     PilesAndSheet anew(true);
@@ -94,6 +94,6 @@ TEST(DynamicsKeptUnits, AreThoseBuiltAnew)
         }
         ASSERT_EQ(kept.scene.report().touching, anew.scene.report().touching);
         ASSERT_EQ(kept.scene.report().colors, anew.scene.report().colors);
-        ASSERT_EQ(kept.scene.report().units + 1, anew.scene.report().units);
+        ASSERT_EQ(kept.scene.report().islands + 1, anew.scene.report().islands);
     }
 }

@@ -1,4 +1,4 @@
-// Units so large that they are cut into parts of the plane, see dynamics/unit_bins.h.
+// Islands so large that they are cut into parts of the plane, see dynamics/unit_bins.h.
 
 #include "support/test_scene.h"
 #include "support/threads.h"
@@ -59,16 +59,16 @@ std::size_t fullest_cell(Scene& scene)
     return *std::ranges::max_element(counts);
 }
 
-// Groups of eight rows of each part of the largest unit.
+// Groups of eight rows of each part of the largest island.
 std::vector<std::int32_t> groups_of_parts(Scene& scene)
 {
     const internal::Scratch& scratch = scene.data().scratch;
-    const internal::Unit& unit = *std::ranges::max_element(scratch.units, {}, &internal::Unit::link_count);
+    const internal::Island& island = *std::ranges::max_element(scratch.islands, {}, &internal::Island::link_count);
     std::vector<std::int32_t> groups;
-    for (int part = 0; part < unit.parts; ++part)
+    for (int part = 0; part < island.parts; ++part)
     {
-        const auto starts = scratch.bin_starts.begin() + unit.first_bin + part * unit.bin_count;
-        groups.push_back(starts[unit.bin_count] - starts[0]);
+        const auto starts = scratch.bin_starts.begin() + island.first_bin + part * island.bin_count;
+        groups.push_back(starts[island.bin_count] - starts[0]);
     }
     return groups;
 }
@@ -91,7 +91,7 @@ std::vector<double> upward_impulses(Scene& scene)
 } // namespace
 
 // Two balls to a pile's one lie in a single row beside it, and have a third of its rows.
-TEST(DynamicsLargeUnit, PartsHaveAboutAsMuchWorkEach)
+TEST(DynamicsLargeIsland, PartsHaveAboutAsMuchWorkEach)
 {
     constexpr int in_row = 4000;
     Scene scene = piled_balls({}, 80, 25, 0.98 * static_cast<double>(radius));
@@ -105,7 +105,7 @@ TEST(DynamicsLargeUnit, PartsHaveAboutAsMuchWorkEach)
 }
 
 // A wall that wakes from one end to the other, between the steps in which bodies are parted anyway.
-TEST(DynamicsLargeUnit, WhatWakesGetsCellsOfItsOwn)
+TEST(DynamicsLargeIsland, WhatWakesGetsCellsOfItsOwn)
 {
     Scene scene;
     for (int i = 0; i < 4000; ++i)
@@ -127,7 +127,7 @@ TEST(DynamicsLargeUnit, WhatWakesGetsCellsOfItsOwn)
     EXPECT_GT(scene.data().state.awake_bodies.size(), 2000u);
 }
 
-TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutAndGoesNoDeeper)
+TEST(DynamicsLargeIsland, WhatIsSetTooDeepIntoTheFloorComesOutAndGoesNoDeeper)
 {
     Scene scene = sunk_balls({});
     Threads three(3);
@@ -145,8 +145,8 @@ TEST(DynamicsLargeUnit, WhatIsSetTooDeepIntoTheFloorComesOutAndGoesNoDeeper)
     EXPECT_LT(before, 0.1f * radius);
 }
 
-// In such a unit parts relax before what flies in it flies. They are parts of the plane from the second step on.
-TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
+// In such an island parts relax before what flies in it flies. They are parts of the plane from the second step on.
+TEST(DynamicsLargeIsland, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
 {
     Threads three(3);
     std::vector<Scene> scenes;
@@ -163,8 +163,8 @@ TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
             scene.step(1.0f / 60);
         ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash()) << "step " << i;
         const internal::Scratch& scratch = scenes[0].data().scratch;
-        ASSERT_TRUE(
-            std::ranges::any_of(scratch.units, [](const internal::Unit& unit) { return unit.parts > internal::few_parts; }));
+        ASSERT_TRUE(std::ranges::any_of(scratch.islands,
+                                        [](const internal::Island& island) { return island.parts > internal::few_parts; }));
         EXPECT_GT(std::ranges::count(scratch.parts, 31), 1000) << "the last part";
         if (i == 0)
         {
@@ -177,7 +177,7 @@ TEST(DynamicsLargeUnit, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThreads)
 }
 
 // m dv = impulses + m g dt, for all but the few that something has flown into.
-TEST(DynamicsLargeUnit, SumsOfImpulsesAreWhatNinetyThousandBallsGot)
+TEST(DynamicsLargeIsland, SumsOfImpulsesAreWhatNinetyThousandBallsGot)
 {
     Scene scene = piled_balls({}, 450, 200, 0.98 * static_cast<double>(radius));
     scene.step(1.0f / 60);

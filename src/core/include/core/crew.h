@@ -1,6 +1,6 @@
 #pragma once
 
-// Many short rounds of shared work inside one long task: passes over a large unit. Tasks of the user's job system are too dear for that, so
+// Many short rounds of shared work inside one long task: passes over a large island. Tasks of the user's job system are too dear for that, so
 // one set of them stays together: the first to come leads, the others serve. A round has a part for each; a member takes its own part of every round, so
 // that what it has worked on before is still in its cache, and whoever is ready takes those of members that have not come. Parts write only what
 // is their own; so who takes which does not matter.

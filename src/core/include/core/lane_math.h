@@ -109,8 +109,8 @@ CAROM_INLINE F8 arc_tangent(F8 sine, F8 cosine)
         t = select(wide, t / (one + root(one + t * t)), t);
         whole = select(wide, whole * 2.0, whole);
     }
-    const D8 unit = whole * atan_small(t);
-    const D8 angle = select(flat, unit, half_pi - unit);
+    const D8 island = whole * atan_small(t);
+    const D8 angle = select(flat, island, half_pi - island);
     const D8 upper = select(x < nothing, 2 * half_pi - angle, angle);
     return floats(select(y < nothing, -upper, upper));
 }

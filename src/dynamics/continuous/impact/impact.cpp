@@ -221,12 +221,12 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     note_deflected(m_span.scratch, m_span.output, m_span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
     if (m_renews)
         return;
-    f.crowded |= !m_span.unit.precise || f.impacts >= crowd_limit;
+    f.crowded |= !m_span.island.precise || f.impacts >= crowd_limit;
     ++f.impacts;
     m_span.output.capped |= is_capped(m_span, f);
 }
 
-// Of another unit, or asleep: it takes effect at the end of the step.
+// Of another island, or asleep: it takes effect at the end of the step.
 void ImpactSet::defer(int index) const
 {
     for (const ImpactRow& r : m_rows)

@@ -66,7 +66,7 @@ int ImpactSet::member_of(int body)
     std::vector<Hold> released;
     if (body != none)
     {
-        m.state = m_span.state_in_unit(body);
+        m.state = m_span.state_in_island(body);
         m.flier = m_span.flier_at(m.state);
         if (m.flier != nullptr)
         {
@@ -120,14 +120,14 @@ void ImpactSet::set_masses(const Member& m, ImpactBody& b) const
     b.inverse_inertia = sim.inverse_inertia;
 }
 
-// All that touches the member, if its way is this unit's to say.
+// All that touches the member, if its way is this island's to say.
 void ImpactSet::expand(int index)
 {
     const Member m = m_members[static_cast<std::size_t>(index)];
     if (m.body == none || m.state == none)
         return;
     add_limits(index);
-    if (!m_span.unit.precise)
+    if (!m_span.island.precise)
         return; // crowds hit two by two
     if (m.flier == nullptr)
         add_joints(m.body);
@@ -227,7 +227,7 @@ void ImpactSet::add_touches(int member, std::int32_t own, std::int32_t other, st
 double ImpactSet::nearness(int member, std::int32_t own, std::int32_t other, int other_body) const
 {
     const bool solved = m_members[static_cast<std::size_t>(member)].flier == nullptr &&
-                        m_span.flier_at(m_span.state_in_unit(other_body)) == nullptr;
+                        m_span.flier_at(m_span.state_in_island(other_body)) == nullptr;
     return solved || was_held(own, other) ? still_held : touching;
 }
 

@@ -19,7 +19,7 @@ constexpr double least_hold = 1.0 / 256; // of a sub-step
 
 } // namespace
 
-// Contacts that no longer part press, on all bodies of this unit.
+// Contacts that no longer part press, on all bodies of this island.
 void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
 {
     std::vector<ImpactBody> accelerations(m_bodies.size());

@@ -7,7 +7,7 @@
 // Apart (C > 0) the bias is C / h: the bodies may close the gap in this sub-step but not more. Overlapping, it is the soft constraint's
 // bias_rate C, no faster than the push speed. Friction: |tangent impulse| <= mu normal impulse, towards the surface speed.
 //
-// Rows of round shapes in small units also carry predicted_bend: what the straight-line prediction of C misses over the sub-step because
+// Rows of round shapes in small islands also carry predicted_bend: what the straight-line prediction of C misses over the sub-step because
 // the surfaces curve. It is corrected rigidly, C / h style; with the fresh normal of the relaxation that makes the pair of passes the
 // RATTLE integrator, which neither gains nor loses energy around a curve.
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The passes over contact rows. Each takes the rows of one unit; h is the sub-step.
+// The passes over contact rows. Each takes the rows of one island; h is the sub-step.
 
 #include "dynamics/step_context.h"
 

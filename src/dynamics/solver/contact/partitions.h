@@ -1,6 +1,6 @@
 #pragma once
 
-// Wide rows of a unit stand in bins, two to a colour. A large unit is cut into parts of the plane, each with bins of its own: no two parts share a body that
+// Wide rows of an island stand in bins, two to a colour. A large island is cut into parts of the plane, each with bins of its own: no two parts share a body that
 // gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another has bins behind all parts' and
 // is solved before them, colour by colour.
 
@@ -9,11 +9,11 @@
 
 namespace carom::internal {
 
-class UnitBins
+class Partitions
 {
 public:
     /// `bins` of each part, and of what crosses.
-    UnitBins(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t parts, std::int32_t bins)
+    Partitions(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t parts, std::int32_t bins)
         : m_starts(starts.data() + first), m_parts(parts), m_bins(bins)
     {}
 
@@ -125,19 +125,22 @@ private:
 
 /// Hinges that are worth all threads: with fewer, waiting at the end of each colour costs more than a second thread gains.
 inline constexpr int worth_all_threads = 1536; // groups
-[[nodiscard]] inline bool is_large(const Unit& unit) { return unit.parts > 0 || unit.wide_joint_count >= worth_all_threads; }
-
-/// Its rows come from memory.
-[[nodiscard]] inline bool are_rows_far(const Unit& unit) { return unit.wide_count > most_near_rows; }
-
-[[nodiscard]] inline UnitBins contact_bins(const Scratch& scratch, const Unit& unit)
+[[nodiscard]] inline bool is_large(const Island& island)
 {
-    return {scratch.bin_starts, unit.first_bin, unit.parts, unit.bin_count};
+    return island.parts > 0 || island.wide_joint_count >= worth_all_threads;
 }
 
-[[nodiscard]] inline UnitBins joint_bins(const Scratch& scratch, const Unit& unit)
+/// Its rows come from memory.
+[[nodiscard]] inline bool are_rows_far(const Island& island) { return island.wide_count > most_near_rows; }
+
+[[nodiscard]] inline Partitions contact_bins(const Scratch& scratch, const Island& island)
 {
-    return {scratch.joint_bin_starts, unit.first_joint_bin, 0, unit.joint_bin_count};
+    return {scratch.bin_starts, island.first_bin, island.parts, island.bin_count};
+}
+
+[[nodiscard]] inline Partitions joint_bins(const Scratch& scratch, const Island& island)
+{
+    return {scratch.joint_bin_starts, island.first_joint_bin, 0, island.joint_bin_count};
 }
 
 } // namespace carom::internal

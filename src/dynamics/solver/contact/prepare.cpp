@@ -139,18 +139,18 @@ void scale_row(ContactRow& row, float by)
     }
 }
 
-std::int32_t state_for_rows(const StepContext& ctx, const Unit& unit, int body)
+std::int32_t state_for_rows(const StepContext& ctx, const Island& island, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
     if (record.awake_index == none)
-        return unit.first_state;
-    const std::int32_t end = unit.first_state + unit.state_count;
+        return island.first_state;
+    const std::int32_t end = island.first_state + island.state_count;
     if (record.type == BodyType::Dynamic)
     {
         const std::int32_t s = ctx.scratch.state_of[static_cast<std::size_t>(record.awake_index)];
-        return s >= unit.first_state && s < end ? s : none;
+        return s >= island.first_state && s < end ? s : none;
     }
-    for (std::int32_t s = unit.first_state + 1 + unit.dynamic_count; s < end; ++s)
+    for (std::int32_t s = island.first_state + 1 + island.dynamic_count; s < end; ++s)
     {
         if (ctx.scratch.state_bodies[static_cast<std::size_t>(s)] == body)
             return s;

@@ -42,9 +42,9 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
 
 [[nodiscard]] ContactRow prepare_row(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
                                      std::int32_t b);
-/// The state of a body as the unit's rows see it: all that does not move shares the first, kinematic bodies have a copy in every unit. none: it
-/// belongs to another unit.
-[[nodiscard]] std::int32_t state_for_rows(const StepContext& ctx, const Unit& unit, int body);
+/// The state of a body as the island's rows see it: all that does not move shares the first, kinematic bodies have a copy in every island. none: it
+/// belongs to another island.
+[[nodiscard]] std::int32_t state_for_rows(const StepContext& ctx, const Island& island, int body);
 /// A body in flight; joint: the hinge to the world that it turns on, or none.
 [[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint);
 
@@ -54,19 +54,19 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the row.
 void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& manifold);
 
-/// In small units rows are looked at anew within the step.
-inline void follow_closely(const Contact& contact, const Unit& unit, ContactRow& row)
+/// In small islands rows are looked at anew within the step.
+inline void follow_closely(const Contact& contact, const Island& island, ContactRow& row)
 {
     const bool round = (contact.flags & contact_flag::round) != 0;
-    row.refreshed = unit.precise && round;
-    row.followed = unit.precise && !round;
+    row.refreshed = island.precise && round;
+    row.followed = island.precise && !round;
 }
 
 /// A piece of a chain or an arc that has no point with a body now may have one before the step is over, as the body slides over a seam: in small
-/// units such contacts have rows without points, that are looked at anew.
-[[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Unit& unit)
+/// islands such contacts have rows without points, that are looked at anew.
+[[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Island& island)
 {
-    return unit.precise && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
+    return island.precise && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
 }
 
 /// All impulses of the last sub-step, for a sub-step of another length.

@@ -1,4 +1,4 @@
-// What rows have stopped in a sub-step bounces off, and users are told of it. Rows of small units are asked one by one, of lanes those that the kernels have
+// What rows have stopped in a sub-step bounces off, and users are told of it. Rows of small islands are asked one by one, of lanes those that the kernels have
 // found struck while relaxing.
 
 #include "dynamics/solver/contact/restitution.h"
@@ -28,21 +28,21 @@ constexpr std::size_t enough_lanes = 64; // to share
 class Bounces
 {
 public:
-    explicit Bounces(const BouncingUnit& of)
-        : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_unit(of.unit), m_output(of.output), m_view(of.view),
-          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_rows.data() + m_unit.wide_store),
-          m_notes(m_scratch.wide_notes.data() + m_unit.wide_store), m_struck(m_scratch.struck.data() + m_unit.wide_store)
+    explicit Bounces(const BouncingIsland& of)
+        : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_island(of.island), m_output(of.output), m_view(of.view),
+          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_rows.data() + m_island.wide_store),
+          m_notes(m_scratch.wide_notes.data() + m_island.wide_store), m_struck(m_scratch.struck.data() + m_island.wide_store)
     {}
 
     void note_approaches()
     {
-        for (int i = 0; i < m_unit.impact_row_count; ++i)
+        for (int i = 0; i < m_island.impact_row_count; ++i)
             note_approach(m_view, impact_row(i));
     }
 
     void bounce(int k, Crew& crew)
     {
-        for (int i = 0; i < m_unit.impact_row_count; ++i)
+        for (int i = 0; i < m_island.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
         bounce_lanes(k, crew);
     }
@@ -51,7 +51,7 @@ private:
     [[nodiscard]] ContactRow& impact_row(int i)
     {
         return m_scratch
-            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_unit.first_impact_row + i)])];
+            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_island.first_impact_row + i)])];
     }
 
     // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
@@ -60,24 +60,24 @@ private:
         find_struck_lanes();
         if (m_output.struck_lanes.size() < enough_lanes)
         {
-            bounce_groups(0, m_unit.wide_count, k, m_output);
+            bounce_groups(0, m_island.wide_count, k, m_output);
             return;
         }
         std::vector<Told>& in_parts = m_output.told_in_parts;
-        in_parts.resize(std::max(in_parts.size(), as_index(m_unit.parts)));
+        in_parts.resize(std::max(in_parts.size(), as_index(m_island.parts)));
         const int crossing =
-            contact_bins(m_scratch, m_unit)
+            contact_bins(m_scratch, m_island)
                 .by_part(crew, [&](int first, int last, int part) { bounce_groups(first, last, k, in_parts[as_index(part)]); });
-        for (Told& told : std::span(in_parts).first(as_index(m_unit.parts)))
+        for (Told& told : std::span(in_parts).first(as_index(m_island.parts)))
             take(told);
-        bounce_groups(crossing, m_unit.wide_count, k, m_output);
+        bounce_groups(crossing, m_island.wide_count, k, m_output);
     }
 
     void find_struck_lanes()
     {
         std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         lanes.clear();
-        for_each_nonzero(m_struck, static_cast<std::size_t>(m_unit.wide_count),
+        for_each_nonzero(m_struck, static_cast<std::size_t>(m_island.wide_count),
                          [&](std::size_t g)
                          {
                              for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
@@ -140,7 +140,7 @@ private:
                 approach = std::max(approach, notes.approach[p].v[i]);
         }
         const bool strikes = (notes.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
-        const std::int32_t index = m_unit.wide_store * lane_count + lane;
+        const std::int32_t index = m_island.wide_store * lane_count + lane;
         ContactRow row = row_of_lane(m_scratch, index);
         row.hit = strikes ? 0 : 1;
         if ((notes.untold & bit) != 0)
@@ -383,8 +383,8 @@ private:
 
     const StepContext& m_ctx;
     Scratch& m_scratch;
-    const Unit& m_unit;
-    UnitOutput& m_output;
+    const Island& m_island;
+    IslandOutput& m_output;
     const SolverView& m_view;
     bool m_notes_pushes;
     const WideRow* m_wide;
@@ -394,8 +394,8 @@ private:
 
 } // namespace
 
-void note_approaches(const BouncingUnit& unit) { Bounces(unit).note_approaches(); }
+void note_approaches(const BouncingIsland& island) { Bounces(island).note_approaches(); }
 
-void bounce(const BouncingUnit& unit, int k, Crew& crew) { Bounces(unit).bounce(k, crew); }
+void bounce(const BouncingIsland& island, int k, Crew& crew) { Bounces(island).bounce(k, crew); }
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-// Contacts of large units, eight side by side: no two of a group share a moving body. They are solved in the contact's own frame. With
+// Contacts of large islands, eight side by side: no two of a group share a moving body. They are solved in the contact's own frame. With
 // n the normal, t = perp(n), and r the lever arm of a point, r × t = r · n, so that two scalars per body and point say everything:
 //   across = r × n    the arm of the normal, and how the separation changes as the body turns
 //   along  = r · n    the arm of the tangent, and how the separation curves
@@ -28,7 +28,7 @@ struct WidePoint
     LaneFloats total_tangent;
 };
 
-/// What solving reads and writes, and nothing else: rows of a large unit come from memory in every sub-step. What follows from the masses with little
+/// What solving reads and writes, and nothing else: rows of a large island come from memory in every sub-step. What follows from the masses with little
 /// arithmetic does not stand here.
 struct alignas(64) WideRow
 {

@@ -106,7 +106,7 @@ JointArms joint_arms(const SceneState& state, const JointRecord& joint)
     return arms;
 }
 
-JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPlace& place)
+JointWork prepare_joint(const StepContext& ctx, const Island& island, const JointPlace& place)
 {
     const JointRecord& joint = ctx.state.joints[place.joint];
     JointWork work;
@@ -132,7 +132,7 @@ JointWork prepare_joint(const StepContext& ctx, const Unit& unit, const JointPla
     if (joint.kind == JointType::Spring)
         fit_spring(view, ctx.state, work);
     else if (joint.hertz > 0)
-        fit_axis_spring(view, joint, unit.direct, unit.drifts, work);
+        fit_axis_spring(view, joint, island.direct, island.drifts, work);
     return work;
 }
 

@@ -1,5 +1,5 @@
 // One spring, one mass, exactly. With e the stretch, u its rate, a the acceleration that everything else gives it (evenly, and already in the
-// velocities as h a), w² = k / m and B(t) the answer to a unit of speed, the motion over a sub-step is
+// velocities as h a), w² = k / m and B(t) the answer to an island of speed, the motion over a sub-step is
 //
 //   e' = A e + B u + G a      A = 1 - w² G,  G = integral of B over h
 //   u' = -w² B e + D u + B a  D = dB/dt
@@ -18,7 +18,7 @@ namespace carom::internal {
 
 namespace {
 
-// Answer to a unit of speed after h: where it is (B), its rate (D), and the way since (G).
+// Answer to an island of speed after h: where it is (B), its rate (D), and the way since (G).
 struct SpringAnswer
 {
     double b;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Hinges of large units, eight side by side: no two of a group share a moving body. A hinge holds two anchors together; of some the angle is
+// Hinges of large islands, eight side by side: no two of a group share a moving body. A hinge holds two anchors together; of some the angle is
 // limited, driven or sprung as well.
 
 #include "core/lane_storage.h"

@@ -1,4 +1,4 @@
-// Bodies move, eight side by side; Rotation::from_angle and UnitSolver::integrate_position have the same for one. Part of kernels.inl.
+// Bodies move, eight side by side; Rotation::from_angle and IslandSolver::integrate_position have the same for one. Part of kernels.inl.
 
 namespace states {
 

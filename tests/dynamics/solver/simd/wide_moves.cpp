@@ -35,7 +35,7 @@ struct Bodies
     }
 };
 
-// As UnitSolver::integrate_position.
+// As IslandSolver::integrate_position.
 void move_one_by_one(Bodies& bodies)
 {
     const SolverView view{bodies.states.data(), bodies.constants.data(), sub_step, 1 / sub_step, 0};

@@ -439,7 +439,7 @@ Placement DirectSolve::ahead_of(int node, std::int32_t state) const
     return node == JointMatrix::ground ? placed_ahead(m_view, state) : m_nodes[as_index(node)].ahead;
 }
 
-// In units of the longest arm, or rad.
+// In islands of the longest arm, or rad.
 double DirectSolve::largest_error() const
 {
     double length = 0;

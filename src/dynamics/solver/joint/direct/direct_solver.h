@@ -48,7 +48,7 @@ public:
     void solve(bool use_bias);
     /// Is there a figure that nothing holds? Its contacts are solved here, each with what the joints answer; see articulation_contacts.cpp.
     [[nodiscard]] bool has_free_figures() const { return m_ready && m_has_free_figures; }
-    /// Some sweeps over all contacts of the unit, right after solve(); fewer once none changes a speed by more than `tiny`, m/s.
+    /// Some sweeps over all contacts of the island, right after solve(); fewer once none changes a speed by more than `tiny`, m/s.
     void solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny);
     /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
     void take_forbidden_speeds();
