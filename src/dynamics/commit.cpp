@@ -188,7 +188,7 @@ void forget_errors_of_stopped(StepContext& ctx)
 
 void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
 {
-    if (!ctx.state.bodies[d.body].gives_way)
+    if (!ctx.state.bodies[d.body].has_finite_mass)
         return;
     wake_body(ctx.scene, d.body);
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(d.body)];
@@ -318,7 +318,7 @@ void commit(StepContext& ctx)
         forget_errors_of_stopped(ctx);
     for (const Flier& flier : scratch.fliers)
         commit_hinge(ctx, flier);
-    note_untold_impacts(ctx);
+    note_pending_impacts(ctx);
     for (std::size_t u = 0; u < scratch.islands.size(); ++u)
     {
         take_impacts(ctx, u);

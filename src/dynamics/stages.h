@@ -49,7 +49,7 @@ void update_triggers(StepContext& ctx);
 void publish_events(StepContext& ctx);
 
 /// Puts bodies and contacts that are walked together side by side in memory, now and then.
-void tidy(StepContext& ctx);
+void reorder(StepContext& ctx);
 
 /// Runs the users' callbacks from the events.
 void run_callbacks(SceneData& scene, Scene& owner);

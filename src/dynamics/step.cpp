@@ -96,7 +96,7 @@ const StepReport& step(SceneData& scene, float dt)
     average_forces(ctx);
     watch.time(ms.events, [&] { publish_events(ctx); });
     end_step(ctx);
-    tidy(ctx);
+    reorder(ctx);
     ms.total = watch.total();
     scene.report.ms = ms;
     return scene.report;

@@ -9,10 +9,10 @@ namespace carom::internal {
 Scratch::Scratch() = default;
 Scratch::~Scratch() = default;
 
-Told::Told() = default;
-Told::~Told() = default;
-Told::Told(Told&&) noexcept = default;
-Told& Told::operator=(Told&&) noexcept = default;
+ImpactReport::ImpactReport() = default;
+ImpactReport::~ImpactReport() = default;
+ImpactReport::ImpactReport(ImpactReport&&) noexcept = default;
+ImpactReport& ImpactReport::operator=(ImpactReport&&) noexcept = default;
 
 IslandOutput::IslandOutput() = default;
 IslandOutput::~IslandOutput() = default;
@@ -22,7 +22,7 @@ IslandOutput& IslandOutput::operator=(IslandOutput&&) noexcept = default;
 void IslandOutput::clear()
 {
     impacts.clear();
-    told_impacts = 0;
+    reported_impacts = 0;
     begins.clear();
     late_rows.clear();
     deferred.clear();

@@ -34,8 +34,8 @@ struct Island
     std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
     std::int32_t state_count = 0;
     std::int32_t dynamic_count = 0; ///< of these, after the first one
-    std::int32_t first_link = 0;
-    std::int32_t link_count = 0;
+    std::int32_t first_edge = 0;
+    std::int32_t edge_count = 0;
     std::int32_t first_row = 0; ///< contact rows, sorted by color
     std::int32_t row_count = 0;
     std::int32_t first_wide =
@@ -74,45 +74,45 @@ struct Island
 };
 
 /// What the update of a contact found that others must hear of.
-enum class News : std::uint8_t
+enum class TouchChange : std::uint8_t
 {
     Nothing,
     Begins,
     Ends,
     MayHit ///< something fast may hit a sleeper
 };
-struct ContactNews
+struct ContactChange
 {
     std::int32_t contact;
-    News what;
+    TouchChange what;
 };
 
 /// Of a task's contacts: of those whose news concern nobody else, who has begun or ended to touch; and the news of the others.
-struct SomeNews
+struct ContactChanges
 {
     std::vector<std::int32_t> begins{};
     std::vector<std::int32_t> ends{};
-    std::vector<ContactNews> others{};
+    std::vector<ContactChange> others{};
     std::vector<std::int32_t> left_loads{}; ///< shapes that have left a piece of a chain which bore a load of theirs
     std::vector<std::int32_t> of_others{};  ///< contacts of whose news others may have more to say
 };
 
 /// What becomes of a pair of boxes, see pair_update.cpp.
-namespace fate {
+namespace pair_update {
 inline constexpr std::uint8_t gets_contact = 1;
 inline constexpr std::uint8_t loses_contact = 2;
 inline constexpr std::uint8_t goes = 4;
 inline constexpr std::uint8_t parted = 8; ///< it stays, but its boxes do not meet
-} // namespace fate
+} // namespace pair_update
 
-struct PairFate
+struct PairUpdate
 {
     std::int32_t pair; ///< in SceneState::box_pairs
     std::uint8_t what;
 };
 
 /// Of a link; the first three as in contact_flag.
-namespace link_flag {
+namespace edge_flag {
 inline constexpr std::uint32_t touching = contact_flag::touching; ///< else it may touch within the step
 inline constexpr std::uint32_t round = contact_flag::round;
 inline constexpr std::uint32_t bears = contact_flag::loaded; ///< bore a load in the last step
@@ -120,26 +120,26 @@ inline constexpr std::uint32_t solved = 1;                   ///< gets a row, un
 inline constexpr std::uint32_t plain = 4;                    ///< neither rolling resistance nor surface speed
 inline constexpr std::uint32_t in_lane = 8;
 inline constexpr std::uint32_t all = 63;
-} // namespace link_flag
+} // namespace edge_flag
 
 /// Contact of a dynamic body, or of two, that takes part in a step. Four to a cache line.
-struct Link
+struct ContactEdge
 {
     std::int32_t contact = none;
     std::int32_t a = none; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
     std::int32_t b = none;
     // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
-    std::uint16_t about = 0; ///< see about_link
+    std::uint16_t flags = 0; ///< see packed_flags
     std::uint16_t bin = 0;   ///< where lanes are given out, by color, points and place; of rows the color
 
-    [[nodiscard]] bool has(std::uint32_t flag) const { return (about & flag) != 0; }
-    [[nodiscard]] int points() const { return about >> 6 & 3; }
-    [[nodiscard]] int color() const { return (about >> 8) - 1; } ///< that it has from the last step, then of its row
+    [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
+    [[nodiscard]] int points() const { return flags >> 6 & 3; }
+    [[nodiscard]] int color() const { return (flags >> 8) - 1; } ///< that it has from the last step, then of its row
 };
-static_assert(sizeof(Link) == 16);
+static_assert(sizeof(ContactEdge) == 16);
 
 /// Flags, the number of points and the color in one number.
-[[nodiscard]] inline std::uint16_t about_link(std::uint32_t flags, int points, int color)
+[[nodiscard]] inline std::uint16_t packed_flags(std::uint32_t flags, int points, int color)
 {
     return static_cast<std::uint16_t>(flags | static_cast<std::uint32_t>(points) << 6 |
                                       static_cast<std::uint32_t>(color + 1) << 8);
@@ -166,13 +166,13 @@ struct SomePlaces
     std::vector<std::int32_t> uncolored; ///< of the island's links
     std::vector<WideCore> cores;
 
-    [[nodiscard]] std::int32_t& place_for(const Link& l) { return l.has(link_flag::in_lane) ? lanes[l.bin] : rows[l.bin]; }
+    [[nodiscard]] std::int32_t& place_for(const ContactEdge& l) { return l.has(edge_flag::in_lane) ? lanes[l.bin] : rows[l.bin]; }
 };
 
 /// What a task has found.
-struct SomeLinks
+struct EdgesOfTask
 {
-    std::vector<Link> links; ///< room for more than there are
+    std::vector<ContactEdge> links; ///< room for more than there are
     std::size_t count = 0;
     std::size_t first = 0;      ///< where they go among all
     std::size_t to_compare = 0; ///< so many are of the last step, but for those that have been found
@@ -237,7 +237,7 @@ struct IslandRun
 inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
 
 /// Joint of a dynamic body, or of two, that takes part in a step.
-struct JointLink
+struct JointEdge
 {
     std::int32_t joint = none;
     std::int32_t a = none; ///< as in Link: the place of the body, from copy_kinematic_bodies on its state
@@ -248,10 +248,10 @@ struct JointLink
     bool binds = false;  ///< it does something about an angle or a length beside
     bool flies = false;  ///< one of its bodies may fly about it
 
-    [[nodiscard]] bool operator==(const JointLink&) const = default;
+    [[nodiscard]] bool operator==(const JointEdge&) const = default;
 };
 
-struct KeptBody
+struct CachedBody
 {
     std::int32_t body;
     std::uint8_t cell; ///< of the plane
@@ -260,22 +260,22 @@ struct KeptBody
 /// What the islands of the last step were made of, see cached_graph.cpp.
 struct CachedGraph
 {
-    std::vector<KeptBody> bodies;
-    std::vector<JointLink> joints;
-    std::vector<std::uint8_t> bound;    ///< of each state: rows, limits or motors hold it
-    bool are_plain = false;             ///< nothing in them depends on anything else
-    bool stay_so = false;               ///< and no body or joint has changed, come or gone since
-    bool links_stay = false;            ///< those of contacts are what they were
-    bool joints_stay = false;           ///< so that links of joints are what they were
-    bool hinges_stay = false;           ///< and wide hinges stand where they stood
-    bool has_hung = false;              ///< as Scratch::has_hung when links of joints were gathered
-    bool rows_apart = false;            ///< islands have stayed: each has its wide rows in a place of its own
-    bool rows_stay = false;             ///< in this step wide rows have been followed where they stand
-    std::uint64_t rows_stayed_for = 0;  ///< so many steps, this one among them
-    std::uint64_t stamp = 0;            ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
-    std::vector<std::int32_t> contacts; ///< the awake ones, when the rows were filled
-    std::vector<std::int32_t> loose;    ///< of these, those without a lane
-    int touching = 0;                   ///< of the report
+    std::vector<CachedBody> bodies;
+    std::vector<JointEdge> joints;
+    std::vector<std::uint8_t> bound;      ///< of each state: rows, limits or motors hold it
+    bool are_plain = false;               ///< nothing in them depends on anything else
+    bool stay_plain = false;              ///< and no body or joint has changed, come or gone since
+    bool edges_are_unchanged = false;     ///< those of contacts are what they were
+    bool joints_are_unchanged = false;    ///< so that links of joints are what they were
+    bool hinges_are_unchanged = false;    ///< and wide hinges stand where they stood
+    bool has_hung = false;                ///< as Scratch::has_hung when links of joints were gathered
+    bool rows_apart = false;              ///< islands have stayed: each has its wide rows in a place of its own
+    bool rows_are_unchanged = false;      ///< in this step wide rows have been followed where they stand
+    std::uint64_t rows_unchanged_for = 0; ///< so many steps, this one among them
+    std::uint64_t stamp = 0;              ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
+    std::vector<std::int32_t> contacts;   ///< the awake ones, when the rows were filled
+    std::vector<std::int32_t> loose;      ///< of these, those without a lane
+    int touching = 0;                     ///< of the report
 };
 
 /// An island has a link with a kinematic body.
@@ -366,40 +366,40 @@ struct StoppedJoint
 };
 
 /// What a thread tells of an island's impacts.
-struct Told
+struct ImpactReport
 {
     std::vector<ImpactEvent> impacts;
     std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
     std::vector<std::int32_t> kicked_shapes;
     int bulk_impacts = 0;
 
-    Told();
-    ~Told();
-    Told(Told&&) noexcept;
-    Told& operator=(Told&&) noexcept;
-    Told(const Told&) = delete;
-    Told& operator=(const Told&) = delete;
+    ImpactReport();
+    ~ImpactReport();
+    ImpactReport(ImpactReport&&) noexcept;
+    ImpactReport& operator=(ImpactReport&&) noexcept;
+    ImpactReport(const ImpactReport&) = delete;
+    ImpactReport& operator=(const ImpactReport&) = delete;
 };
 
 /// Per island, so that islands may run side by side; merged in the order of the islands.
-struct IslandOutput : Told
+struct IslandOutput : ImpactReport
 {
-    std::size_t told_impacts = 0;           ///< the first so many are known to force laws
+    std::size_t reported_impacts = 0;       ///< the first so many are known to force laws
     std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
     std::vector<ContactRow> late_rows;
     std::vector<ContactRow> pulled_rows; ///< see Walls
     std::vector<DeferredImpulse> deferred;
-    std::vector<StoppedJoint> stopped_joints; ///< in this sub-step
-    std::vector<std::int32_t> struck_lanes;   ///< of the island, in this sub-step
-    std::vector<std::int32_t> struck_states;  ///< that rows move and what flies has struck, in this sub-step
-    std::vector<Told> told_in_parts;          ///< of the plane, empty but for while threads tell
-    std::vector<std::int32_t> deflected;      ///< fliers off the way they set out on, in order
-    std::vector<Reach> reaches;               ///< of each of these
-    std::vector<HoldSet> hold_sets;           ///< of fliers that something has held
-    std::vector<PathPiece> path;              ///< of traced bodies, of each in the order of time
-    std::vector<std::int32_t> last_piece;     ///< of each state of the island; empty before the first
-    std::vector<RecordedPose> poses;          ///< after each sub-step, when asked for
-    std::unique_ptr<DirectSolve> direct;      ///< of what joints hold, where an island of this place in the order has had any
+    std::vector<StoppedJoint> stopped_joints;   ///< in this sub-step
+    std::vector<std::int32_t> struck_lanes;     ///< of the island, in this sub-step
+    std::vector<std::int32_t> struck_states;    ///< that rows move and what flies has struck, in this sub-step
+    std::vector<ImpactReport> reports_of_parts; ///< of the plane, empty but for while threads tell
+    std::vector<std::int32_t> deflected;        ///< fliers off the way they set out on, in order
+    std::vector<Reach> reaches;                 ///< of each of these
+    std::vector<HoldSet> hold_sets;             ///< of fliers that something has held
+    std::vector<PathPiece> path;                ///< of traced bodies, of each in the order of time
+    std::vector<std::int32_t> last_piece;       ///< of each state of the island; empty before the first
+    std::vector<RecordedPose> poses;            ///< after each sub-step, when asked for
+    std::unique_ptr<DirectSolve> direct;        ///< of what joints hold, where an island of this place in the order has had any
     int flight_impacts = 0;
     ImpactWork impact_work{};    ///< left in this sub-step
     std::int64_t looks_left = 0; ///< at who may be met next, likewise
@@ -440,7 +440,7 @@ struct Scratch
     bool all_fitted = false; ///< the moving layer, in this step
     std::vector<std::uint64_t> new_pairs;
     std::vector<std::vector<std::uint64_t>> pairs_of_task;
-    std::vector<std::vector<PairFate>> fates_of_task;
+    std::vector<std::vector<PairUpdate>> pair_updates_of_task;
     std::vector<ContactImpulses> impulses_before; ///< see uneven_steps.h
     std::vector<std::array<float, joint_slots>> joint_impulses_before;
     std::vector<std::int32_t> made_contacts; ///< see ContactBatch
@@ -448,15 +448,15 @@ struct Scratch
     std::vector<std::int32_t> pairs_of_triggers; ///< that get a contact
     std::vector<std::int32_t> places;            ///< by body slot, as in Link
     std::vector<std::int32_t> placed;            ///< bodies that have one
-    std::vector<float> swings;                   ///< of joint_links, see IslandTally::swing
+    std::vector<float> swings;                   ///< of joint_edges, see IslandTally::swing
     UnionFind sets;                              ///< of what hangs together, by place in awake_bodies; then of islands that meet
     std::vector<UnionFind> more_sets;            ///< of parts of the links
     std::vector<std::int32_t> island_of;         ///< by place in awake_bodies
     std::vector<std::int32_t> state_of;          ///< by place in awake_bodies; dynamic bodies only
-    std::vector<ContactNews> news;
+    std::vector<ContactChange> changes;
     std::vector<std::int32_t> left_loads; ///< in order
     std::vector<std::int32_t> of_others;  ///< contacts, of all tasks
-    std::vector<SomeNews> news_of_task;
+    std::vector<ContactChanges> changes_of_task;
     std::vector<std::int32_t> flight;        ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;        ///< places where that is not earthbound
     std::vector<std::int32_t> grounded;      ///< the same of what could fly but bears or is borne by something
@@ -465,8 +465,8 @@ struct Scratch
     bool has_kinematic = false;              ///< a kinematic body is awake
     bool has_hung = false;                   ///< of what may fly, something hangs on a hinge
     std::vector<std::uint8_t> may_be_struck; ///< by what flies, by place in awake_bodies
-    std::vector<SomeLinks> links_of_task;
-    std::vector<Link> links;
+    std::vector<EdgesOfTask> edges_of_task;
+    std::vector<ContactEdge> links;
     std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
     std::vector<TreeLeaf> reaches;          ///< of these
     std::vector<SomeReaches> reaches_of_task;
@@ -478,21 +478,21 @@ struct Scratch
     std::vector<std::int32_t> island_starts;
     std::vector<std::vector<IslandRun>> runs_of_task;
     std::vector<std::vector<CellOfIsland>> cells_of_task;
-    std::vector<std::int32_t> island_of_link; ///< none: it gets no row
+    std::vector<std::int32_t> island_of_edge; ///< none: it gets no row
     std::vector<std::uint8_t> bounced;        ///< of an island's begins, see commit.cpp
     std::vector<std::int32_t> in_plane;       ///< places in awake_bodies, in the order of the plane
-    std::size_t fullest_cell = 0;   ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
-    std::vector<Link> solved_links; ///< those that get rows, by island
-    std::vector<std::vector<JointLink>> joints_of_task;
-    std::vector<JointLink> joint_links;
+    std::size_t fullest_cell = 0; ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
+    std::vector<ContactEdge> solved_edges; ///< those that get rows, by island
+    std::vector<std::vector<JointEdge>> joints_of_task;
+    std::vector<JointEdge> joint_edges;
     CachedGraph cached_graph;
     std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
     std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
     bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake
-    std::vector<JointLink> solved_joints;    ///< by island
+    std::vector<JointEdge> solved_joints;    ///< by island
     std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by island
-    std::vector<std::int32_t> lane_links;    ///< link in each lane; none: empty
-    std::vector<std::int32_t> row_links;     ///< link of each row
+    std::vector<std::int32_t> lane_edges;    ///< link in each lane; none: empty
+    std::vector<std::int32_t> row_edges;     ///< link of each row
     std::vector<Island> islands;
     std::vector<BodyState> states; ///< [0] stands for every static body
     std::vector<StateConstants> constants;

@@ -9,6 +9,6 @@ namespace carom::internal {
 inline constexpr std::size_t bodies_per_task = 512;
 inline constexpr std::size_t contacts_per_task = 1024;
 inline constexpr std::size_t joints_per_task = 1024;
-inline constexpr std::size_t links_per_task = 2048; ///< they are small and stand in order
+inline constexpr std::size_t edges_per_task = 2048; ///< they are small and stand in order
 
 } // namespace carom::internal

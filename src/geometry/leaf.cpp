@@ -122,10 +122,10 @@ std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance)
     const std::size_t n = points.size();
     if (n < 3)
         return points;
-    std::vector<bool> is_kept(n, false);
+    std::vector<bool> is_cached(n, false);
     std::size_t last = surely_a_corner(points);
     const std::size_t end = last + n;
-    is_kept[last] = true;
+    is_cached[last] = true;
     while (last < end)
     {
         const Vec2 from = points[last % n];
@@ -139,12 +139,12 @@ std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance)
             ++next;
         }
         last = next;
-        is_kept[last % n] = true;
+        is_cached[last % n] = true;
     }
     std::vector<Vec2> kept;
     for (std::size_t i = 0; i < n; ++i)
     {
-        if (is_kept[i])
+        if (is_cached[i])
             kept.push_back(points[i]);
     }
     return kept;

@@ -205,7 +205,7 @@ JointDef read_joint(const SceneData& data, const JointRecord& r, std::uint64_t u
 
 // --- lists ---------------------------------------------------------------------------------------------------------------------------
 
-void link_joint(SceneState& state, int index)
+void add_joint_edge(SceneState& state, int index)
 {
     JointRecord& joint = state.joints[index];
     for (int side = 0; side < 2; ++side)
@@ -317,7 +317,7 @@ JointId Scene::create_joint(const JointDef& def)
         return {};
     begin_counting(state, record);
     const int slot = state.joints.create(record);
-    link_joint(state, slot);
+    add_joint_edge(state, slot);
     grow(m_data->joint_user_data, static_cast<std::size_t>(state.joints.capacity()));
     m_data->joint_user_data[static_cast<std::size_t>(slot)] = user_data;
     state.graph_dirty = true;

@@ -134,10 +134,10 @@ void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const V
                   };
                   for (std::size_t i = 0; i < contacts.size(); ++i)
                   {
-                      if (i + 2 * turns_ahead < contacts.size())
-                          prefetch_line(&m_state.contacts[contacts[i + 2 * turns_ahead]]);
-                      if (i + turns_ahead < contacts.size())
-                          for_own_sides(i + turns_ahead,
+                      if (i + 2 * prefetch_distance < contacts.size())
+                          prefetch_line(&m_state.contacts[contacts[i + 2 * prefetch_distance]]);
+                      if (i + prefetch_distance < contacts.size())
+                          for_own_sides(i + prefetch_distance,
                                         [&](const Contact& contact, int side) { prefetch_side(m_state, contact, side); });
                       for_own_sides(i, [&](const Contact&, int side) { visit(contacts[i], side); });
                   }

@@ -46,32 +46,32 @@ bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
 
 // Of a pair of which one moves: whether it may meet in this step, and whether its fat boxes do. Filters may have changed since it was found; the end
 // of a touch must still be told.
-std::uint8_t fate_of_moving(const StepContext& ctx, const BoxPair& pair, bool near, bool meet)
+std::uint8_t update_of_moving(const StepContext& ctx, const BoxPair& pair, bool near, bool meet)
 {
     const SceneState& state = ctx.state;
     const bool has_contact = pair.contact != none;
-    const std::uint8_t parted = meet ? 0 : fate::parted;
+    const std::uint8_t parted = meet ? 0 : pair_update::parted;
     if (near == has_contact) // as it was
-        return near ? parted : meet ? 0 : fate::goes;
+        return near ? parted : meet ? 0 : pair_update::goes;
     if (near)
-        return may_collide(state, pair.a, pair.b) ? fate::gets_contact | parted : parted;
+        return may_collide(state, pair.a, pair.b) ? pair_update::gets_contact | parted : parted;
     if ((state.contacts[pair.contact].flags & (contact_flag::touching | contact_flag::trigger)) != 0)
         return parted;
-    return meet ? fate::loses_contact : fate::loses_contact | fate::goes;
+    return meet ? pair_update::loses_contact : pair_update::loses_contact | pair_update::goes;
 }
 
-std::uint8_t fate_of(const StepContext& ctx, const BoxPair& pair)
+std::uint8_t update_of(const StepContext& ctx, const BoxPair& pair)
 {
     const SceneState& state = ctx.state;
     const BroadPhase& boxes = state.broad_phase;
     if (!boxes.has(pair.a) || !boxes.has(pair.b))
-        return fate::goes;
+        return pair_update::goes;
     const bool meet = boxes_meet(state, pair.a, pair.b);
     if (boxes.moves(pair.a) || boxes.moves(pair.b))
-        return fate_of_moving(ctx, pair, may_meet_in_step(ctx, pair), meet);
+        return update_of_moving(ctx, pair, may_meet_in_step(ctx, pair), meet);
     // triggers see what rests as well, once
     const bool seen = is_trigger(boxes, pair) && meet && pair.contact == none && may_collide(state, pair.a, pair.b);
-    return seen ? fate::gets_contact | fate::goes : fate::goes;
+    return seen ? pair_update::gets_contact | pair_update::goes : pair_update::goes;
 }
 
 // One that does not stay as it is.
@@ -106,7 +106,7 @@ struct SeenPair
 }
 
 // Of a task's pairs. Most stay as they are.
-void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairFate>& fates)
+void find_updates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairUpdate>& updates)
 {
     const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
     const BoxPlace* places = ctx.state.broad_phase.places();
@@ -115,9 +115,9 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
     const auto add = [&](std::size_t i, std::uint8_t what)
     {
         if (what != 0)
-            append(fates, {static_cast<std::int32_t>(i), what});
+            append(updates, {static_cast<std::int32_t>(i), what});
     };
-    fates.clear();
+    updates.clear();
     SeenPair changes[pairs_per_task];
     std::size_t count = 0;
     std::size_t i = first;
@@ -140,32 +140,32 @@ void find_fates(const StepContext& ctx, std::size_t first, std::size_t last, std
     {
         const BoxPair& pair = pairs[static_cast<std::size_t>(seen.pair)];
         add(static_cast<std::size_t>(seen.pair),
-            seen.plain ? fate_of_moving(ctx, pair, seen.near, seen.meet) : fate_of(ctx, pair));
+            seen.plain ? update_of_moving(ctx, pair, seen.near, seen.meet) : update_of(ctx, pair));
     }
     for (; i < last; ++i)
-        add(i, fate_of(ctx, pairs[i]));
+        add(i, update_of(ctx, pairs[i]));
 }
 
 // What is to be done, in the order of pairs.
-class Fates
+class PairUpdates
 {
 public:
-    explicit Fates(StepContext& ctx)
+    explicit PairUpdates(StepContext& ctx)
         : m_ctx(ctx), m_state(ctx.state), m_batch(ctx), m_of_triggers(ctx.scratch.pairs_of_triggers), m_going(ctx.scratch.order)
     {
         m_of_triggers.clear();
         m_going.clear();
     }
 
-    void fulfil(std::span<const PairFate> fates)
+    void fulfil(std::span<const PairUpdate> updates)
     {
-        for (std::size_t i = 0; i < fates.size(); ++i)
+        for (std::size_t i = 0; i < updates.size(); ++i)
         {
-            if (i + 2 * turns_ahead < fates.size())
-                prefetch_line(&m_state.box_pairs[as_index(fates[i + 2 * turns_ahead].pair)]);
-            if (i + turns_ahead < fates.size())
-                prefetch_contact(m_state.box_pairs[as_index(fates[i + turns_ahead].pair)]);
-            fulfil(fates[i]);
+            if (i + 2 * prefetch_distance < updates.size())
+                prefetch_line(&m_state.box_pairs[as_index(updates[i + 2 * prefetch_distance].pair)]);
+            if (i + prefetch_distance < updates.size())
+                prefetch_contact(m_state.box_pairs[as_index(updates[i + prefetch_distance].pair)]);
+            fulfil(updates[i]);
         }
     }
 
@@ -198,17 +198,17 @@ private:
         prefetch_line(&m_state.contacts.generation(pair.contact));
     }
 
-    void fulfil(const PairFate& fate)
+    void fulfil(const PairUpdate& pair_update)
     {
-        const BoxPair& pair = m_state.box_pairs[as_index(fate.pair)];
-        if ((fate.what & fate::parted) != 0)
+        const BoxPair& pair = m_state.box_pairs[as_index(pair_update.pair)];
+        if ((pair_update.what & pair_update::parted) != 0)
             append(m_state.parted_pairs, pair_key(pair.a, pair.b));
-        if ((fate.what & fate::gets_contact) != 0)
-            is_trigger(m_state.broad_phase, pair) ? append(m_of_triggers, fate.pair) : m_batch.make(fate.pair);
-        if ((fate.what & fate::loses_contact) != 0)
+        if ((pair_update.what & pair_update::gets_contact) != 0)
+            is_trigger(m_state.broad_phase, pair) ? append(m_of_triggers, pair_update.pair) : m_batch.make(pair_update.pair);
+        if ((pair_update.what & pair_update::loses_contact) != 0)
             m_batch.destroy(pair.contact);
-        if ((fate.what & fate::goes) != 0)
-            append(m_going, fate.pair);
+        if ((pair_update.what & pair_update::goes) != 0)
+            append(m_going, pair_update.pair);
     }
 
     void take_out(std::size_t index)
@@ -240,15 +240,15 @@ private:
 void follow_pairs(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    const std::span<std::vector<PairFate>> parts = find_in_parts(
-        ctx.scene.def.tasks, state.box_pairs.size(), pairs_per_task, ctx.scratch.fates_of_task,
-        [&](std::size_t first, std::size_t last, std::vector<PairFate>& some) { find_fates(ctx, first, last, some); });
+    const std::span<std::vector<PairUpdate>> parts = find_in_parts(
+        ctx.scene.def.tasks, state.box_pairs.size(), pairs_per_task, ctx.scratch.pair_updates_of_task,
+        [&](std::size_t first, std::size_t last, std::vector<PairUpdate>& some) { find_updates(ctx, first, last, some); });
     state.parted_pairs.clear();
-    Fates fates(ctx);
-    for (const std::vector<PairFate>& some : parts)
-        fates.fulfil(some);
-    fates.finish_contacts();
-    run_both(ctx.scene.def.tasks, [&] { fates.take_out_going(); }, [&] { std::ranges::sort(state.parted_pairs); });
+    PairUpdates updates(ctx);
+    for (const std::vector<PairUpdate>& some : parts)
+        updates.fulfil(some);
+    updates.finish_contacts();
+    run_both(ctx.scene.def.tasks, [&] { updates.take_out_going(); }, [&] { std::ranges::sort(state.parted_pairs); });
 }
 
 } // namespace carom::internal

@@ -142,8 +142,8 @@ private:
 
     [[gnu::always_inline]] void prefetch_later(std::size_t i) const
     {
-        if (i + turns_ahead < m_last)
-            prefetch_body(m_ctx.state, m_ctx.state.awake_bodies[i + turns_ahead]);
+        if (i + prefetch_distance < m_last)
+            prefetch_body(m_ctx.state, m_ctx.state.awake_bodies[i + prefetch_distance]);
     }
 
     [[nodiscard]] bool is_plain(int body) const

@@ -163,7 +163,7 @@ void stop_who_would_meet(const FlightSpan& span)
 }
 
 // Where nothing has happened yet each looks for itself.
-void find_first_events(const FlightSpan& span, Crew& crew)
+void find_first_events(const FlightSpan& span, WorkerTeam& team)
 {
     const std::span<Flier> fliers = span.fliers();
     const auto count = static_cast<int>(fliers.size());
@@ -179,7 +179,7 @@ void find_first_events(const FlightSpan& span, Crew& crew)
     else
     { // some take far longer than others
         std::atomic<int> next{0};
-        crew.in_parts(
+        team.in_parts(
             [&](int, int)
             {
                 for (int first = 0; (first = next.fetch_add(fliers_per_share)) < count;)
@@ -323,7 +323,7 @@ void share_budget(const StepContext& ctx, const Island& island, int k, IslandOut
 
 } // namespace
 
-void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, Crew& crew)
+void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, WorkerTeam& team)
 {
     if (island.flier_count == 0)
         return;
@@ -334,7 +334,7 @@ void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput&
         start_flight(span, f);
     trace_all(span);
     note_all_reaches(span);
-    find_first_events(span, crew);
+    find_first_events(span, team);
     for (Flier& f : span.fliers())
         f.looks = f.union_looks = 0; // the first cannot be left out
     while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)

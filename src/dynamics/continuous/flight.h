@@ -2,7 +2,7 @@
 
 // Bodies in free flight: exact paths, exact times of impact, exact impulses, within a sub-step of an island.
 
-#include "core/crew.h"
+#include "core/worker_team.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
@@ -12,7 +12,7 @@ void raise_fast(StepContext& ctx, const Island& island, int k, IslandOutput& out
 
 /// Flies the island's bodies in flight through sub-step k, impact by impact, after the solver has moved everything else. What comes to rest against
 /// something becomes the solver's from the next sub-step on; its rows go to output.late_rows.
-void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, Crew& crew);
+void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, WorkerTeam& team);
 
 /// Where all of the island flies freely, and none of it meets anything in this step, flies it through the whole step at once. False: nothing has moved.
 [[nodiscard]] bool glide(const StepContext& ctx, const Island& island, IslandOutput& output);

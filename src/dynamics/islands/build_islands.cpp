@@ -14,18 +14,18 @@ namespace carom::internal {
 void build_islands(StepContext& ctx)
 {
     ctx.scratch.fullest_cell = 0;
-    if (ctx.scratch.cached_graph.rows_stay)
+    if (ctx.scratch.cached_graph.rows_are_unchanged)
     {
         refill_islands(ctx);
         return;
     }
     list_fliers(ctx);
     gather_joints(ctx);
-    ctx.scratch.cached_graph.hinges_stay = graph_is_unchanged(ctx);
-    if (ctx.scratch.cached_graph.hinges_stay)
+    ctx.scratch.cached_graph.hinges_are_unchanged = graph_is_unchanged(ctx);
+    if (ctx.scratch.cached_graph.hinges_are_unchanged)
     {
         refill_islands(ctx);
-        keep_rows(ctx);
+        cache_constraints(ctx);
         return;
     }
     ctx.scratch.cached_graph.rows_apart = false;

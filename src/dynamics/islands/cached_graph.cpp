@@ -25,11 +25,11 @@ bool is_plain(const Island& island)
 
 } // namespace
 
-bool bodies_stay(const StepContext& ctx)
+bool bodies_are_unchanged(const StepContext& ctx)
 {
     const CachedGraph& kept = ctx.scratch.cached_graph;
     return std::equal(kept.bodies.begin(), kept.bodies.end(), ctx.state.awake_bodies.begin(), ctx.state.awake_bodies.end(),
-                      [&](const KeptBody& k, std::int32_t body)
+                      [&](const CachedBody& k, std::int32_t body)
                       { return k.body == body && k.cell == ctx.state.bodies[body].plane_cell; });
 }
 
@@ -37,8 +37,8 @@ bool graph_is_unchanged(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
     const CachedGraph& kept = scratch.cached_graph;
-    return kept.stay_so && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() && kept.links_stay &&
-           (kept.joints_stay || kept.joints == scratch.joint_links);
+    return kept.stay_plain && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() &&
+           kept.edges_are_unchanged && (kept.joints_are_unchanged || kept.joints == scratch.joint_edges);
 }
 
 void cache_graph(StepContext& ctx)

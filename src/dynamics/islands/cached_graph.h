@@ -7,7 +7,7 @@
 namespace carom::internal {
 
 /// Bodies awake, and in the parts of the plane by which they are laid out.
-[[nodiscard]] bool bodies_stay(const StepContext& ctx);
+[[nodiscard]] bool bodies_are_unchanged(const StepContext& ctx);
 
 /// When all links are known: would islands, colours and places come out as they did in the last step? They are still in Scratch.
 [[nodiscard]] bool graph_is_unchanged(const StepContext& ctx);

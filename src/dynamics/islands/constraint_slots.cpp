@@ -24,8 +24,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int links_to_a_part = 2048;      // of few
-constexpr int links_to_a_huge_part = 8192; // their rows stay in a cache from solving to relaxing
+constexpr int edges_to_a_part = 2048;      // of few
+constexpr int edges_to_a_huge_part = 8192; // their rows stay in a cache from solving to relaxing
 constexpr std::size_t most_tasks = 64;     // of an island: each counts all of its bins
 constexpr std::uint16_t no_part = 65535;   // of what does not give way
 
@@ -36,21 +36,21 @@ public:
 
     void find()
     {
-        m_island.first_row = static_cast<std::int32_t>(m_scratch.row_links.size());
+        m_island.first_row = static_cast<std::int32_t>(m_scratch.row_edges.size());
         m_island.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
-        m_island.first_wide = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count;
+        m_island.first_wide = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count;
         m_island.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
         m_is_uniform = m_island.wide && is_uniform(m_ctx, m_island);
         find_parts();
         name_copies();
-        const std::span<SomePlaces> tasks = count_links();
+        const std::span<SomePlaces> tasks = count_edges();
         color_new_rows(tasks);
         give_out_places(tasks);
         run_tasks(m_ctx.scene.def.tasks, static_cast<int>(tasks.size()),
-                  [&](int t) { place(as_index(t) * links_of_task(), tasks[as_index(t)]); });
+                  [&](int t) { place(as_index(t) * edges_of_task(), tasks[as_index(t)]); });
         gather(tasks);
-        m_island.wide_count = static_cast<std::int32_t>(m_scratch.lane_links.size()) / lane_count - m_island.first_wide;
-        m_island.row_count = static_cast<std::int32_t>(m_scratch.row_links.size()) - m_island.first_row;
+        m_island.wide_count = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count - m_island.first_wide;
+        m_island.row_count = static_cast<std::int32_t>(m_scratch.row_edges.size()) - m_island.first_row;
         m_island.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_island.first_core;
         m_island.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - m_island.first_impact_row;
     }
@@ -118,7 +118,7 @@ private:
     }
 
     // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
-    [[nodiscard]] int part_of(const Link& l) const
+    [[nodiscard]] int part_of(const ContactEdge& l) const
     {
         if (m_island.parts == 0)
             return 0;
@@ -148,22 +148,22 @@ private:
 
     // --- colours and counts -----------------------------------------------------------------------------------------------------------
 
-    [[nodiscard]] std::span<Link> links() const
+    [[nodiscard]] std::span<ContactEdge> links() const
     {
-        return std::span(m_scratch.solved_links).subspan(as_index(m_island.first_link), as_index(m_island.link_count));
+        return std::span(m_scratch.solved_edges).subspan(as_index(m_island.first_edge), as_index(m_island.edge_count));
     }
 
     // A small island is one task.
-    [[nodiscard]] std::size_t links_of_task() const
+    [[nodiscard]] std::size_t edges_of_task() const
     {
-        return m_island.parts > 0 ? std::max(links_per_task, links().size() / most_tasks)
+        return m_island.parts > 0 ? std::max(edges_per_task, links().size() / most_tasks)
                                   : std::max<std::size_t>(links().size(), 1);
     }
 
     // They name states from here on.
-    [[nodiscard]] std::span<SomePlaces> count_links()
+    [[nodiscard]] std::span<SomePlaces> count_edges()
     {
-        return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), links_of_task(),
+        return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), edges_of_task(),
                              m_scratch.places_of_task,
                              [&](std::size_t first, std::size_t last, SomePlaces& some)
                              {
@@ -173,7 +173,7 @@ private:
                                  some.colors = 0;
                                  for (std::size_t i = first; i < std::min(last, links().size()); ++i)
                                  {
-                                     Link& l = links()[i];
+                                     ContactEdge& l = links()[i];
                                      l.a = state_at(l.a);
                                      l.b = state_at(l.b);
                                      if (l.color() == none || l.color() == color_limit)
@@ -191,10 +191,10 @@ private:
             for (std::size_t u = 0; u < some.uncolored.size(); ++u)
             {
                 prefetch_uncolored(some.uncolored, u);
-                Link& l = links()[as_index(some.uncolored[u])];
+                ContactEdge& l = links()[as_index(some.uncolored[u])];
                 Contact& contact = m_state.contacts[l.contact];
                 take_color(m_state, contact);
-                l.about = about_link(l.about & link_flag::all, l.points(), contact.color);
+                l.flags = packed_flags(l.flags & edge_flag::all, l.points(), contact.color);
                 if (contact.color == color_limit)
                     m_ctx.report.flags |= static_cast<std::uint32_t>(StepFlag::ColorsExhausted);
                 count(l, some);
@@ -207,27 +207,27 @@ private:
     {
         const auto contact_of = [&](std::size_t i) -> const Contact&
         { return m_state.contacts[links()[as_index(uncolored[i])].contact]; };
-        if (u + 2 * turns_ahead < uncolored.size())
-            prefetch_line(&contact_of(u + 2 * turns_ahead));
-        if (u + turns_ahead >= uncolored.size())
+        if (u + 2 * prefetch_distance < uncolored.size())
+            prefetch_line(&contact_of(u + 2 * prefetch_distance));
+        if (u + prefetch_distance >= uncolored.size())
             return;
-        for (const std::int32_t body : {contact_of(u + turns_ahead).body_a, contact_of(u + turns_ahead).body_b})
+        for (const std::int32_t body : {contact_of(u + prefetch_distance).body_a, contact_of(u + prefetch_distance).body_b})
             prefetch(m_state.bodies[body]);
     }
 
-    void count(Link& l, SomePlaces& some) const
+    void count(ContactEdge& l, SomePlaces& some) const
     {
         const int color = l.color();
         const bool in_lane =
-            m_island.wide && color != color_limit && l.has(link_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
-        l.about = static_cast<std::uint16_t>(l.about | (in_lane ? link_flag::in_lane : 0));
+            m_island.wide && color != color_limit && l.has(edge_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
+        l.flags = static_cast<std::uint16_t>(l.flags | (in_lane ? edge_flag::in_lane : 0));
         l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
         ++some.place_for(l);
         some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
     }
 
     // Of a lane, by part, color and number of points.
-    [[nodiscard]] int bin_of(const Link& l) const
+    [[nodiscard]] int bin_of(const ContactEdge& l) const
     {
         return part_of(l) * bins_to_a_part + 2 * l.color() + (l.points() == 2 ? 0 : 1);
     }
@@ -241,7 +241,7 @@ private:
         for (const SomePlaces& some : tasks)
             colors |= some.colors;
         m_island.colors = static_cast<std::int32_t>(std::bit_width(colors));
-        auto lane = static_cast<std::int32_t>(m_scratch.lane_links.size());
+        auto lane = static_cast<std::int32_t>(m_scratch.lane_edges.size());
         m_island.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
         m_island.bin_count = 2 * m_island.colors;
         for (std::int32_t part = 0; part <= m_island.parts; ++part)
@@ -262,9 +262,9 @@ private:
             {
                 give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.rows[color]; }, row);
             });
-        make_room(m_scratch.lane_links, as_index(lane));
-        m_scratch.lane_links.resize(as_index(lane), none);
-        set_size(m_scratch.row_links, as_index(row));
+        make_room(m_scratch.lane_edges, as_index(lane));
+        m_scratch.lane_edges.resize(as_index(lane), none);
+        set_size(m_scratch.row_edges, as_index(row));
     }
 
     // From how many of a bin each task has to where its first goes.
@@ -285,13 +285,13 @@ private:
 
     void place(std::size_t first, SomePlaces& some)
     {
-        for (std::size_t i = first; i < std::min(first + links_of_task(), links().size()); ++i)
+        for (std::size_t i = first; i < std::min(first + edges_of_task(), links().size()); ++i)
         {
-            const Link& l = links()[i];
+            const ContactEdge& l = links()[i];
             const std::int32_t at = some.place_for(l)++;
-            (l.has(link_flag::in_lane) ? m_scratch.lane_links : m_scratch.row_links)[as_index(at)] =
-                m_island.first_link + static_cast<std::int32_t>(i);
-            if (l.has(link_flag::in_lane) && l.points() > 0)
+            (l.has(edge_flag::in_lane) ? m_scratch.lane_edges : m_scratch.row_edges)[as_index(at)] =
+                m_island.first_edge + static_cast<std::int32_t>(i);
+            if (l.has(edge_flag::in_lane) && l.points() > 0)
                 add_core(l, at, some);
         }
         for (std::int32_t part = 0; part <= m_island.parts; ++part)
@@ -300,7 +300,7 @@ private:
     }
 
     // Balls and bodies in joints have a core against walls.
-    void add_core(const Link& l, std::int32_t lane, SomePlaces& some) const
+    void add_core(const ContactEdge& l, std::int32_t lane, SomePlaces& some) const
     {
         const bool a_gives = is_dynamic(m_island, l.a);
         if (a_gives && is_dynamic(m_island, l.b))
@@ -318,9 +318,9 @@ private:
         for (const SomePlaces& some : tasks)
             append_all(m_scratch.cores, some.cores);
         std::ranges::sort(m_scratch.cores.begin() + m_island.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
-        for (auto row = m_island.first_row; row < static_cast<std::int32_t>(m_scratch.row_links.size()); ++row)
+        for (auto row = m_island.first_row; row < static_cast<std::int32_t>(m_scratch.row_edges.size()); ++row)
         {
-            if (!m_scratch.solved_links[as_index(m_scratch.row_links[as_index(row)])].has(link_flag::bears))
+            if (!m_scratch.solved_edges[as_index(m_scratch.row_edges[as_index(row)])].has(edge_flag::bears))
                 m_scratch.impact_rows.push_back(row);
         }
     }
@@ -335,24 +335,24 @@ private:
 // Whatever the number of threads: the order in which rows are solved depends on it.
 int parts_of(const Island& island)
 {
-    const int few = std::min(island.link_count / links_to_a_part, few_parts);
-    const int many = std::min({island.link_count / links_to_a_huge_part, island.dynamic_count / bodies_to_a_cell, most_parts});
+    const int few = std::min(island.edge_count / edges_to_a_part, few_parts);
+    const int many = std::min({island.edge_count / edges_to_a_huge_part, island.dynamic_count / bodies_to_a_cell, most_parts});
     const int parts = std::max(few, many);
     return island.wide && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
 } // namespace
 
-void sort_links(StepContext& ctx)
+void sort_edges(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     sort_by_island(
-        {}, scratch, scratch.links, scratch.solved_links, links_per_task,
-        [&](std::size_t i) { return scratch.island_of_link[i]; },
+        {}, scratch, scratch.links, scratch.solved_edges, edges_per_task,
+        [&](std::size_t i) { return scratch.island_of_edge[i]; },
         [](Island& island, int first, int count)
         {
-            island.first_link = first;
-            island.link_count = count;
+            island.first_edge = first;
+            island.edge_count = count;
         });
 }
 
@@ -360,8 +360,8 @@ void place_rows_of_small_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     set_size(scratch.parts, scratch.state_bodies.size());
-    scratch.row_links.clear();
-    scratch.lane_links.clear();
+    scratch.row_edges.clear();
+    scratch.lane_edges.clear();
     scratch.impact_rows.clear();
     scratch.cores.clear();
     scratch.bin_starts.clear();

@@ -7,7 +7,7 @@
 namespace carom::internal {
 
 /// Links stand island by island. By one thread: others have states to place.
-void sort_links(StepContext& ctx);
+void sort_edges(StepContext& ctx);
 
 /// After both states and links have their places, those of small islands one after the other; large ones, on all threads, behind them.
 void place_rows_of_small_islands(StepContext& ctx);

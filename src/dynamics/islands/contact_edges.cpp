@@ -22,16 +22,16 @@ namespace {
 constexpr std::size_t parts_joined_at_once = 8;
 
 // Who bears a load matters to rows and heaps only.
-bool is_same(const Link& a, const Link& b)
+bool is_same(const ContactEdge& a, const ContactEdge& b)
 {
-    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.about ^ b.about) & ~link_flag::bears) == 0;
+    return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.flags ^ b.flags) & ~edge_flag::bears) == 0;
 }
 
 // A walk over contacts. Copies, not references: to a compiler every store might change where vectors are.
 class ContactWalk
 {
 public:
-    ContactWalk(const StepContext& ctx, SomeLinks& some)
+    ContactWalk(const StepContext& ctx, EdgesOfTask& some)
         : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.places.data()),
           m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.is_loaded.data()),
           m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(some.links.data() + some.count),
@@ -60,11 +60,11 @@ public:
         const bool loaded = solved && is_loaded(m_ctx, contact, least_separation(contact.manifold));
         note_load(a, loaded);
         note_load(b, loaded);
-        link(index, a, b, about(contact, solved));
+        link(index, a, b, flags(contact, solved));
         m_touching += touching ? 1 : 0;
     }
 
-    void leave(SomeLinks& some) const
+    void leave(EdgesOfTask& some) const
     {
         some.count = static_cast<std::size_t>(m_next - some.links.data());
         some.stay = m_stay;
@@ -72,24 +72,24 @@ public:
     }
 
 private:
-    [[nodiscard]] static std::uint16_t about(const Contact& contact, bool solved)
+    [[nodiscard]] static std::uint16_t flags(const Contact& contact, bool solved)
     {
         const bool plain = contact.rolling_resistance == 0 && contact.surface_speed == 0;
-        const std::uint32_t flags = contact.flags & (link_flag::touching | link_flag::round | link_flag::bears);
-        return about_link(flags | (solved ? link_flag::solved : 0) | (plain ? link_flag::plain : 0), contact.manifold.count,
-                          contact.color);
+        const std::uint32_t flags = contact.flags & (edge_flag::touching | edge_flag::round | edge_flag::bears);
+        return packed_flags(flags | (solved ? edge_flag::solved : 0) | (plain ? edge_flag::plain : 0), contact.manifold.count,
+                            contact.color);
     }
 
     // Filled where it stands: a copy would wait for its bytes.
-    void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t about)
+    void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t flags)
     {
-        Link& l = *m_next;
+        ContactEdge& l = *m_next;
         if (m_stay)
-            m_stay = m_next < m_old_end && is_same(l, {contact, a, b, about});
+            m_stay = m_next < m_old_end && is_same(l, {contact, a, b, flags});
         l.contact = contact;
         l.a = a;
         l.b = b;
-        l.about = about;
+        l.flags = flags;
         l.bin = 0;
         ++m_next;
     }
@@ -107,15 +107,15 @@ private:
     LaneMark* m_lane_marks;
     std::uint8_t* m_is_loaded;
     std::int32_t m_nobody;
-    Link* m_next;
-    const Link* m_old_end;
+    ContactEdge* m_next;
+    const ContactEdge* m_old_end;
     bool m_stay;
     int m_touching;
 };
 
 } // namespace
 
-ContactLinks::ContactLinks(StepContext& ctx, std::size_t contacts_to_a_task)
+ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
     : m_ctx(ctx), m_contacts_to_a_task(contacts_to_a_task), m_alone(ctx.scene.def.tasks.worker_count <= 1)
 {
     Scratch& scratch = ctx.scratch;
@@ -128,7 +128,7 @@ ContactLinks::ContactLinks(StepContext& ctx, std::size_t contacts_to_a_task)
     }
     add_tasks(1, 1);
     // Links of the last step are compared with these, and give their place to them.
-    SomeLinks& all = links_of(0);
+    EdgesOfTask& all = edges_of(0);
     all.links.swap(scratch.links);
     all.stay = scratch.cached_graph.are_plain;
     all.to_compare = all.stay ? all.links.size() : 0;
@@ -136,15 +136,15 @@ ContactLinks::ContactLinks(StepContext& ctx, std::size_t contacts_to_a_task)
 }
 
 // That have asked nothing yet.
-void ContactLinks::add_tasks(std::size_t contacts, std::size_t contacts_to_a_task)
+void ContactEdges::add_tasks(std::size_t contacts, std::size_t contacts_to_a_task)
 {
-    std::vector<SomeLinks>& all = m_ctx.scratch.links_of_task;
+    std::vector<EdgesOfTask>& all = m_ctx.scratch.edges_of_task;
     const std::size_t first = m_tasks;
     m_tasks += (contacts + contacts_to_a_task - 1) / contacts_to_a_task;
     all.resize(std::max(all.size(), m_tasks));
     for (std::size_t task = first; task < m_tasks; ++task)
     {
-        SomeLinks& some = all[task];
+        EdgesOfTask& some = all[task];
         set_size(some.links, std::max(some.links.size(), contacts_to_a_task));
         some.count = some.to_compare = 0;
         some.stay = false;
@@ -152,11 +152,11 @@ void ContactLinks::add_tasks(std::size_t contacts, std::size_t contacts_to_a_tas
     }
 }
 
-SomeLinks& ContactLinks::links_of(std::size_t task) { return m_ctx.scratch.links_of_task[m_alone ? 0 : task]; }
+EdgesOfTask& ContactEdges::edges_of(std::size_t task) { return m_ctx.scratch.edges_of_task[m_alone ? 0 : task]; }
 
-void ContactLinks::ask(std::size_t first, std::size_t last, std::vector<std::int32_t>& later)
+void ContactEdges::ask(std::size_t first, std::size_t last, std::vector<std::int32_t>& later)
 {
-    SomeLinks& some = links_of(first / m_contacts_to_a_task);
+    EdgesOfTask& some = edges_of(first / m_contacts_to_a_task);
     ContactWalk walk(m_ctx, some);
     later.clear();
     for (const std::int32_t contact : std::span(m_ctx.state.awake_contacts).subspan(first, last - first))
@@ -169,35 +169,35 @@ void ContactLinks::ask(std::size_t first, std::size_t last, std::vector<std::int
     walk.leave(some);
 }
 
-void ContactLinks::ask_later(std::span<const std::int32_t> contacts)
+void ContactEdges::ask_later(std::span<const std::int32_t> contacts)
 {
     place_bodies(m_ctx);
     const std::size_t first_task = m_tasks;
     if (m_alone)
-        set_size(links_of(0).links, std::max(links_of(0).links.size(), m_ctx.state.awake_contacts.size()));
+        set_size(edges_of(0).links, std::max(edges_of(0).links.size(), m_ctx.state.awake_contacts.size()));
     else
         add_tasks(contacts.size(), contacts_per_task);
     run_parts(m_ctx.scene.def.tasks, contacts.size(), contacts_per_task,
               [&](std::size_t first, std::size_t last)
               {
-                  SomeLinks& some = links_of(first_task + first / contacts_per_task);
+                  EdgesOfTask& some = edges_of(first_task + first / contacts_per_task);
                   ContactWalk walk(m_ctx, some);
                   for (std::size_t i = first; i < last; ++i)
                   {
-                      if (i + turns_ahead < last)
-                          prefetch(m_ctx.state.contacts[contacts[i + turns_ahead]]);
+                      if (i + prefetch_distance < last)
+                          prefetch(m_ctx.state.contacts[contacts[i + prefetch_distance]]);
                       walk.visit(contacts[i]);
                   }
                   walk.leave(some);
               });
 }
 
-void ContactLinks::join()
+void ContactEdges::join()
 {
     Scratch& scratch = m_ctx.scratch;
-    const std::span<SomeLinks> parts = std::span(scratch.links_of_task).first(m_tasks);
+    const std::span<EdgesOfTask> parts = std::span(scratch.edges_of_task).first(m_tasks);
     std::size_t count = 0;
-    for (SomeLinks& some : parts)
+    for (EdgesOfTask& some : parts)
     {
         some.first = count;
         count += some.count;
@@ -207,7 +207,7 @@ void ContactLinks::join()
     {
         parts[0].links.resize(count);
         scratch.links.swap(parts[0].links);
-        scratch.cached_graph.links_stay = parts[0].stay && count == parts[0].to_compare;
+        scratch.cached_graph.edges_are_unchanged = parts[0].stay && count == parts[0].to_compare;
         return;
     }
     const bool may_stay = scratch.cached_graph.are_plain && scratch.links.size() == count;
@@ -220,7 +220,7 @@ void ContactLinks::join()
                           parts[i].stay = may_stay && std::equal(found.begin(), found.end(), to, is_same);
                           std::ranges::copy(found, to);
                       });
-    scratch.cached_graph.links_stay = may_stay && std::ranges::all_of(parts, &SomeLinks::stay);
+    scratch.cached_graph.edges_are_unchanged = may_stay && std::ranges::all_of(parts, &EdgesOfTask::stay);
 }
 
 } // namespace carom::internal

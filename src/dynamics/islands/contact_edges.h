@@ -11,11 +11,11 @@
 
 namespace carom::internal {
 
-class ContactLinks
+class ContactEdges
 {
 public:
     /// For tasks that update so many of the awake contacts each.
-    ContactLinks(StepContext& ctx, std::size_t contacts_to_a_task);
+    ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task);
 
     /// By a task, of its contacts first ... last. Those of whose news others may have more to say are put into `later`.
     void ask(std::size_t first, std::size_t last, std::vector<std::int32_t>& later);
@@ -27,7 +27,7 @@ public:
     void join();
 
 private:
-    [[nodiscard]] SomeLinks& links_of(std::size_t task);
+    [[nodiscard]] EdgesOfTask& edges_of(std::size_t task);
     void add_tasks(std::size_t contacts, std::size_t contacts_to_a_task);
 
     StepContext& m_ctx;

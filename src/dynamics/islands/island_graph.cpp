@@ -50,20 +50,20 @@ public:
     explicit IslandGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
     // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
-    void link_islands()
+    void join_islands()
     {
-        const int worth = 1 + static_cast<int>((scratch.links.size() + scratch.joint_links.size()) / links_per_task);
+        const int worth = 1 + static_cast<int>((scratch.links.size() + scratch.joint_edges.size()) / edges_per_task);
         const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, std::min(worth, most_sets));
         if (scratch.more_sets.size() + 1 < static_cast<std::size_t>(parts))
             scratch.more_sets.resize(static_cast<std::size_t>(parts) - 1);
         const auto sets_of = [&](int part) -> UnionFind&
         { return part == 0 ? scratch.sets : scratch.more_sets[static_cast<std::size_t>(part) - 1]; };
-        run_tasks(ctx.scene.def.tasks, parts, [&](int part) { link_part(part, parts, sets_of(part)); });
+        run_tasks(ctx.scene.def.tasks, parts, [&](int part) { gather_part(part, parts, sets_of(part)); });
         for (int part = 1; part < parts; ++part)
-            scratch.sets.link_all(sets_of(part));
+            scratch.sets.gather_edges(sets_of(part));
     }
 
-    void link_part(int part, int parts, UnionFind& sets)
+    void gather_part(int part, int parts, UnionFind& sets)
     {
         const auto over_both_ends = [&](const auto& links, const auto& visit)
         {
@@ -76,10 +76,10 @@ public:
         const auto link = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
         sets.reset(state.awake_bodies.size());
         over_both_ends(scratch.links, guess);
-        over_both_ends(scratch.joint_links, guess);
+        over_both_ends(scratch.joint_edges, guess);
         sets.flatten();
         over_both_ends(scratch.links, link);
-        over_both_ends(scratch.joint_links, link);
+        over_both_ends(scratch.joint_edges, link);
         sets.flatten();
     }
 
@@ -122,23 +122,23 @@ public:
     // Who bears matters to heaps.
     void count_contacts()
     {
-        if (scratch.joint_links.size() < enough_joints)
+        if (scratch.joint_edges.size() < enough_joints)
             return;
-        for (const Link& l : scratch.links)
+        for (const ContactEdge& l : scratch.links)
         {
-            if (!l.has(link_flag::solved))
+            if (!l.has(edge_flag::solved))
                 continue;
-            IslandTally& t = tally(island_of_link(l));
+            IslandTally& t = tally(island_of_edge(l));
             ++t.contacts;
-            t.bearing += l.has(link_flag::bears) ? 1 : 0;
+            t.bearing += l.has(edge_flag::bears) ? 1 : 0;
         }
     }
 
     [[nodiscard]] IslandTally& tally(std::int32_t island) { return scratch.tallies[static_cast<std::size_t>(island)]; }
     [[nodiscard]] IslandTally& tally_of(std::int32_t place) { return tally(scratch.island_of[static_cast<std::size_t>(place)]); }
     [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
-    template <class AnyLink>
-    [[nodiscard]] std::int32_t island_of_link(const AnyLink& l) const
+    template <class AnyEdge>
+    [[nodiscard]] std::int32_t island_of_edge(const AnyEdge& l) const
     {
         return scratch.island_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
     }
@@ -153,10 +153,10 @@ public:
             for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
                               [&](std::size_t place) { slice_at_contacts_of(static_cast<std::int32_t>(place)); });
         find_swings();
-        for (std::size_t i = 0; i < scratch.joint_links.size(); ++i)
+        for (std::size_t i = 0; i < scratch.joint_edges.size(); ++i)
         {
-            const JointLink& j = scratch.joint_links[i];
-            IslandTally& t = tally(island_of_link(j));
+            const JointEdge& j = scratch.joint_edges[i];
+            IslandTally& t = tally(island_of_edge(j));
             ++t.joints;
             t.hangs |= j.a < 0 || j.b < 0;
             t.damped += j.damped ? 1 : 0;
@@ -200,12 +200,12 @@ public:
     // Of joints in small islands, on all threads.
     void find_swings()
     {
-        set_size(scratch.swings, scratch.joint_links.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_links.size(), joints_per_task,
+        set_size(scratch.swings, scratch.joint_edges.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_edges.size(), joints_per_task,
                           [&](std::size_t i)
                           {
-                              const JointLink& j = scratch.joint_links[i];
-                              const bool small = tally(island_of_link(j)).bodies <= IslandEnergy::most_bodies;
+                              const JointEdge& j = scratch.joint_edges[i];
+                              const bool small = tally(island_of_edge(j)).bodies <= IslandEnergy::most_bodies;
                               scratch.swings[i] = small ? swing_rate(state.joints[j.joint]) : 0;
                           });
     }
@@ -344,7 +344,7 @@ public:
 
     // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same island, or the
     // two would meet in different times. True where islands have become one.
-    bool link_deflected()
+    bool join_deflected()
     {
         find_deflected();
         scratch.may_be_struck = scratch.is_deflected;
@@ -542,26 +542,29 @@ public:
     }
 
     // Bodies in flight meet things at their own time; a row would stop them early.
-    [[nodiscard]] bool gets_row(const Link& l) const { return l.has(link_flag::solved) && !in_flight(l.a) && !in_flight(l.b); }
+    [[nodiscard]] bool gets_row(const ContactEdge& l) const
+    {
+        return l.has(edge_flag::solved) && !in_flight(l.a) && !in_flight(l.b);
+    }
     [[nodiscard]] bool in_flight(std::int32_t place) const
     {
         return place >= 0 && scratch.flight[static_cast<std::size_t>(place)] != earthbound;
     }
 
     // On all threads: what follows goes by these alone.
-    void find_islands_of_links()
+    void find_islands_of_edges()
     {
-        set_size(scratch.island_of_link, scratch.links.size());
+        set_size(scratch.island_of_edge, scratch.links.size());
         using Some = std::vector<KinematicMeeting>;
         const std::span<Some> parts =
-            find_in_parts(ctx.scene.def.tasks, scratch.links.size(), links_per_task, scratch.meetings_with_kinematic_of_task,
+            find_in_parts(ctx.scene.def.tasks, scratch.links.size(), edges_per_task, scratch.meetings_with_kinematic_of_task,
                           [&](std::size_t first, std::size_t last, Some& meetings)
                           {
                               meetings.clear();
                               for (std::size_t i = first; i < last; ++i)
                               {
-                                  const Link& l = scratch.links[i];
-                                  const std::int32_t island = scratch.island_of_link[i] = island_of_row(l);
+                                  const ContactEdge& l = scratch.links[i];
+                                  const std::int32_t island = scratch.island_of_edge[i] = island_of_row(l);
                                   const std::int32_t kinematic = std::min(l.a, l.b); // if either is
                                   if (kinematic < none && island != none)
                                       meetings.push_back({island, static_cast<std::int32_t>(i), -2 - kinematic});
@@ -577,8 +580,8 @@ public:
     void sort_joints()
     {
         sort_by_island(
-            ctx.scene.def.tasks, scratch, scratch.joint_links, scratch.solved_joints, joints_per_task,
-            [&](std::size_t i) { return island_of_link(scratch.joint_links[i]); },
+            ctx.scene.def.tasks, scratch, scratch.joint_edges, scratch.solved_joints, joints_per_task,
+            [&](std::size_t i) { return island_of_edge(scratch.joint_edges[i]); },
             [](Island& island, int first, int count)
             {
                 island.first_joint = first;
@@ -617,11 +620,11 @@ public:
 
 private:
     // None where it gets no row.
-    [[nodiscard]] std::int32_t island_of_row(const Link& l) const
+    [[nodiscard]] std::int32_t island_of_row(const ContactEdge& l) const
     {
         if (gets_row(l))
-            return island_of_link(l);
-        if (l.has(link_flag::solved))
+            return island_of_edge(l);
+        if (l.has(edge_flag::solved))
             leave_row(state, l.contact);
         return none;
     }
@@ -636,10 +639,10 @@ private:
 void build_island_graph(StepContext& ctx)
 {
     IslandGraph graph(ctx);
-    graph.link_islands();
+    graph.join_islands();
     run_both(ctx.scene.def.tasks, [&] { graph.number_islands(); }, [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
-    while (graph.link_deflected())
+    while (graph.join_deflected())
     {
         graph.renumber_islands();
         graph.ground_crowds();
@@ -647,7 +650,7 @@ void build_island_graph(StepContext& ctx)
     graph.count_contacts();
     graph.choose_slices();
     graph.form_islands();
-    graph.find_islands_of_links();
+    graph.find_islands_of_edges();
     graph.sort_joints();
     graph.sort_bodies();
     ctx.state.graph_dirty = false;

@@ -122,7 +122,7 @@ public:
     // For what island_constraints.cpp fills.
     void make_room()
     {
-        set_size(m_scratch.rows, m_scratch.row_links.size());
+        set_size(m_scratch.rows, m_scratch.row_edges.size());
         set_size(m_scratch.joints, m_scratch.joint_places.size());
         set_size(m_scratch.wide_joints, as_index(m_groups));
     }
@@ -251,7 +251,7 @@ private:
             static_cast<void>(state_for(island, m_state.awake_bodies[as_index(m.place)]));
         for (std::int32_t i = island.first_joint; i < island.first_joint + island.joint_count; ++i)
         {
-            JointLink& j = m_scratch.solved_joints[as_index(i)];
+            JointEdge& j = m_scratch.solved_joints[as_index(i)];
             j.a = state_at(island, j.a);
             j.b = state_at(island, j.b);
         }
@@ -378,7 +378,7 @@ private:
         const std::size_t first_lane = m_scratch.joint_lanes.size();
         for (std::int32_t i = first; i < first + count; ++i)
         {
-            const JointLink& j = m_scratch.solved_joints[as_index(i)];
+            const JointEdge& j = m_scratch.solved_joints[as_index(i)];
             if (!wide || !place_joint_in_lane(island, j, uniform))
                 m_scratch.joint_places.push_back({j.joint, j.a, j.b});
             if (j.binds)
@@ -392,7 +392,7 @@ private:
     }
 
     // Finds its colour; false where it must stand alone.
-    bool place_joint_in_lane(const Island& island, const JointLink& j, bool uniform)
+    bool place_joint_in_lane(const Island& island, const JointEdge& j, bool uniform)
     {
         if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, j)))
             return false;
@@ -460,13 +460,13 @@ bool is_uniform(const StepContext& ctx, const Island& island)
 {
     for (std::int32_t s = island.first_state; ctx.scratch.has_uneven && s < island.first_state + island.state_count; ++s)
     {
-        if (!gives_evenly(ctx, s))
+        if (!has_even_mass(ctx, s))
             return false;
     }
     return true;
 }
 
-bool gives_evenly(const StepContext& ctx, std::int32_t state)
+bool has_even_mass(const StepContext& ctx, std::int32_t state)
 {
     const int body = ctx.scratch.state_bodies[as_index(state)];
     if (body == none)
@@ -489,7 +489,7 @@ void refill_islands(StepContext& ctx)
 void lay_out_islands(StepContext& ctx)
 {
     IslandLayout layout(ctx);
-    run_both(ctx.scene.def.tasks, [&] { layout.place_states(); }, [&] { sort_links(ctx); });
+    run_both(ctx.scene.def.tasks, [&] { layout.place_states(); }, [&] { sort_edges(ctx); });
     layout.fill_states_and_place_rows_and_joints();
     layout.add_fliers();
     layout.add_laws();

@@ -14,13 +14,13 @@ void refill_islands(StepContext& ctx);
 
 /// May all of its bodies move along every axis, or along none?
 [[nodiscard]] bool is_uniform(const StepContext& ctx, const Island& island);
-[[nodiscard]] bool gives_evenly(const StepContext& ctx, std::int32_t state);
+[[nodiscard]] bool has_even_mass(const StepContext& ctx, std::int32_t state);
 
 /// Contacts that roll or convey, and what holds a body that may not move along every axis, have rows of their own.
-template <class AnyLink>
-[[nodiscard]] bool give_evenly(const StepContext& ctx, const AnyLink& l)
+template <class AnyEdge>
+[[nodiscard]] bool give_evenly(const StepContext& ctx, const AnyEdge& l)
 {
-    return gives_evenly(ctx, l.a) && gives_evenly(ctx, l.b);
+    return has_even_mass(ctx, l.a) && has_even_mass(ctx, l.b);
 }
 
 /// Not a copy of a kinematic body, nor what stands for all that rests.

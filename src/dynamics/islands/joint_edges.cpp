@@ -40,10 +40,10 @@ bool is_closed(const StepContext& ctx, int index, int body)
     return body != none && length(gap) <= 0.1f * ctx.scene.tolerances.slop;
 }
 
-class LinkGathering
+class EdgeGathering
 {
 public:
-    explicit LinkGathering(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+    explicit EdgeGathering(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
     void forget_bodies()
     {
@@ -72,7 +72,7 @@ public:
                           [&](std::size_t k)
                           {
                               const std::size_t i = first + k;
-                              prefetch_hinge_of(i + turns_ahead);
+                              prefetch_hinge_of(i + prefetch_distance);
                               const int body = state.awake_bodies[i];
                               note_place(body, static_cast<std::int32_t>(i));
                               note_uneven(body);
@@ -102,13 +102,13 @@ public:
     void gather_joints()
     {
         CachedGraph& kept = scratch.cached_graph;
-        kept.stay_so = kept.are_plain && !state.graph_dirty && bodies_stay(ctx);
-        kept.joints_stay = kept.stay_so && !scratch.has_hung && !kept.has_hung;
+        kept.stay_plain = kept.are_plain && !state.graph_dirty && bodies_are_unchanged(ctx);
+        kept.joints_are_unchanged = kept.stay_plain && !scratch.has_hung && !kept.has_hung;
         kept.has_hung = scratch.has_hung;
-        if (kept.joints_stay)
+        if (kept.joints_are_unchanged)
             return;
-        scratch.joint_links.swap(kept.joints);
-        using Some = std::vector<JointLink>;
+        scratch.joint_edges.swap(kept.joints);
+        using Some = std::vector<JointEdge>;
         const auto joints = static_cast<std::size_t>(state.joints.capacity());
         const std::span<Some> parts =
             find_in_parts(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.joints_of_task,
@@ -123,12 +123,12 @@ public:
                           });
         if (parts.size() == 1)
         {
-            scratch.joint_links.swap(parts[0]);
+            scratch.joint_edges.swap(parts[0]);
             return;
         }
-        scratch.joint_links.clear();
+        scratch.joint_edges.clear();
         for (const Some& some : parts)
-            append_all(scratch.joint_links, some);
+            append_all(scratch.joint_edges, some);
     }
 
 private:
@@ -176,7 +176,7 @@ private:
         return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
     }
 
-    void gather_joint(int index, std::vector<JointLink>& links) const
+    void gather_joint(int index, std::vector<JointEdge>& links) const
     {
         const JointRecord& joint = state.joints[index];
         const auto place = [&](int body) { return body == none ? none : place_of(scratch, body); };
@@ -186,7 +186,7 @@ private:
         const std::int32_t b = place(joint.body_b);
         if ((a < 0 && b < 0) || !takes_part(joint.body_a, a) || !takes_part(joint.body_b, b))
             return;
-        JointLink& link = links.emplace_back();
+        JointEdge& link = links.emplace_back();
         link.joint = index;
         link.a = a;
         link.b = b;
@@ -230,12 +230,12 @@ std::int32_t flight_about_hinge(const SceneState& state, int body)
     return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
 }
 
-void forget_bodies(StepContext& ctx) { LinkGathering(ctx).forget_bodies(); }
+void forget_bodies(StepContext& ctx) { EdgeGathering(ctx).forget_bodies(); }
 
-void place_bodies(StepContext& ctx) { LinkGathering(ctx).place_bodies(); }
+void place_bodies(StepContext& ctx) { EdgeGathering(ctx).place_bodies(); }
 
-void list_fliers(StepContext& ctx) { LinkGathering(ctx).list_fliers(); }
+void list_fliers(StepContext& ctx) { EdgeGathering(ctx).list_fliers(); }
 
-void gather_joints(StepContext& ctx) { LinkGathering(ctx).gather_joints(); }
+void gather_joints(StepContext& ctx) { EdgeGathering(ctx).gather_joints(); }
 
 } // namespace carom::internal

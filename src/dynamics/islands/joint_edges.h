@@ -16,7 +16,7 @@ void place_bodies(StepContext& ctx);
 /// When links of contacts are known: whom one loads does not fly.
 void list_fliers(StepContext& ctx);
 
-/// Fills Scratch::joint_links.
+/// Fills Scratch::joint_edges.
 void gather_joints(StepContext& ctx);
 
 /// Of a body with joints: the hinge to the world that it turns on, which nothing drives, or earthbound.
@@ -28,7 +28,7 @@ void gather_joints(StepContext& ctx);
     const BodyRecord& record = state.bodies[body];
     if (record.first_joint != none)
         return flight_about_hinge(state, body);
-    return record.gives_way ? none : earthbound;
+    return record.has_finite_mass ? none : earthbound;
 }
 
 /// Of a body, as in Link.

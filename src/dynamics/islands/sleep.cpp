@@ -19,11 +19,11 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float creeping = 0.2f;      // of the sleep speed
-constexpr float creep_time = 0.5f;    // s
-constexpr float at_rest = 0.05f;      // of the sleep speed, over the time to stay
-constexpr float time_to_stay = 0.25f; // s, in one place
-constexpr float time_to_sleep = 0.5f; // s: long enough for a body at the top of its flight not to fall asleep
+constexpr float is_rest_damped = 0.2f;    // of the sleep speed
+constexpr float rest_damping_time = 0.5f; // s
+constexpr float at_rest = 0.05f;          // of the sleep speed, over the time to stay
+constexpr float time_to_stay = 0.25f;     // s, in one place
+constexpr float time_to_sleep = 0.5f;     // s: long enough for a body at the top of its flight not to fall asleep
 
 // Twice in the time it takes to fall asleep: to look in each step of 1/60 s costs a pile of which some never rest a twentieth.
 bool looks_for_islands(const StepContext& ctx)
@@ -102,9 +102,9 @@ void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
         count_quiet_time(ctx, body, sim, record.sleep_speed);
     else
         sim.sleep_time = 0;
-    if (sim.sleep_time >= time_to_sleep && speed < creeping * limit && record.type == BodyType::Dynamic &&
+    if (sim.sleep_time >= time_to_sleep && speed < is_rest_damped * limit && record.type == BodyType::Dynamic &&
         bears_in_crowd(ctx, sim))
-        slow_down(sim, std::max(1 - ctx.dt / creep_time, 0.0f));
+        slow_down(sim, std::max(1 - ctx.dt / rest_damping_time, 0.0f));
 }
 
 // What leans on a moving kinematic body, or is joined to it, is carried by it, however slowly.
@@ -164,7 +164,7 @@ public:
     void put_to_sleep()
     {
         find_tired();
-        link_at_contacts();
+        join_at_contacts();
         for (int j = 0; j < m_state.joints.capacity(); ++j)
         {
             if (m_state.joints.is_live(j))
@@ -191,13 +191,13 @@ private:
                           });
     }
 
-    void link_at_contacts()
+    void join_at_contacts()
     {
         for_each_in_parts(m_ctx.scene.def.tasks, m_state.awake_contacts.size(), contacts_per_task,
                           [&](std::size_t i)
                           {
-                              if (i + turns_ahead < m_state.awake_contacts.size())
-                                  prefetch_line(&m_state.contacts[m_state.awake_contacts[i + turns_ahead]]);
+                              if (i + prefetch_distance < m_state.awake_contacts.size())
+                                  prefetch_line(&m_state.contacts[m_state.awake_contacts[i + prefetch_distance]]);
                               const Contact& contact = m_state.contacts[m_state.awake_contacts[i]];
                               if ((contact.flags & contact_flag::touching) != 0)
                                   link(contact.body_a, contact.body_b);

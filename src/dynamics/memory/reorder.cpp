@@ -85,10 +85,10 @@ public:
         make_room(m_order, m_state.awake_contacts.size());
         for (const Island& island : m_scratch.islands)
         {
-            const auto lanes = std::span(m_scratch.lane_links);
+            const auto lanes = std::span(m_scratch.lane_edges);
             place(lanes.subspan(static_cast<std::size_t>(island.first_wide) * lane_count,
                                 static_cast<std::size_t>(island.wide_count) * lane_count));
-            const auto rows = std::span(m_scratch.row_links);
+            const auto rows = std::span(m_scratch.row_edges);
             place(rows.subspan(static_cast<std::size_t>(island.first_row), static_cast<std::size_t>(island.row_count)));
         }
         ++m_color;
@@ -153,11 +153,11 @@ private:
         for (const std::int32_t i : links)
         {
             if (i != none)
-                place(m_scratch.solved_links[static_cast<std::size_t>(i)]);
+                place(m_scratch.solved_edges[static_cast<std::size_t>(i)]);
         }
     }
 
-    void place(const Link& l)
+    void place(const ContactEdge& l)
     {
         if (l.color() != m_last.color() || l.points() != m_last.points())
             ++m_color;
@@ -223,7 +223,7 @@ private:
                           move_items([&](int slot) -> Contact& { return m_state.contacts[slot]; });
                           break;
                       case 1:
-                          move_items([&](int slot) -> KeptManifold& { return m_state.kept_manifolds[as_index(slot)]; });
+                          move_items([&](int slot) -> CachedManifold& { return m_state.cached_manifolds[as_index(slot)]; });
                           break;
                       default:
                           move_items([&](int slot) -> ContactImpulses& { return impulses_of(m_state, slot); });
@@ -249,11 +249,11 @@ private:
     // First a later contact, then what it names.
     [[gnu::always_inline]] void prefetch_named(std::span<const std::int32_t> later) const
     {
-        if (later.size() > 2 * turns_ahead)
-            prefetch_line(&m_state.contacts[later[2 * turns_ahead]]);
-        if (later.size() <= turns_ahead)
+        if (later.size() > 2 * prefetch_distance)
+            prefetch_line(&m_state.contacts[later[2 * prefetch_distance]]);
+        if (later.size() <= prefetch_distance)
             return;
-        const Contact& contact = m_state.contacts[later[turns_ahead]];
+        const Contact& contact = m_state.contacts[later[prefetch_distance]];
         for (const std::int32_t edge : {contact.next[0], contact.next[1], contact.previous[0], contact.previous[1]})
             prefetch_line(&m_moved_to[static_cast<std::size_t>(std::max(edge, 0) >> 1)]);
         prefetch_line(m_state.box_pairs.data() + std::max(contact.pair, 0));
@@ -297,8 +297,8 @@ private:
             const auto last = at(cycles[i]);
             for (; !is_marked(cycles[i]); --i)
             {
-                if (i > turns_ahead)
-                    prefetch(at(plain(cycles[i - 1 - turns_ahead])));
+                if (i > prefetch_distance)
+                    prefetch(at(plain(cycles[i - 1 - prefetch_distance])));
                 at(cycles[i]) = at(plain(cycles[i - 1]));
             }
             at(marked(cycles[i])) = last;
@@ -347,12 +347,12 @@ private:
     std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, once it is
     const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
-    Link m_last; ///< placed among those of one island
+    ContactEdge m_last; ///< placed among those of one island
 };
 
 } // namespace
 
-void tidy(StepContext& ctx)
+void reorder(StepContext& ctx)
 {
     if (ctx.state.awake_contacts.size() < worth_it)
         return;
@@ -364,7 +364,7 @@ void tidy(StepContext& ctx)
     }
     sort_bodies(ctx.state);
     part_bodies(ctx);
-    if (ctx.scratch.cached_graph.rows_stayed_for >= steps_between)
+    if (ctx.scratch.cached_graph.rows_unchanged_for >= steps_between)
         return; // in the order that they were left in
     ContactOrder order(ctx);
     order.find();

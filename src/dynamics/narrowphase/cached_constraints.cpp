@@ -32,7 +32,7 @@ bool are_in_place(const StepContext& ctx)
 {
     const CachedGraph& kept = ctx.scratch.cached_graph;
     return kept.rows_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
-           ctx.state.awake_contacts == kept.contacts && bodies_stay(ctx);
+           ctx.state.awake_contacts == kept.contacts && bodies_are_unchanged(ctx);
 }
 
 // What has no lane must go on needing none.
@@ -41,7 +41,7 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index)
     ctx.scratch.is_looked_at[as_index(index)] = 1;
     Contact& contact = ctx.state.contacts[index];
     const bool was_solved = is_solved(contact); // or would be, if what it touches moved
-    if (update_contact(ctx, index) != News::Nothing || is_solved(contact) != was_solved)
+    if (update_contact(ctx, index) != TouchChange::Nothing || is_solved(contact) != was_solved)
         return false;
     if (!was_solved)
         forget_impulses(ctx.state, index);
@@ -68,13 +68,13 @@ bool are_marked(const SceneState& state, const WideNotes& notes)
 }
 
 // Those of a large island by the threads that solve them, of small ones a few islands to a task.
-bool rows_stay(const StepContext& ctx)
+bool rows_are_unchanged(const StepContext& ctx)
 {
     const std::vector<Island>& islands = ctx.scratch.islands;
     std::atomic<bool> stay{true};
     const auto follow = [&](const Island& island, int first, int last)
     {
-        RowFollower follower(ctx);
+        ConstraintRefresh follower(ctx);
         WideRow* const rows = ctx.scratch.wide_rows.data() + island.wide_store;
         WideNotes* const all_notes = ctx.scratch.wide_notes.data() + island.wide_store;
         const bool asks_ahead = !is_large(island); // a thread has much of a large one in its cache still
@@ -86,18 +86,18 @@ bool rows_stay(const StepContext& ctx)
                 prefetch(rows[g + 2]);
                 prefetch(all_notes[g + 2]);
             }
-            const FollowNews news =
-                are_marked(ctx.state, notes) ? follower.follow(rows[g], notes) : FollowNews{.gone = filled_lanes(notes)};
-            if ((news.gone | news.told) != 0)
+            const RefreshChanges changes =
+                are_marked(ctx.state, notes) ? follower.follow(rows[g], notes) : RefreshChanges{.gone = filled_lanes(notes)};
+            if ((changes.gone | changes.told) != 0)
                 stay.store(false, std::memory_order_relaxed);
         }
     };
     for (const Island& island : islands)
     {
         if (is_large(island))
-            Crew::run(
-                ctx.scene.def.tasks, [&](Crew& crew)
-                { contact_bins(ctx.scratch, island).all(crew, [&](int first, int last) { follow(island, first, last); }); });
+            WorkerTeam::run(
+                ctx.scene.def.tasks, [&](WorkerTeam& team)
+                { contact_bins(ctx.scratch, island).all(team, [&](int first, int last) { follow(island, first, last); }); });
     }
     for_each_in_parts(ctx.scene.def.tasks, islands.size(), islands_per_task,
                       [&](std::size_t u)
@@ -120,7 +120,7 @@ bool all_are_borne(const StepContext& ctx)
 }
 
 // Of two the one that does not give way is static: what is kinematic or asleep has more to say, and so has what lets pass.
-bool leans_on_statics(const SceneState& state, const Link& l)
+bool leans_on_statics(const SceneState& state, const ContactEdge& l)
 {
     const Contact& contact = state.contacts[l.contact];
     const auto is_plain = [&](std::int32_t place, std::int32_t body)
@@ -130,12 +130,12 @@ bool leans_on_statics(const SceneState& state, const Link& l)
 
 } // namespace
 
-bool follow_rows(StepContext& ctx)
+bool refresh_constraints(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     CachedGraph& kept = scratch.cached_graph;
-    kept.rows_stay = false;
-    const std::uint64_t stayed_for = std::exchange(kept.rows_stayed_for, 0);
+    kept.rows_are_unchanged = false;
+    const std::uint64_t stayed_for = std::exchange(kept.rows_unchanged_for, 0);
     scratch.is_looked_at.clear();
     const bool are_of_this_state = ctx.state.rows_stamp != 0 && kept.stamp == ctx.state.rows_stamp;
     ctx.state.rows_stamp = 0; // until they have been solved
@@ -144,20 +144,21 @@ bool follow_rows(StepContext& ctx)
         return false;
     scratch.borne.assign(scratch.state_bodies.size(), 0);
     scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    kept.rows_stay = are_in_place(ctx) && loose_stay(ctx) && rows_stay(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
-    if (!kept.rows_stay)
+    kept.rows_are_unchanged =
+        are_in_place(ctx) && loose_stay(ctx) && rows_are_unchanged(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
+    if (!kept.rows_are_unchanged)
         return false;
     scratch.is_looked_at.clear();
-    kept.rows_stayed_for = stayed_for + 1;
+    kept.rows_unchanged_for = stayed_for + 1;
     return true;
 }
 
-void keep_rows(StepContext& ctx)
+void cache_constraints(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     CachedGraph& kept = scratch.cached_graph;
-    const auto may_stay = [&](const Link& l)
-    { return !l.has(link_flag::solved) || (l.has(link_flag::plain) && leans_on_statics(ctx.state, l)); };
+    const auto may_stay = [&](const ContactEdge& l)
+    { return !l.has(edge_flag::solved) || (l.has(edge_flag::plain) && leans_on_statics(ctx.state, l)); };
     kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.islands.empty() &&
                       std::ranges::all_of(scratch.links, may_stay);
     if (!kept.rows_apart)
@@ -166,7 +167,7 @@ void keep_rows(StepContext& ctx)
     kept.touching = ctx.report.touching;
     std::vector<std::int32_t>& has_lane = scratch.order;
     has_lane.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    for (const Link& l : scratch.solved_links)
+    for (const ContactEdge& l : scratch.solved_edges)
         has_lane[as_index(l.contact)] = 1;
     kept.loose.clear();
     std::copy_if(kept.contacts.begin(), kept.contacts.end(), std::back_inserter(kept.loose),

@@ -9,9 +9,9 @@ namespace carom::internal {
 /// Instead of updating contacts one by one: where islands have stayed, and every contact has still what its lane was made for, normals, arms and separations
 /// are followed where they stand, eight at a time. False where something has changed: then all is to be done as ever, but that some contacts are up to date
 /// (Scratch::is_looked_at).
-[[nodiscard]] bool follow_rows(StepContext& ctx);
+[[nodiscard]] bool refresh_constraints(StepContext& ctx);
 
 /// Once the rows of islands that stay are known to be filled in this step: may they be followed in the next?
-void keep_rows(StepContext& ctx);
+void cache_constraints(StepContext& ctx);
 
 } // namespace carom::internal

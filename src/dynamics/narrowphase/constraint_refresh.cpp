@@ -21,15 +21,15 @@ void for_each_lane(std::uint32_t lanes, const Visit& visit)
 
 } // namespace
 
-RowFollower::RowFollower(const StepContext& ctx)
+ConstraintRefresh::ConstraintRefresh(const StepContext& ctx)
     : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
 {}
 
-FollowNews RowFollower::follow(WideRow& row, WideNotes& notes)
+RefreshChanges ConstraintRefresh::follow(WideRow& row, WideNotes& notes)
 {
     FollowedRow now;
     m_kernels.follow(row, notes, m_scene, now);
-    FollowNews news;
+    RefreshChanges changes;
     const std::uint32_t looked = now.unsure | now.begins_or_ends;
     const std::uint32_t sure = filled_lanes(notes) & ~looked;
     notes.may_hit = now.unloaded & sure;
@@ -38,26 +38,26 @@ FollowNews RowFollower::follow(WideRow& row, WideNotes& notes)
     notes.followed |= sure;
     for_each_lane(now.borne & sure, [&](int i) { note_borne(row, i); });
     for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(row, notes, i, now.separation.v[i]); });
-    for_each_lane(looked, [&](int i) { look_at(row, notes, i, news); });
+    for_each_lane(looked, [&](int i) { look_at(row, notes, i, changes); });
     m_kernels.prepare(row, notes.count);
-    return news;
+    return changes;
 }
 
 // Found anew, or followed, by itself.
-void RowFollower::look_at(WideRow& row, WideNotes& notes, int i, FollowNews& news)
+void ConstraintRefresh::look_at(WideRow& row, WideNotes& notes, int i, RefreshChanges& changes)
 {
     const std::uint32_t bit = 1u << i;
     const std::int32_t index = notes.contact.v[i];
     m_scratch.is_looked_at[static_cast<std::size_t>(index)] = 1;
     const Contact& contact = m_state.contacts[index];
-    if (update_contact(m_ctx, index) != News::Nothing)
-        news.told |= bit;
+    if (update_contact(m_ctx, index) != TouchChange::Nothing)
+        changes.told |= bit;
     if (!is_solved(contact) || contact.manifold.count != notes.count)
     {
-        news.gone |= bit;
+        changes.gone |= bit;
         return;
     }
-    Link link;
+    ContactEdge link;
     link.contact = index;
     link.a = row.a.v[i];
     link.b = row.b.v[i];
@@ -66,13 +66,13 @@ void RowFollower::look_at(WideRow& row, WideNotes& notes, int i, FollowNews& new
 }
 
 // What is not borne may fly.
-void RowFollower::note_borne(const WideRow& row, int i) const
+void ConstraintRefresh::note_borne(const WideRow& row, int i) const
 {
     for (const std::int32_t s : {row.a.v[i], row.b.v[i]})
         std::atomic_ref(m_scratch.borne[static_cast<std::size_t>(s)]).store(1, std::memory_order_relaxed);
 }
 
-void RowFollower::note_if_loaded(const WideRow& row, const WideNotes& notes, int i, float separation) const
+void ConstraintRefresh::note_if_loaded(const WideRow& row, const WideNotes& notes, int i, float separation) const
 {
     if (is_loaded(m_ctx, m_state.contacts[notes.contact.v[i]], separation))
         note_borne(row, i);

@@ -44,7 +44,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
 }
 
 /// Its manifold at the start of the step, and what others must hear of. Writes to this contact alone.
-[[nodiscard]] News update_contact(const StepContext& ctx, int index);
+[[nodiscard]] TouchChange update_contact(const StepContext& ctx, int index);
 
 /// It wakes nobody, and no other contact speaks for the same two shapes: what becomes of it may be told by any thread.
 [[nodiscard]] inline bool concerns_no_other(const Contact& contact)

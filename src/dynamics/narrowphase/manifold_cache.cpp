@@ -15,7 +15,7 @@ constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is
 constexpr float surely_turned = 0.9801f;
 
 // An edge's normal belongs to the body of the edge, that of two corners or circles to none.
-bool can_keep(const SceneState& state, const Contact& contact, const LocalManifold& found)
+bool can_cache(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
     const auto has_edges = [&](int shape)
     {
@@ -38,7 +38,7 @@ struct Moved
     float cosine;
 };
 
-Rotation turned_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+Rotation turned_since(const CachedManifold& kept, const BodySim& own, const BodySim& other)
 {
     return inverse(own.rotation) * other.rotation * inverse(kept.rotation);
 }
@@ -46,7 +46,7 @@ Rotation turned_since(const KeptManifold& kept, const BodySim& own, const BodySi
 // Of a circle of radius 1.
 float chord_of(Rotation turn) { return std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c)); }
 
-Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+Moved moved_since(const CachedManifold& kept, const BodySim& own, const BodySim& other)
 {
     const Rotation turn = turned_since(kept, own, other);
     return {length(place_of(other, own) - kept.center) + other.extent * chord_of(turn), turn.c};
@@ -54,7 +54,7 @@ Moved moved_since(const KeptManifold& kept, const BodySim& own, const BodySim& o
 
 // Of two without a point: how far apart they still are for sure. Along the direction that parted them only what goes along it, and turns, takes from
 // their distance.
-float room(const KeptManifold& kept, const BodySim& own, const BodySim& other)
+float room(const CachedManifold& kept, const BodySim& own, const BodySim& other)
 {
     const Vec2 way = place_of(other, own) - kept.center;
     const Vec2 direction = kept.found.parting.direction;
@@ -69,7 +69,7 @@ float arm_of(const SceneState& state, int shape, const BodySim& sim)
     return sim.extent - (leaf.type == LeafType::Capsule ? std::min(leaf.r0, leaf.r1) : leaf.r0);
 }
 
-void keep_edge(KeptEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
+void cache_edge(CachedEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
 {
     const bool of_b = found.clipped.of_b;
     const auto on_a = [&](Vec2 p) { return p - a.local_center; };
@@ -84,7 +84,7 @@ void keep_edge(KeptEdge& kept, const BodySim& a, const BodySim& b, const Relativ
     kept.normal = of_b ? inverse_rotate(pose.rotation, found.normal) : found.normal;
 }
 
-void keep_corners(KeptCorners& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const NearestCorners& found)
+void cache_corners(CachedCorners& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const NearestCorners& found)
 {
     kept.corners[0] = found.at[0] - a.local_center;
     kept.corners[1] = pose.to_b(found.at[1]) - b.local_center;
@@ -103,11 +103,11 @@ bool is_of_b(const SceneState& state, const Contact& contact, const LocalManifol
            arm_of(state, contact.shape_b, sim_of(state, contact.body_b));
 }
 
-void keep(const SceneState& state, const Contact& contact, const LocalManifold& found, KeptManifold& kept)
+void keep(const SceneState& state, const Contact& contact, const LocalManifold& found, CachedManifold& kept)
 {
     const BodySim& a = sim_of(state, contact.body_a);
     const BodySim& b = sim_of(state, contact.body_b);
-    const bool of_b = keeps_edge_of_b(contact);
+    const bool of_b = caches_edge_of_b(contact);
     const BodySim& own = of_b ? b : a;
     const BodySim& other = of_b ? a : b;
     kept.center = place_of(other, own);
@@ -119,9 +119,9 @@ void keep(const SceneState& state, const Contact& contact, const LocalManifold& 
         kept.found.parting = {of_b ? inverse_rotate(pose.rotation, -found.parting) : found.parting,
                               arm_of(state, of_b ? contact.shape_a : contact.shape_b, other)};
     else if (found.clipped.radius >= 0)
-        keep_edge(kept.found.edge, a, b, pose, found);
+        cache_edge(kept.found.edge, a, b, pose, found);
     else
-        keep_corners(kept.found.nearest, a, b, pose, found.nearest);
+        cache_corners(kept.found.nearest, a, b, pose, found.nearest);
 }
 
 // Within which there are points.
@@ -142,9 +142,9 @@ struct Facing
     float along[2]; ///< how far along the edge, times its length
     float end;      ///< as far is the edge's
 
-    Facing(const KeptManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : radius(k.radius), of_b(edge_of_b)
+    Facing(const CachedManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : radius(k.radius), of_b(edge_of_b)
     {
-        const KeptEdge& kept = k.found.edge;
+        const CachedEdge& kept = k.found.edge;
         const BodySim& own = of_b ? b : a;
         const BodySim& other = of_b ? a : b;
         const Vec2 apart = b.center - a.center;
@@ -214,7 +214,7 @@ bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved
 }
 
 // One corner before the edge, the other too far away to be a second point.
-bool has_one_point(const KeptManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_way)
+bool has_one_point(const CachedManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_way)
 {
     const Facing::Foot near = facing.foot(0);
     const bool is_alone = facing.is_round() || facing.foot(1).separation > margin;
@@ -223,7 +223,7 @@ bool has_one_point(const KeptManifold& kept, const Facing& facing, const Moved& 
 }
 
 // Both corners before the edge, and no other has become one of them.
-bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
+bool has_two_points(const CachedManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
 {
     const Facing::Foot first = facing.foot(0);
     const Facing::Foot second = facing.foot(1);
@@ -235,14 +235,14 @@ bool has_two_points(const KeptManifold& kept, const Facing& facing, const Moved&
 // The way from one corner to the other that is nearest to it.
 struct Nearest
 {
-    const KeptCorners& kept;
+    const CachedCorners& kept;
     Vec2 from; ///< the center of a, and to that of b
     Vec2 to;
     Vec2 n;
     float separation;
     bool leads_out; ///< of both cones: nothing is nearer
 
-    Nearest(const KeptCorners& k, const BodySim& a, const BodySim& b) : kept(k)
+    Nearest(const CachedCorners& k, const BodySim& a, const BodySim& b) : kept(k)
     {
         from = rotate(a.rotation, kept.corners[0]);
         to = rotate(b.rotation, kept.corners[1]);
@@ -250,7 +250,7 @@ struct Nearest
         const float distance = std::sqrt(dot(gap, gap));
         n = {gap.x / distance, gap.y / distance};
         separation = distance - (kept.radii[0] + kept.radii[1]);
-        leads_out = distance > KeptCorners::least_distance &&
+        leads_out = distance > CachedCorners::least_distance &&
                     dot(n, rotate(a.rotation, kept.cones[0])) >= dot(kept.cones[0], kept.cones[0]) &&
                     dot(-n, rotate(b.rotation, kept.cones[1])) >= dot(kept.cones[1], kept.cones[1]);
     }
@@ -264,16 +264,16 @@ struct Nearest
     }
 };
 
-void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, Manifold& m)
+void follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, Manifold& m)
 {
     if (m.count == 0)
         return;
-    if (keeps_nearest(contact))
+    if (caches_nearest(contact))
     {
         Nearest(kept.found.nearest, a, b).put(m);
         return;
     }
-    const bool of_b = keeps_edge_of_b(contact);
+    const bool of_b = caches_edge_of_b(contact);
     const Facing facing(kept, a, b, of_b);
     m.normal = rotate(of_b ? b.rotation : a.rotation, kept.found.edge.normal);
     for (int i = 0; i < m.count; ++i)
@@ -281,19 +281,19 @@ void follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const 
 }
 
 // Is what it found still what would be found?
-bool can_follow(const KeptManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
+bool can_follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
                 float longest_way)
 {
-    if (!is_kept(contact))
+    if (!is_cached(contact))
         return false;
     if (contact.manifold.count == 0)
-        return margin <= (keeps_edge_of_b(contact) ? room(kept, b, a) : room(kept, a, b));
-    if (keeps_nearest(contact))
+        return margin <= (caches_edge_of_b(contact) ? room(kept, b, a) : room(kept, a, b));
+    if (caches_nearest(contact))
     {
         const Nearest nearest(kept.found.nearest, a, b);
         return nearest.leads_out && nearest.separation <= margin;
     }
-    const bool of_b = keeps_edge_of_b(contact);
+    const bool of_b = caches_edge_of_b(contact);
     const Moved moved = of_b ? moved_since(kept, b, a) : moved_since(kept, a, b);
     const Facing facing(kept, a, b, of_b);
     return contact.manifold.count == 1 ? has_one_point(kept, facing, moved, margin, longest_way)
@@ -306,7 +306,7 @@ void follow_manifold(const StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
     Contact& contact = state.contacts[index];
-    KeptManifold& kept = state.kept_manifolds[static_cast<std::size_t>(index)];
+    CachedManifold& kept = state.cached_manifolds[static_cast<std::size_t>(index)];
     const BodySim& a = sim_of(state, contact.body_a);
     const BodySim& b = sim_of(state, contact.body_b);
     const Tolerances& t = ctx.scene.tolerances;
@@ -323,9 +323,9 @@ void follow_manifold(const StepContext& ctx, int index)
     const LocalManifold found = local_manifold(state, contact, pose_a, pose_b, margin);
     contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold, impulses_of(state, index));
-    contact.flags &= ~(contact_flag::all_kept | contact_flag::of_union);
+    contact.flags &= ~(contact_flag::all_cached | contact_flag::of_union);
     contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
-    if (!can_keep(state, contact, found))
+    if (!can_cache(state, contact, found))
         return;
     contact.flags |= contact_flag::kept | (is_of_b(state, contact, found) ? contact_flag::edge_of_b : 0u) |
                      (found.count > 0 && found.clipped.radius < 0 ? contact_flag::nearest : 0u);
@@ -337,7 +337,7 @@ FollowedScene followed_scene(const StepContext& ctx)
     const Tolerances& t = ctx.scene.tolerances;
     return {ctx.state.sims.data(),
             &ctx.state.contacts[0],
-            ctx.state.kept_manifolds.data(),
+            ctx.state.cached_manifolds.data(),
             ctx.state.broad_phase.places(),
             surely * t.keep,
             surely,
@@ -362,7 +362,7 @@ Manifold settled_manifold(const SceneState& state, int index)
         }
         return sim;
     };
-    follow(state.kept_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b), contact, m);
+    follow(state.cached_manifolds[static_cast<std::size_t>(index)], before(contact.body_a), before(contact.body_b), contact, m);
     return m;
 }
 

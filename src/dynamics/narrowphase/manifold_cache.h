@@ -18,14 +18,14 @@ namespace carom::internal {
 }
 
 /// It was found in a crowd, and nothing has been done to it since.
-[[nodiscard]] inline bool is_kept(const Contact& contact)
+[[nodiscard]] inline bool is_cached(const Contact& contact)
 {
     return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
 }
 
 /// Or, without a point, whether the direction that parts them is in the axes of b.
-[[nodiscard]] inline bool keeps_edge_of_b(const Contact& contact) { return (contact.flags & contact_flag::edge_of_b) != 0; }
-[[nodiscard]] inline bool keeps_nearest(const Contact& contact) { return (contact.flags & contact_flag::nearest) != 0; }
+[[nodiscard]] inline bool caches_edge_of_b(const Contact& contact) { return (contact.flags & contact_flag::edge_of_b) != 0; }
+[[nodiscard]] inline bool caches_nearest(const Contact& contact) { return (contact.flags & contact_flag::nearest) != 0; }
 
 /// The manifold of a contact in a crowd at the start of the step: followed, or found again. Impulses are carried over.
 void follow_manifold(const StepContext& ctx, int index);
@@ -35,7 +35,7 @@ inline constexpr float surely = 0.999f;
 [[nodiscard]] FollowedScene followed_scene(const StepContext& ctx);
 
 /// What has become of it can be told with others: in a crowd, nothing has been done to it, and without a point it did not touch.
-[[nodiscard]] inline bool is_told_with_others(const SceneState& state, const Contact& contact)
+[[nodiscard]] inline bool is_updated_with_others(const SceneState& state, const Contact& contact)
 {
     const std::uint32_t asked = contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing |
                                 (contact.manifold.count == 0 ? contact_flag::touching : 0);

@@ -103,7 +103,7 @@ void find_manifold(const StepContext& ctx, int index)
         local_manifold(state, contact, pose_a, pose_b, ctx.scene.tolerances.speculation + relative_motion(state, contact));
     contact.manifold = in_world(found, pose_a, pose_b);
     carry_impulses(old, contact.manifold, impulses_of(state, index));
-    contact.flags &= ~(contact_flag::all_kept | contact_flag::followed | contact_flag::of_union);
+    contact.flags &= ~(contact_flag::all_cached | contact_flag::followed | contact_flag::of_union);
     contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
 }
 
@@ -205,32 +205,32 @@ void wake_both(StepContext& ctx, int index)
     wake_body(ctx.scene, contact.body_b);
 }
 
-News news_of(const StepContext& ctx, const Contact& contact)
+TouchChange change_of(const StepContext& ctx, const Contact& contact)
 {
     const bool touching = (contact.flags & contact_flag::touching) != 0;
     const bool should = should_touch(ctx, contact);
     if (should != touching)
-        return touching ? News::Ends : News::Begins;
+        return touching ? TouchChange::Ends : TouchChange::Begins;
     if (touching || contact.manifold.count == 0)
-        return News::Nothing;
-    return (contact.flags & contact_flag::sleeper) != 0 && may_hit(ctx, contact) ? News::MayHit : News::Nothing;
+        return TouchChange::Nothing;
+    return (contact.flags & contact_flag::sleeper) != 0 && may_hit(ctx, contact) ? TouchChange::MayHit : TouchChange::Nothing;
 }
 
 } // namespace
 
-News update_contact(const StepContext& ctx, int index)
+TouchChange update_contact(const StepContext& ctx, int index)
 {
     Contact& contact = ctx.state.contacts[index];
     update_manifold(ctx, index);
     contact.flags &= ~contact_flag::fresh;
-    return news_of(ctx, contact);
+    return change_of(ctx, contact);
 }
 
 namespace {
 
 constexpr std::size_t contacts_at_once = 512;
 
-// Since follow_rows has tried to do with less.
+// Since refresh_constraints has tried to do with less.
 bool is_looked_at(const Scratch& scratch, std::int32_t contact)
 {
     return !scratch.is_looked_at.empty() && scratch.is_looked_at[static_cast<std::size_t>(contact)] != 0;
@@ -240,7 +240,7 @@ bool is_looked_at(const Scratch& scratch, std::int32_t contact)
 class ContactUpdate
 {
 public:
-    ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last, SomeNews& some)
+    ContactUpdate(const StepContext& ctx, std::size_t first, std::size_t last, ContactChanges& some)
         : m_ctx(ctx), m_contacts(std::span(ctx.state.awake_contacts).subspan(first, last - first)), m_first(first), m_some(some),
           m_scene(followed_scene(ctx))
     {}
@@ -264,8 +264,8 @@ public:
         update_the_others();
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
-            if (m_news[i] != News::Nothing)
-                tell(m_contacts[i], m_news[i]);
+            if (m_changes[i] != TouchChange::Nothing)
+                tell(m_contacts[i], m_changes[i]);
         }
     }
 
@@ -273,34 +273,34 @@ private:
     // First who touches, then what is kept of them and where they are. Turns are short here.
     [[gnu::always_inline]] void prefetch_later(std::size_t i) const
     {
-        constexpr std::size_t ahead = 2 * turns_ahead;
+        constexpr std::size_t ahead = 2 * prefetch_distance;
         const SceneState& state = m_ctx.state;
         if (i + 2 * ahead < m_contacts.size())
             prefetch(state.contacts[m_contacts[i + 2 * ahead]]);
         if (i + ahead >= m_contacts.size())
             return;
         const std::int32_t index = m_contacts[i + ahead];
-        prefetch(state.kept_manifolds[static_cast<std::size_t>(index)]);
+        prefetch(state.cached_manifolds[static_cast<std::size_t>(index)]);
         for (const std::int32_t body : {state.contacts[index].body_a, state.contacts[index].body_b})
             prefetch_line(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
     }
 
-    // Events are written when all is known, see tell_all.
-    void tell(std::int32_t index, News what)
+    // Events are written when all is known, see report_all.
+    void tell(std::int32_t index, TouchChange what)
     {
         Contact& contact = m_ctx.state.contacts[index];
         if (!concerns_no_other(contact))
         {
             append(m_some.others, {index, what});
         }
-        else if (what == News::Begins)
+        else if (what == TouchChange::Begins)
         {
             contact.flags |= contact_flag::touching;
             keep_awake(m_ctx, contact.body_a);
             keep_awake(m_ctx, contact.body_b);
             append(m_some.begins, index);
         }
-        else if (what == News::Ends)
+        else if (what == TouchChange::Ends)
         {
             contact.flags &= ~contact_flag::touching;
             append(m_some.ends, index);
@@ -314,11 +314,11 @@ private:
         contact.awake_index = static_cast<std::int32_t>(m_first + i); // see ContactBatch::find_slots
         if (is_looked_at(m_ctx.scratch, index))
         {
-            m_news[i] = news_of(m_ctx, contact);
+            m_changes[i] = change_of(m_ctx, contact);
             note_left_load(contact);
             return;
         }
-        if (!is_told_with_others(m_ctx.state, contact))
+        if (!is_updated_with_others(m_ctx.state, contact))
         {
             put_off(i);
             return;
@@ -349,10 +349,10 @@ private:
     {
         for (std::size_t k = 0; k < m_other_count; ++k)
         {
-            if (k + turns_ahead < m_other_count)
-                prefetch_corners(m_contacts[m_others[k + turns_ahead]]);
+            if (k + prefetch_distance < m_other_count)
+                prefetch_corners(m_contacts[m_others[k + prefetch_distance]]);
             const std::int32_t index = m_contacts[m_others[k]];
-            m_news[m_others[k]] = update_contact(m_ctx, index);
+            m_changes[m_others[k]] = update_contact(m_ctx, index);
             note_left_load(m_ctx.state.contacts[index]);
         }
     }
@@ -394,7 +394,7 @@ private:
             if ((apart >> i & 1u) == 0)
                 put_off(w.places[i]);
             else
-                m_news[w.places[i]] = News::Nothing;
+                m_changes[w.places[i]] = TouchChange::Nothing;
         }
     }
 
@@ -409,16 +409,16 @@ private:
             if ((found.sure >> i & 1u) == 0)
                 put_off(w.places[i]);
             else
-                m_news[w.places[i]] = (found.touch_on >> i & 1u) != 0 ? News::Nothing : news_of(m_ctx, contact);
+                m_changes[w.places[i]] = (found.touch_on >> i & 1u) != 0 ? TouchChange::Nothing : change_of(m_ctx, contact);
         }
     }
 
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
     std::size_t m_first; ///< of the awake contacts
-    SomeNews& m_some;
+    ContactChanges& m_some;
     FollowedScene m_scene;
-    News m_news[contacts_at_once];
+    TouchChange m_changes[contacts_at_once];
     std::size_t m_others[contacts_at_once];
     std::size_t m_other_count = 0;
     Waiting m_waiting[3]; ///< without a point, with one, with two
@@ -427,12 +427,12 @@ private:
 
 // Of all tasks in their order, each written by some thread.
 template <class Event, class MakeEvent>
-void tell_all(StepContext& ctx, std::span<const SomeNews> parts, std::vector<std::int32_t> SomeNews::* which,
-              std::vector<Event>& events, const MakeEvent& make_event)
+void report_all(StepContext& ctx, std::span<const ContactChanges> parts, std::vector<std::int32_t> ContactChanges::* which,
+                std::vector<Event>& events, const MakeEvent& make_event)
 {
     std::vector<std::int32_t>& contacts = ctx.scratch.order;
     contacts.clear();
-    for (const SomeNews& some : parts)
+    for (const ContactChanges& some : parts)
         append_all(contacts, some.*which);
     const std::size_t first = events.size();
     set_size(events, first + contacts.size());
@@ -445,7 +445,7 @@ void tell_all(StepContext& ctx, std::span<const SomeNews> parts, std::vector<std
 
 void update_contacts(StepContext& ctx)
 {
-    if (follow_rows(ctx))
+    if (refresh_constraints(ctx))
     {
         ctx.report.pairs = static_cast<int>(ctx.state.awake_contacts.size());
         ctx.report.touching = ctx.scratch.cached_graph.touching;
@@ -453,40 +453,41 @@ void update_contacts(StepContext& ctx)
     }
     SceneState& state = ctx.state;
     const std::size_t count = state.awake_contacts.size();
-    ContactLinks links(ctx, contacts_at_once);
-    const std::span<SomeNews> parts = find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.news_of_task,
-                                                    [&](std::size_t first, std::size_t last, SomeNews& some)
-                                                    {
-                                                        ContactUpdate(ctx, first, last, some).run();
-                                                        links.ask(first, last, some.of_others);
-                                                    });
-    std::vector<ContactNews>& news = ctx.scratch.news;
+    ContactEdges links(ctx, contacts_at_once);
+    const std::span<ContactChanges> parts =
+        find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.changes_of_task,
+                      [&](std::size_t first, std::size_t last, ContactChanges& some)
+                      {
+                          ContactUpdate(ctx, first, last, some).run();
+                          links.ask(first, last, some.of_others);
+                      });
+    std::vector<ContactChange>& changes = ctx.scratch.changes;
     std::vector<std::int32_t>& of_others = ctx.scratch.of_others;
-    news.clear();
+    changes.clear();
     of_others.clear();
     ctx.scratch.left_loads.clear();
-    for (const SomeNews& some : parts)
+    for (const ContactChanges& some : parts)
     {
-        append_all(news, some.others);
+        append_all(changes, some.others);
         append_all(of_others, some.of_others);
         append_all(ctx.scratch.left_loads, some.left_loads);
     }
     std::ranges::sort(ctx.scratch.left_loads);
-    tell_all(ctx, parts, &SomeNews::begins, ctx.scene.events.begins, begin_event);
-    tell_all(ctx, parts, &SomeNews::ends, ctx.scene.events.ends,
-             [](const SceneState& s, const Contact& contact) { return event_of<ContactEndEvent>(s, contact, 0.0f); });
+    report_all(ctx, parts, &ContactChanges::begins, ctx.scene.events.begins, begin_event);
+    report_all(ctx, parts, &ContactChanges::ends, ctx.scene.events.ends,
+               [](const SceneState& s, const Contact& contact) { return event_of<ContactEndEvent>(s, contact, 0.0f); });
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
-    for (const ContactNews& n : news)
+    for (const ContactChange& n : changes)
     {
-        if (n.what == News::Begins)
+        if (n.what == TouchChange::Begins)
             begin_touch(ctx, n.contact);
-        else if (n.what == News::MayHit)
+        else if (n.what == TouchChange::MayHit)
             wake_both(ctx, n.contact);
     }
-    for (const ContactNews& n : news)
+    for (const ContactChange& n : changes)
     {
-        if (n.what == News::Ends)
+        if (n.what == TouchChange::Ends)
             end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
     }
     ctx.scratch.motion.resize(state.awake_bodies.size(), 0);               // bodies woken in this stage were at rest

@@ -11,10 +11,10 @@ namespace carom::internal {
 namespace {
 
 // A chain's leaves are crossed one after the other; its pair comes in with the first and goes out with the last.
-class CrossingTeller
+class CrossingReporter
 {
 public:
-    explicit CrossingTeller(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state) {}
+    explicit CrossingReporter(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state) {}
 
     void run()
     {
@@ -31,13 +31,13 @@ public:
             std::size_t end = i + 1;
             while (end < all.size() && all[end].trigger == all[i].trigger && all[end].visitor == all[i].visitor)
                 ++end;
-            tell_pair(std::span(all).subspan(i, end - i));
+            report_pair(std::span(all).subspan(i, end - i));
             i = end;
         }
     }
 
 private:
-    void tell_pair(std::span<const Crossing> crossings)
+    void report_pair(std::span<const Crossing> crossings)
     {
         int depth = leaves_inside(crossings[0]);
         for (const Crossing& c : crossings)
@@ -79,6 +79,6 @@ private:
 
 } // namespace
 
-void tell_crossings(StepContext& ctx) { CrossingTeller(ctx).run(); }
+void report_crossings(StepContext& ctx) { CrossingReporter(ctx).run(); }
 
 } // namespace carom::internal

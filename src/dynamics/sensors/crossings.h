@@ -7,6 +7,6 @@
 namespace carom::internal {
 
 /// What crossed in this step becomes enters and exits of shapes.
-void tell_crossings(StepContext& ctx);
+void report_crossings(StepContext& ctx);
 
 } // namespace carom::internal

@@ -269,7 +269,7 @@ void update_triggers(StepContext& ctx)
         if ((contact.flags & contact_flag::touching) == 0 && !boxes_meet(state, contact.shape_a, contact.shape_b))
             destroy_contact(ctx.scene, index, ctx.scene.events, ctx.dt);
     }
-    tell_crossings(ctx);
+    report_crossings(ctx);
 }
 
 } // namespace carom::internal

@@ -23,12 +23,12 @@ std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k,
     output.law_impacts.clear();
     if (k == 0)
     {
-        for (const UntoldImpact& untold : ctx.scene.untold_impacts)
+        for (const PendingImpact& untold : ctx.scene.pending_impacts)
             if (untold.body == body)
                 output.law_impacts.push_back(untold.event);
     }
     const BodyId id = body_id(ctx.state, body);
-    for (const ImpactEvent& event : std::span(output.impacts).subspan(output.told_impacts))
+    for (const ImpactEvent& event : std::span(output.impacts).subspan(output.reported_impacts))
         if (takes_part(id, event))
             output.law_impacts.push_back(event);
     return output.law_impacts;
@@ -92,12 +92,12 @@ void apply_force_laws(const StepContext& ctx, const Island& island, int k, Islan
         return;
     for (std::int32_t i = island.first_law; i < island.first_law + island.law_count; ++i)
         apply_force_law(ctx, ctx.scratch.laws[static_cast<std::size_t>(i)], k, output);
-    output.told_impacts = output.impacts.size();
+    output.reported_impacts = output.impacts.size();
 }
 
-void note_untold_impacts(StepContext& ctx)
+void note_pending_impacts(StepContext& ctx)
 {
-    ctx.scene.untold_impacts.clear();
+    ctx.scene.pending_impacts.clear();
     if (ctx.scene.law_count == 0)
         return;
     const SceneState& state = ctx.state;
@@ -107,8 +107,8 @@ void note_untold_impacts(StepContext& ctx)
         const int place = state.bodies[body].awake_index;
         const bool of_island =
             place != none && ctx.scratch.island_of[static_cast<std::size_t>(place)] == static_cast<int>(island);
-        if (force_law_of(ctx, body) != nullptr && !(of_island && i < ctx.scratch.outputs[island].told_impacts))
-            ctx.scene.untold_impacts.push_back({body, event});
+        if (force_law_of(ctx, body) != nullptr && !(of_island && i < ctx.scratch.outputs[island].reported_impacts))
+            ctx.scene.pending_impacts.push_back({body, event});
     };
     for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
     {

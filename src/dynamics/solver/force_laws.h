@@ -41,6 +41,6 @@ inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a bound beyond it says
 void apply_force_laws(const StepContext& ctx, const Island& island, int k, IslandOutput& output);
 
 /// Keeps the impacts of this step that no law was told: those of the last sub-step, and those that another island resolved.
-void note_untold_impacts(StepContext& ctx);
+void note_pending_impacts(StepContext& ctx);
 
 } // namespace carom::internal

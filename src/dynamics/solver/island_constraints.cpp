@@ -21,9 +21,9 @@ constexpr int enough_rows = 256; // to share
 
 // Each of `count` places from the first on.
 template <class Visit>
-void for_each_place(Crew& crew, std::int32_t begin, std::int32_t count, const Visit& visit)
+void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, const Visit& visit)
 {
-    crew.share(count, enough_rows,
+    team.share(count, enough_rows,
                [&](int first, int last)
                {
                    for (std::int32_t i = begin + first; i < begin + last; ++i)
@@ -35,9 +35,9 @@ void for_each_place(Crew& crew, std::int32_t begin, std::int32_t count, const Vi
 [[gnu::always_inline]] inline void prefetch_lane(const StepContext& ctx, std::size_t lane)
 {
     const Scratch& scratch = ctx.scratch;
-    if (lane >= scratch.lane_links.size() || scratch.lane_links[lane] == none)
+    if (lane >= scratch.lane_edges.size() || scratch.lane_edges[lane] == none)
         return;
-    const std::int32_t contact = scratch.solved_links[as_index(scratch.lane_links[lane])].contact;
+    const std::int32_t contact = scratch.solved_edges[as_index(scratch.lane_edges[lane])].contact;
     prefetch(ctx.state.contacts[contact]);
     prefetch(ctx.state.impulses[as_index(contact)]);
 }
@@ -52,15 +52,15 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
     notes.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
-        prefetch_lane(ctx, as_index(first_lane + i) + 2 * turns_ahead);
-        const std::int32_t link = scratch.lane_links[as_index(first_lane + i)];
+        prefetch_lane(ctx, as_index(first_lane + i) + 2 * prefetch_distance);
+        const std::int32_t link = scratch.lane_edges[as_index(first_lane + i)];
         if (link == none)
         {
             row.a.v[i] = row.b.v[i] = island.first_state;
             notes.contact.v[i] = none;
             continue;
         }
-        const Link& l = scratch.solved_links[as_index(link)];
+        const ContactEdge& l = scratch.solved_edges[as_index(link)];
         row.a.v[i] = l.a;
         row.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
@@ -74,7 +74,7 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
 
 void fill_row(const StepContext& ctx, const Island& island, std::int32_t i)
 {
-    const Link& l = ctx.scratch.solved_links[as_index(ctx.scratch.row_links[as_index(i)])];
+    const ContactEdge& l = ctx.scratch.solved_edges[as_index(ctx.scratch.row_edges[as_index(i)])];
     const Contact& contact = ctx.state.contacts[l.contact];
     ContactRow& row = ctx.scratch.rows[as_index(i)];
     row = prepare_row(ctx, l.contact, contact.manifold, l.a, l.b);
@@ -84,11 +84,11 @@ void fill_row(const StepContext& ctx, const Island& island, std::int32_t i)
 // The hinge of a lane that is filled later, and still later where it holds.
 [[gnu::always_inline]] inline void prefetch_hinge(const SceneState& state, std::span<const JointLane> later)
 {
-    if (later.size() > 2 * turns_ahead)
-        prefetch(state.joints[later[2 * turns_ahead].place.joint]);
-    if (later.size() <= turns_ahead)
+    if (later.size() > 2 * prefetch_distance)
+        prefetch(state.joints[later[2 * prefetch_distance].place.joint]);
+    if (later.size() <= prefetch_distance)
         return;
-    const JointRecord& joint = state.joints[later[turns_ahead].place.joint];
+    const JointRecord& joint = state.joints[later[prefetch_distance].place.joint];
     for (const std::int32_t body : {joint.body_a, joint.body_b})
     {
         if (body != none)
@@ -153,51 +153,51 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 
 } // namespace
 
-void fill_island(const StepContext& ctx, const Island& island, Crew& crew)
+void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     const StepContext island_ctx = island.slices > 1 ? sliced(ctx, island.slices) : ctx;
-    if (!ctx.scratch.cached_graph.rows_stay)
-        contact_bins(ctx.scratch, island).for_each(crew, [&](int g) { fill_group(island_ctx, island, g); });
-    for_each_place(crew, island.first_row, island.row_count, [&](std::int32_t i) { fill_row(island_ctx, island, i); });
-    for_each_place(crew, island.first_joint, island.joint_count,
+    if (!ctx.scratch.cached_graph.rows_are_unchanged)
+        contact_bins(ctx.scratch, island).for_each(team, [&](int g) { fill_group(island_ctx, island, g); });
+    for_each_place(team, island.first_row, island.row_count, [&](std::int32_t i) { fill_row(island_ctx, island, i); });
+    for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i)
                    {
                        const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
                        ctx.scratch.joints[as_index(i)] = prepare_joint(island_ctx, island, place);
                    });
     joint_bins(ctx.scratch, island)
-        .all(crew,
+        .all(team,
              [&](int first, int last)
              {
-                 if (ctx.scratch.cached_graph.hinges_stay)
+                 if (ctx.scratch.cached_graph.hinges_are_unchanged)
                      follow_joint_groups(island_ctx, island, first, last);
                  else
                      fill_joint_groups(island_ctx, island, first, last);
              });
 }
 
-void commit_island(const StepContext& ctx, const Island& island, Crew& crew)
+void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     Scratch& scratch = ctx.scratch;
     WideRow* const rows = scratch.wide_rows.data() + island.wide_store;
     WideNotes* const notes = scratch.wide_notes.data() + island.wide_store;
     contact_bins(scratch, island)
-        .for_each(crew,
+        .for_each(team,
                   [&](int g)
                   {
                       if (are_rows_far(island))
                       { // beyond the last there is nothing, which does no harm
-                          prefetch(rows[as_index(g) + turns_ahead]);
-                          prefetch(notes[as_index(g) + turns_ahead]);
+                          prefetch(rows[as_index(g) + prefetch_distance]);
+                          prefetch(notes[as_index(g) + prefetch_distance]);
                       }
                       wide_kernels().take_impulses(rows[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
                   });
-    for_each_place(crew, island.first_row, island.row_count,
+    for_each_place(team, island.first_row, island.row_count,
                    [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
-    for_each_place(crew, island.first_joint, island.joint_count,
+    for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
     joint_bins(scratch, island)
-        .for_each(crew,
+        .for_each(team,
                   [&](int g)
                   {
                       wide_kernels().take_joint_impulses(scratch.wide_joints[as_index(island.first_wide_joint + g)],

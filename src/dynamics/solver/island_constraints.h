@@ -3,16 +3,16 @@
 // Rows and joints of one island: from contacts and joint records to what the solver runs over, and back. It is done around the island's solve, so that a
 // small island stays in the cache from its first row to its last impulse.
 
-#include "core/crew.h"
+#include "core/worker_team.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// At the places that island_layout.h gave out; a large one by all of the crew.
-void fill_island(const StepContext& ctx, const Island& island, Crew& crew);
+/// At the places that island_layout.h gave out; a large one by all of the worker team.
+void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team);
 
 /// Impulses and forces, to contacts and joints.
-void commit_island(const StepContext& ctx, const Island& island, Crew& crew);
+void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& team);
 
 /// Of a row that the island got while it was solved.
 void commit_row(SceneState& state, const ContactRow& row);

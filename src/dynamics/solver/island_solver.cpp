@@ -70,9 +70,9 @@ void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
 class IslandSolver
 {
 public:
-    IslandSolver(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, Crew& crew)
+    IslandSolver(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, WorkerTeam& team)
         : m_ctx(island.slices > 1 ? sliced(ctx, island.slices) : ctx), m_scratch(ctx.scratch), m_island(island), m_output(output),
-          m_energy(energy), m_crew(crew),
+          m_energy(energy), m_team(team),
           m_watches_energy(island.precise ||
                            (!island.heap && island.dynamic_count <= IslandEnergy::most_bodies && island.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
@@ -222,7 +222,7 @@ private:
     // What lands on the way is the solver's from there on.
     void fly_alone(int k)
     {
-        advance_fliers(m_ctx, m_island, k, m_output, m_crew);
+        advance_fliers(m_ctx, m_island, k, m_output, m_team);
         if (!is_airborne())
         {
             begin_energy();
@@ -277,8 +277,8 @@ private:
         const auto parts =
             std::span(m_scratch.parts).subspan(as_index(m_island.first_state + 1), as_index(m_island.dynamic_count));
         const Walls walls = this->walls();
-        m_bins.crossing(m_crew, solve);
-        m_bins.in_parts(m_crew,
+        m_bins.crossing(m_team, solve);
+        m_bins.in_parts(m_team,
                         [&](int part)
                         {
                             const auto states = std::ranges::equal_range(parts, static_cast<std::uint16_t>(part));
@@ -288,7 +288,7 @@ private:
                             m_bins.of_part(part, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
                             m_bins.of_part(part, relax);
                         });
-        m_bins.crossing(m_crew, relax);
+        m_bins.crossing(m_team, relax);
     }
 
     // In a huge island: what has flown into some bodies finds them relaxed already, and what has landed has rows only now.
@@ -306,8 +306,8 @@ private:
             take_from_sums(first, last);
             relax_lanes(first, last);
         };
-        m_bins.crossing(m_crew, relax);
-        m_crew.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_bins.of_part(parts[as_index(i)], relax); });
+        m_bins.crossing(m_team, relax);
+        m_team.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_bins.of_part(parts[as_index(i)], relax); });
         solve_rows(m_view, late_rows(), false);
     }
 
@@ -352,7 +352,7 @@ private:
         for (int i = 0; i < passes_of_deep_overlaps; ++i)
         {
             take_from_sums(0, m_island.wide_count);
-            m_bins.by_color(m_crew, [this](int first, int last) { relax_lanes(first, last); });
+            m_bins.by_color(m_team, [this](int first, int last) { relax_lanes(first, last); });
             solve_rows(m_view, m_rows, false);
             solve_rows(m_view, late_rows(), false);
         }
@@ -393,7 +393,7 @@ private:
         if (m_watches_energy)
             m_energy.before_impacts();
         m_output.stopped_joints.clear();
-        advance_fliers(m_ctx, m_island, k, m_output, m_crew);
+        advance_fliers(m_ctx, m_island, k, m_output, m_team);
         if (m_watches_energy)
             m_energy.after_impacts(m_output.stopped_joints);
     }
@@ -466,7 +466,7 @@ private:
     template <class Work>
     void over_ranges(const Work& work)
     {
-        m_crew.share(m_island.state_count, enough_states,
+        m_team.share(m_island.state_count, enough_states,
                      [&](int first, int last) { work(m_island.first_state + first, m_island.first_state + last); });
     }
 
@@ -496,9 +496,9 @@ private:
             warm_start_joints(m_view, m_ctx.state, m_joints, *m_output.direct);
         if (m_starts_by_body)
             return;
-        m_joint_bins.by_color(m_crew, [&](int first, int last)
+        m_joint_bins.by_color(m_team, [&](int first, int last)
                               { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
-        m_bins.by_color(m_crew, [&](int first, int last) { m_kernels.warm_start(lanes(first, last), m_view.states); });
+        m_bins.by_color(m_team, [&](int first, int last) { m_kernels.warm_start(lanes(first, last), m_view.states); });
         warm_start(m_view, m_rows);
         warm_start(m_view, late_rows());
     }
@@ -581,9 +581,9 @@ private:
                 solve_joints(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.joint_hertz, use_bias);
             m_softness.share = m_joint_softness.share = turn + 1 == most ? 1 : 0;
             const auto joint_pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
-            m_joint_bins.by_color(m_crew, [&](int first, int last)
+            m_joint_bins.by_color(m_team, [&](int first, int last)
                                   { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
-            m_bins.by_color(m_crew, [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
+            m_bins.by_color(m_team, [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
             if (alternate && m_output.direct->has_free_figures())
                 m_output.direct->solve_contacts(m_rows, late_rows(), use_bias, tiny_speed());
             else
@@ -844,7 +844,7 @@ private:
     {
         const int before = m_output.bulk_impacts;
         const std::size_t kicks = m_output.kicked_shapes.size();
-        internal::bounce(bouncing(), k, m_crew);
+        internal::bounce(bouncing(), k, m_team);
         if (m_joints.empty())
             return m_output.kicked_shapes.size() != kicks;
         bounce_off_limits(m_view, m_ctx.state, m_joints, *m_output.direct, m_ctx.scene.tolerances.rest_speed);
@@ -927,7 +927,7 @@ private:
     const Island& m_island;
     IslandOutput& m_output;
     IslandEnergy& m_energy; ///< memory that the islands of a task share
-    Crew& m_crew;
+    WorkerTeam& m_team;
     bool m_watches_energy;
     SolverView m_view;
     std::span<ContactRow> m_rows;
@@ -959,9 +959,9 @@ void IslandSolver::record_poses(int k)
 
 } // namespace
 
-void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, Crew& crew)
+void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, WorkerTeam& team)
 {
-    IslandSolver(ctx, island, output, energy, crew).run();
+    IslandSolver(ctx, island, output, energy, team).run();
 }
 
 } // namespace carom::internal

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "core/crew.h"
+#include "core/worker_team.h"
 #include "dynamics/solver/island_energy.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// All sub-steps of an island whose rows are filled. `energy` is memory; `crew` shares a large island's work.
-void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, Crew& crew);
+/// All sub-steps of an island whose rows are filled. `energy` is memory; `worker team` shares a large island's work.
+void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, WorkerTeam& team);
 
 } // namespace carom::internal

@@ -50,14 +50,14 @@ void fall(const StepContext& ctx, const Island& island)
         fall(ctx, s);
 }
 
-void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, Crew& crew)
+void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, WorkerTeam& team)
 {
     const Island& island = ctx.scratch.islands[u];
     if (glide(ctx, island, ctx.scratch.outputs[u]))
         return;
-    fill_island(ctx, island, crew);
-    solve_island(ctx, island, ctx.scratch.outputs[u], energy, crew);
-    commit_island(ctx, island, crew);
+    fill_island(ctx, island, team);
+    solve_island(ctx, island, ctx.scratch.outputs[u], energy, team);
+    commit_island(ctx, island, team);
 }
 
 // Batches of about so many bodies: enough work for a task, and a choice that depends on the islands alone.
@@ -110,13 +110,13 @@ void form_batches(Scratch& scratch)
 }
 
 // All threads on one after the other.
-void solve_large(const StepContext& ctx, Crew& crew)
+void solve_large(const StepContext& ctx, WorkerTeam& team)
 {
     IslandEnergy energy;
     for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
     {
         if (is_large(ctx.scratch.islands[u]))
-            solve(ctx, u, energy, crew);
+            solve(ctx, u, energy, team);
     }
 }
 
@@ -124,7 +124,7 @@ void solve_batch(const StepContext& ctx, int batch)
 {
     const Scratch& scratch = ctx.scratch;
     IslandEnergy energy;
-    Crew alone;
+    WorkerTeam alone;
     const auto b = static_cast<std::size_t>(batch);
     for (auto u = static_cast<std::size_t>(scratch.order[b]); u < static_cast<std::size_t>(scratch.order[b + 1]); ++u)
     {
@@ -155,7 +155,7 @@ void solve_islands(StepContext& ctx)
     const int batches = static_cast<int>(scratch.order.size()) - 1;
     const auto solve_some = [&](int batch) { solve_batch(ctx, batch); };
     if (std::ranges::any_of(scratch.islands, is_large))
-        Crew::run(tasks, [&](Crew& crew) { solve_large(ctx, crew); }, batches, solve_some);
+        WorkerTeam::run(tasks, [&](WorkerTeam& team) { solve_large(ctx, team); }, batches, solve_some);
     else
         run_tasks(tasks, batches, solve_some);
     ctx.state.rows_stamp = ++scratch.cached_graph.stamp;

@@ -69,7 +69,7 @@ void update_inverse_mass(SceneState& state, int body)
     const float inverse = dynamic && sim.mass > 0 ? 1 / sim.mass : 0;
     const Vec2 inverse_mass = {record.locks.linear_x ? 0 : inverse, record.locks.linear_y ? 0 : inverse};
     const float inverse_inertia = dynamic && sim.inertia > 0 && !record.locks.angular ? 1 / sim.inertia : 0;
-    record.gives_way = inverse_mass != Vec2{} || inverse_inertia != 0;
+    record.has_finite_mass = inverse_mass != Vec2{} || inverse_inertia != 0;
     if (sim.inverse_mass == inverse_mass && sim.inverse_inertia == inverse_inertia)
         return;
     sim.inverse_mass = inverse_mass;

@@ -33,7 +33,7 @@ void update_mass(SceneState& state, int body);
 /// The same after one shape was added: a static body with a million shapes does not look at all of them again.
 void include_mass(SceneState& state, int body, int shape);
 
-/// Another center of mass: the velocity of the material stays, and kept manifolds are found anew.
+/// Another center of mass: the velocity of the material stays, and cached manifolds are found anew.
 void move_center(SceneState& state, int body, Vec2 local_center);
 
 /// Takes the speeds that its locks forbid; a kinematic body has no locks.

@@ -204,7 +204,7 @@ Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32
 void make_room_beside_contacts(SceneState& state)
 {
     const auto capacity = static_cast<std::size_t>(state.contacts.capacity());
-    grow<Growth::Third>(state.kept_manifolds, capacity);
+    grow<Growth::Third>(state.cached_manifolds, capacity);
     grow<Growth::Third>(state.impulses, capacity);
     grow<Growth::Third>(state.lane_marks, capacity);
 }

@@ -65,7 +65,7 @@ struct EventKey
 };
 
 /// An impact that a body's force law is to be told in the next step.
-struct UntoldImpact
+struct PendingImpact
 {
     std::int32_t body = none;
     ImpactEvent event{};
@@ -86,7 +86,7 @@ struct SceneData
     Events events{};
     std::array<std::vector<EventKey>, 2> event_keys{}; ///< memory: of impacts, and of the others
     Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step
-    std::vector<UntoldImpact> untold_impacts;
+    std::vector<PendingImpact> pending_impacts;
     StepReport report{};
     Scratch scratch{};
     int callback_count = 0; ///< shapes that have callbacks

@@ -31,7 +31,7 @@ struct BodyRecord
     bool can_sleep = true;
     bool mass_overridden = false;
     std::uint8_t plane_cell = 0;     ///< in which share of the awake bodies, as tidy() last parted them by where they are
-    bool gives_way = false;          ///< dynamic, with an inverse mass or inertia that is not 0
+    bool has_finite_mass = false;    ///< dynamic, with an inverse mass or inertia that is not 0
     bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
     bool had_target = false;         ///< and that it has reached in the last step
     bool ignores = false;            ///< is or was in a pair of SceneState::ignored
@@ -181,14 +181,14 @@ inline constexpr std::uint32_t loaded = 32;      ///< had an impulse at the end 
 inline constexpr std::uint32_t begun = 64;       ///< began to touch while the islands were solved, and this is not yet told
 inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
 inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
-inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::kept_manifolds
+inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::cached_manifolds
 inline constexpr std::uint32_t edge_of_b = 2048; ///< what is kept is seen from b
 inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
 inline constexpr std::uint32_t sleeper = 8192;   ///< one of the bodies sleeps, or both
 inline constexpr std::uint32_t piece = 16384; ///< of a chain or the like: others may touch for the same two shapes of the user's
 inline constexpr std::uint32_t of_union =
     32768; ///< flush neighbours have turned or emptied its manifold: no points are not apart
-inline constexpr std::uint32_t all_kept = kept | edge_of_b | nearest;
+inline constexpr std::uint32_t all_cached = kept | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
     1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
 } // namespace contact_flag
@@ -229,7 +229,7 @@ struct alignas(64) Contact
 static_assert(sizeof(Contact) == 128);
 
 /// An edge of one body, and two corners of the other that it faces, from their centers of mass and in their axes.
-struct KeptEdge
+struct CachedEdge
 {
     Vec2 edge[2];
     Vec2 corners[2];
@@ -237,7 +237,7 @@ struct KeptEdge
 };
 
 /// The corners of a and b that are nearest to each other, likewise; see NearestCorners.
-struct KeptCorners
+struct CachedCorners
 {
     static constexpr float least_distance = 1e-6f; ///< nearer they have no direction from one to the other
 
@@ -247,20 +247,20 @@ struct KeptCorners
 };
 
 /// Of two without a point, the direction from one to the other along which they were apart, in the axes of the one; 0: none is known.
-struct KeptParting
+struct CachedParting
 {
     Vec2 direction{};
     float arm = 0; ///< of the other's corners about its center of mass, at the most
 };
 
 /// What the narrow phase last found of a contact in a crowd, fixed to the two bodies. Features are those of the manifold.
-struct alignas(64) KeptManifold
+struct alignas(64) CachedManifold
 {
     union Found
     {
-        KeptEdge edge;
-        KeptCorners nearest; ///< with contact_flag::nearest
-        KeptParting parting; ///< without a point
+        CachedEdge edge;
+        CachedCorners nearest; ///< with contact_flag::nearest
+        CachedParting parting; ///< without a point
 
         Found() : edge{} {}
     } found;
@@ -374,9 +374,9 @@ struct SceneState
     LeafStore leaf_store;
     Pool<JointRecord> joints;
     Pool<Contact, Growth::Third> contacts;
-    std::vector<ContactImpulses> impulses;    ///< by contact slot
-    std::vector<KeptManifold> kept_manifolds; ///< by contact slot
-    std::vector<LaneMark> lane_marks;         ///< by contact slot
+    std::vector<ContactImpulses> impulses;        ///< by contact slot
+    std::vector<CachedManifold> cached_manifolds; ///< by contact slot
+    std::vector<LaneMark> lane_marks;             ///< by contact slot
     std::vector<BoxPair> box_pairs;
     std::vector<std::uint64_t> parted_pairs; ///< of these, keys of those whose boxes do not meet, sorted
     PairSet ignored;                         ///< body pairs that never touch

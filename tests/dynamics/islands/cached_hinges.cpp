@@ -58,7 +58,7 @@ public:
         for (int i = 0; i < steps_taken; ++i)
         {
             WorldPair::run(1, dt);
-            stayed += hinges_stay() ? 1 : 0;
+            stayed += hinges_are_unchanged() ? 1 : 0;
         }
         return stayed;
     }

@@ -63,7 +63,7 @@ std::size_t fullest_cell(Scene& scene)
 std::vector<std::int32_t> groups_of_parts(Scene& scene)
 {
     const internal::Scratch& scratch = scene.data().scratch;
-    const internal::Island& island = *std::ranges::max_element(scratch.islands, {}, &internal::Island::link_count);
+    const internal::Island& island = *std::ranges::max_element(scratch.islands, {}, &internal::Island::edge_count);
     std::vector<std::int32_t> groups;
     for (int part = 0; part < island.parts; ++part)
     {

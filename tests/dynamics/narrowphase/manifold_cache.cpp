@@ -62,7 +62,7 @@ struct Tally
 void compare(const SceneState& state, int index, Tally& tally)
 {
     const Contact& contact = state.contacts[index];
-    if (!is_kept(contact) || !in_crowd(state, contact))
+    if (!is_cached(contact) || !in_crowd(state, contact))
         return;
     const BodyPose a = pose_before(state, contact.body_a);
     const BodyPose b = pose_before(state, contact.body_b);
@@ -75,15 +75,15 @@ void compare(const SceneState& state, int index, Tally& tally)
     const Manifold m = settled_manifold(state, index);
     const float near = least_separation(m);
     const Manifold found = world_manifold(state, contact, a, b, std::max(near, 0.0f) + 0.03f);
-    ++(keeps_nearest(contact) ? tally.corners : tally.edges);
+    ++(caches_nearest(contact) ? tally.corners : tally.edges);
     ASSERT_GT(found.count, 0) << "a point that is not there, apart by " << near;
     // Of two points, or of one that is deeper than its corner is round, another edge or corner may be a little better, and is not looked for as long as
     // bodies have moved little.
     const float off = std::fabs(least_separation(found) - near);
     const bool is_surely_best =
-        m.count == 1 && (keeps_nearest(contact) || near + state.kept_manifolds[as_index(index)].radius > 0);
+        m.count == 1 && (caches_nearest(contact) || near + state.cached_manifolds[as_index(index)].radius > 0);
     ASSERT_LE(off, is_surely_best ? 1e-4f : 0.02f) << "found at " << least_separation(found) << ", followed at " << near << ", "
-                                                   << m.count << " points, nearest corners: " << keeps_nearest(contact);
+                                                   << m.count << " points, nearest corners: " << caches_nearest(contact);
     tally.off += off > 1e-4f ? 1 : 0;
 }
 
@@ -134,7 +134,7 @@ TEST(DynamicsFollowedManifolds, WithoutAPointAreToldEightAtATime)
                              [&](std::int32_t contact)
                              {
                                  const Contact& c = before.contacts[contact];
-                                 return c.manifold.count == 0 && is_told_with_others(before, c);
+                                 return c.manifold.count == 0 && is_updated_with_others(before, c);
                              });
         for (std::size_t first = 0; first + lane_count <= apart.size(); first += lane_count)
         {
@@ -152,8 +152,8 @@ TEST(DynamicsFollowedManifolds, WithoutAPointAreToldEightAtATime)
                 const auto slot = static_cast<std::size_t>(eight.v[k]);
                 follow_manifold(ctx, eight.v[k]);
                 ASSERT_EQ(data.state.contacts[eight.v[k]].manifold.count, 0);
-                ASSERT_EQ(data.state.kept_manifolds[slot].reach, before.kept_manifolds[slot].reach) << "found anew";
-                ASSERT_EQ(data.state.kept_manifolds[slot].center, before.kept_manifolds[slot].center) << "found anew";
+                ASSERT_EQ(data.state.cached_manifolds[slot].reach, before.cached_manifolds[slot].reach) << "found anew";
+                ASSERT_EQ(data.state.cached_manifolds[slot].center, before.cached_manifolds[slot].center) << "found anew";
             }
         }
         data.state = before;

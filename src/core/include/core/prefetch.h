@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-inline constexpr std::size_t turns_ahead = 8; ///< of loops over bodies: some hundred ns, what memory takes
+inline constexpr std::size_t prefetch_distance = 8; ///< of loops over bodies: some hundred ns, what memory takes
 
 /// Asks for a record, all of its cache lines where they begin with it. Inlined in any case: g++ leaves out calls of functions that do nothing else.
 template <class Record>

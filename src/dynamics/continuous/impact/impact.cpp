@@ -30,7 +30,7 @@ constexpr double soon_turned = 0.5;           // rad
 
 ImpactSet::ImpactSet(const FlightSpan& span, Flier& first)
     : m_span(span), m_state(span.state), m_first(first),
-      m_renews(first.held_count > 0 && first.event_shape == none && first.event_time == first.hold_until),
+      m_renewed(first.held_count > 0 && first.event_shape == none && first.event_time == first.hold_until),
       m_time(first.event_time), m_origin(span.sim_of(first.body).center)
 {}
 
@@ -49,8 +49,8 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
     for (std::size_t i = 0; i < m_members.size(); ++i)
         write_back(i, changed);
     for (std::size_t i = 0; i < m_rows.size(); ++i)
-        tell_touch(i);
-    tell_blows();
+        report_touch(i);
+    report_blows();
     hold_what_presses(changed);
     if (is_jammed)
         stop_until_next();
@@ -99,9 +99,9 @@ Bounce ImpactSet::law(int index, double u)
     }
     // What is held elsewhere may press here.
     const double pressing = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_held, row), 0.0});
-    const double rest =
-        std::max({hop_speed(s, pressing), last_bounces(row, pressing, bounce.restitution), both_give_way(row) ? blow_of(s) : 0}) +
-        m_span.least_approach;
+    const double rest = std::max({hop_speed(s, pressing), last_bounces(row, pressing, bounce.restitution),
+                                  both_have_finite_mass(row) ? blow_of(s) : 0}) +
+                        m_span.least_approach;
     if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
     {
         s.rests = true;
@@ -129,7 +129,7 @@ double ImpactSet::last_bounces(const ImpactRow& row, double pressing, double res
 // They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.
 bool ImpactSet::is_small_blow(const ImpactRow& row, const Source& s, double u) const
 {
-    return both_give_way(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s);
+    return both_have_finite_mass(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s);
 }
 
 double ImpactSet::size_of(const Source& s) const
@@ -219,7 +219,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     if (!struck)
         return;
     note_deflected(m_span.scratch, m_span.output, m_span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
-    if (m_renews)
+    if (m_renewed)
         return;
     f.crowded |= !m_span.island.precise || f.impacts >= crowd_limit;
     ++f.impacts;

@@ -35,7 +35,7 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
     {
         if (m_rows[i].kind == ImpactRow::Kind::Hold || !has_stopped(i))
             continue;
-        if (both_give_way(m_rows[i]))
+        if (both_have_finite_mass(m_rows[i]))
             rest_on_each_other(m_rows[i], m_sources[i]);
         else
             pressing.push_back({static_cast<int>(i), gap_acceleration(i), slip_acceleration(i)});
@@ -68,7 +68,7 @@ bool ImpactSet::has_stopped(std::size_t i)
     return part > 0 && rate < -part * m_span.h * gap_acceleration(i);
 }
 
-bool ImpactSet::both_give_way(const ImpactRow& row) const
+bool ImpactSet::both_have_finite_mass(const ImpactRow& row) const
 {
     const auto gives = [&](int member)
     {

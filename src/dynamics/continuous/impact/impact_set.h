@@ -91,19 +91,19 @@ private:
         double x = 0; ///< where it acts
         double y = 0;
     };
-    void tell_touch(std::size_t i);
-    void tell_blows();
+    void report_touch(std::size_t i);
+    void report_blows();
     [[nodiscard]] Strike strike_of(const Blow& blow) const;
     [[nodiscard]] bool are_one(const Blow& first, const Blow& second) const;
     void sum_impulse(const ImpactRow& r);
-    [[nodiscard]] bool is_worth_telling(const Blow& blow) const;
+    [[nodiscard]] bool is_worth_reporting(const Blow& blow) const;
     [[nodiscard]] bool own_is_a(const Source& s) const;
     [[nodiscard]] ImpactEvent event_of(const Strike& strike) const;
 
     // What goes on pressing: impact_hold.cpp
     void hold_what_presses(std::vector<std::int32_t>& changed);
     [[nodiscard]] bool has_stopped(std::size_t i);
-    [[nodiscard]] bool both_give_way(const ImpactRow& row) const;
+    [[nodiscard]] bool both_have_finite_mass(const ImpactRow& row) const;
     void rest_on_each_other(const ImpactRow& row, const Source& s);
     void accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const;
     [[nodiscard]] double slip_acceleration(std::size_t i) const;
@@ -115,7 +115,7 @@ private:
     const FlightSpan& m_span;
     SceneState& m_state;
     Flier& m_first;
-    bool m_renews; ///< a hold, and nothing strikes
+    bool m_renewed; ///< a hold, and nothing strikes
     double m_time;
     Position m_origin;
     std::vector<Hold> m_released{};

@@ -43,7 +43,7 @@ double energy_lost(const Blow& blow, const ImpactRow& row)
 
 } // namespace
 
-void ImpactSet::tell_blows()
+void ImpactSet::report_blows()
 {
     for (std::size_t i = 0; i < m_blows.size(); ++i)
     {
@@ -65,7 +65,7 @@ void ImpactSet::tell_blows()
             strike.blow.normal = normal;
             strike.blow.tangent += second.blow.tangent;
         }
-        if (!is_worth_telling(strike.blow))
+        if (!is_worth_reporting(strike.blow))
             continue;
         if (const ImpactEvent event = event_of(strike); is_finite(event.energy_lost) && is_finite(event.impulse))
             append(m_span.output.impacts, event);
@@ -90,7 +90,7 @@ bool ImpactSet::are_one(const Blow& first, const Blow& second) const
            p.nx * q.nx + p.ny * q.ny > parallel && first.restitution == second.restitution && first.kick == second.kick;
 }
 
-void ImpactSet::tell_touch(std::size_t i)
+void ImpactSet::report_touch(std::size_t i)
 {
     const ImpactRow& row = m_rows[i];
     const Source& s = m_sources[i];
@@ -132,14 +132,14 @@ void ImpactSet::sum_impulse(const ImpactRow& r)
 
 // Slower than what presses the body on gives in a sub-step is settling, and so are the blows that pressing is taken in; shallower than half a degree
 // along a chain is rolling.
-bool ImpactSet::is_worth_telling(const Blow& blow) const
+bool ImpactSet::is_worth_reporting(const Blow& blow) const
 {
     const ImpactRow& row = m_rows[static_cast<std::size_t>(blow.row)];
     const Source& s = m_sources[static_cast<std::size_t>(blow.row)];
     const bool along_chain = m_state.shapes[s.other].owner != s.other;
     const double shallow = along_chain ? 0.01 * std::fabs(s.slide) : 0;
     const double settling = s.rests ? 2 * hop_speed(s, std::max(-s.touch.acceleration, 0.0)) : 0;
-    const double pressed = both_give_way(row) ? 2 * blow_of(s) : 0;
+    const double pressed = both_have_finite_mass(row) ? 2 * blow_of(s) : 0;
     return blow.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed), settling, pressed, shallow});
 }
 

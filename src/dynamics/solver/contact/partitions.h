@@ -4,7 +4,7 @@
 // gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another has bins behind all parts' and
 // is solved before them, colour by colour.
 
-#include "core/crew.h"
+#include "core/worker_team.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
@@ -19,18 +19,18 @@ public:
 
     /// Calls pass(first, last) for groups of one bin, of which no two share a body that gives way. What threads do side by side shares none either.
     template <class Pass>
-    void by_color(Crew& crew, const Pass& pass)
+    void by_color(WorkerTeam& team, const Pass& pass)
     {
-        crossing(crew, pass);
-        in_parts(crew, [&](int part) { of_part(part, pass); });
+        crossing(team, pass);
+        in_parts(team, [&](int part) { of_part(part, pass); });
     }
 
     /// Of what crosses from one part to another.
     template <class Pass>
-    void crossing(Crew& crew, const Pass& pass) const
+    void crossing(WorkerTeam& team, const Pass& pass) const
     {
         for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; ++bin)
-            share_bin(crew, bin, pass);
+            share_bin(team, bin, pass);
     }
 
     /// Of one part.
@@ -46,15 +46,15 @@ public:
 
     /// Calls work(part) for all of them, side by side. To and fro: a walk begins with the parts that the last one has left in the cache.
     template <class Work>
-    void in_parts(Crew& crew, const Work& work)
+    void in_parts(WorkerTeam& team, const Work& work)
     {
         m_backwards = !m_backwards;
-        crew.in_pieces(m_parts, m_backwards, work);
+        team.in_pieces(m_parts, m_backwards, work);
     }
 
     /// Calls pass(first, last) for groups in any order, mostly by the member that solves them.
     template <class Pass>
-    void all(Crew& crew, const Pass& pass) const
+    void all(WorkerTeam& team, const Pass& pass) const
     {
         const auto those = [&](int first, int last)
         {
@@ -65,13 +65,13 @@ public:
         const int end = crossing + m_bins;
         if (m_parts == 0 || start(end) < enough_groups)
         {
-            crew.share(start(end), enough_groups, those);
+            team.share(start(end), enough_groups, those);
             return;
         }
         constexpr int quarters = 4; // of a part: nobody waits long for the last
         const auto slice = [&](int first, int last, int i, int slices)
-        { those(first + Crew::bound(last - first, i, slices), first + Crew::bound(last - first, i + 1, slices)); };
-        crew.in_pieces(quarters * m_parts, false,
+        { those(first + WorkerTeam::bound(last - first, i, slices), first + WorkerTeam::bound(last - first, i + 1, slices)); };
+        team.in_pieces(quarters * m_parts, false,
                        [&](int piece)
                        {
                            const int part = piece / quarters;
@@ -82,17 +82,17 @@ public:
 
     /// Calls work(first, last, part) for the groups of each part, side by side. Returns where what crosses begins.
     template <class Work>
-    int by_part(Crew& crew, const Work& work) const
+    int by_part(WorkerTeam& team, const Work& work) const
     {
-        crew.in_pieces(m_parts, false, [&](int part) { work(start(part * m_bins), start((part + 1) * m_bins), part); });
+        team.in_pieces(m_parts, false, [&](int part) { work(start(part * m_bins), start((part + 1) * m_bins), part); });
         return start(m_parts * m_bins);
     }
 
     /// Calls visit(group), mostly by the member that solves it.
     template <class Visit>
-    void for_each(Crew& crew, const Visit& visit) const
+    void for_each(WorkerTeam& team, const Visit& visit) const
     {
-        all(crew,
+        all(team,
             [&](int first, int last)
             {
                 for (int group = first; group < last; ++group)
@@ -105,9 +105,9 @@ private:
 
     // All members take some of one bin's groups.
     template <class Pass>
-    void share_bin(Crew& crew, int bin, const Pass& pass) const
+    void share_bin(WorkerTeam& team, int bin, const Pass& pass) const
     {
-        crew.share(start(bin + 1) - start(bin), enough_groups,
+        team.share(start(bin + 1) - start(bin), enough_groups,
                    [&](int first, int last)
                    {
                        if (first < last)

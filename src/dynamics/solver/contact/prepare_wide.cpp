@@ -59,7 +59,7 @@ void clear_sums(WideRow& row, WideNotes& notes)
         approach = {};
 }
 
-void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideNotes& notes, int i)
+void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row, WideNotes& notes, int i)
 {
     for (std::uint32_t* lanes :
          {&notes.loaded, &notes.may_hit, &notes.untold, &notes.edge_of_b, &notes.nearest, &notes.kept, &notes.followed})
@@ -81,9 +81,9 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideN
     row.inverse_inertia_a.v[i] = a.inverse_inertia;
     row.inverse_inertia_b.v[i] = b.inverse_inertia;
     notes.count = m.count;
-    if (keeps_edge_of_b(contact))
+    if (caches_edge_of_b(contact))
         notes.edge_of_b |= 1u << i;
-    if (keeps_nearest(contact))
+    if (caches_nearest(contact))
         notes.nearest |= 1u << i;
     for (int k = 0; k < m.count; ++k)
     {
@@ -100,7 +100,7 @@ void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideN
     ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
     if ((contact.flags & contact_flag::touching) == 0)
         notes.untold |= 1u << i;
-    if (is_kept(contact))
+    if (is_cached(contact))
         notes.kept |= 1u << i;
 }
 

@@ -11,7 +11,7 @@ void clear_sums(WideRow& row, WideNotes& notes);
 
 /// Writes the contact of a link between states into a lane that it has stood in before, as WideKernels::fill does with eight; sums are cleared already.
 /// WideKernels::prepare does the rest.
-void refill_lane(const StepContext& ctx, const Link& states, WideRow& row, WideNotes& notes, int lane);
+void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row, WideNotes& notes, int lane);
 
 /// As bits.
 [[nodiscard]] std::uint32_t filled_lanes(const WideNotes& notes);

@@ -40,11 +40,11 @@ public:
             note_approach(m_view, impact_row(i));
     }
 
-    void bounce(int k, Crew& crew)
+    void bounce(int k, WorkerTeam& team)
     {
         for (int i = 0; i < m_island.impact_row_count; ++i)
             bounce_row(impact_row(i), k);
-        bounce_lanes(k, crew);
+        bounce_lanes(k, team);
     }
 
 private:
@@ -55,7 +55,7 @@ private:
     }
 
     // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
-    void bounce_lanes(int k, Crew& crew)
+    void bounce_lanes(int k, WorkerTeam& team)
     {
         find_struck_lanes();
         if (m_output.struck_lanes.size() < enough_lanes)
@@ -63,12 +63,12 @@ private:
             bounce_groups(0, m_island.wide_count, k, m_output);
             return;
         }
-        std::vector<Told>& in_parts = m_output.told_in_parts;
+        std::vector<ImpactReport>& in_parts = m_output.reports_of_parts;
         in_parts.resize(std::max(in_parts.size(), as_index(m_island.parts)));
         const int crossing =
             contact_bins(m_scratch, m_island)
-                .by_part(crew, [&](int first, int last, int part) { bounce_groups(first, last, k, in_parts[as_index(part)]); });
-        for (Told& told : std::span(in_parts).first(as_index(m_island.parts)))
+                .by_part(team, [&](int first, int last, int part) { bounce_groups(first, last, k, in_parts[as_index(part)]); });
+        for (ImpactReport& told : std::span(in_parts).first(as_index(m_island.parts)))
             take(told);
         bounce_groups(crossing, m_island.wide_count, k, m_output);
     }
@@ -85,7 +85,7 @@ private:
                          });
     }
 
-    void take(Told& told)
+    void take(ImpactReport& told)
     {
         append_all(m_output.impacts, told.impacts);
         append_all(m_output.begins, told.begins);
@@ -96,7 +96,7 @@ private:
         told.kicked_shapes.clear();
     }
 
-    void bounce_groups(int first, int last, int k, Told& told)
+    void bounce_groups(int first, int last, int k, ImpactReport& told)
     {
         const std::span<const std::int32_t> lanes = m_output.struck_lanes;
         for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(lanes, first * lane_count) - lanes.begin());
@@ -114,20 +114,20 @@ private:
         const SceneState& state = m_ctx.state;
         const auto contact_of = [&](std::size_t lane)
         { return m_notes[lanes[lane] / lane_count].contact.v[lanes[lane] % lane_count]; };
-        if (i + 2 * turns_ahead < lanes.size())
-            prefetch_line(&m_notes[lanes[i + 2 * turns_ahead] / lane_count]);
-        if (i + turns_ahead < lanes.size())
-            prefetch(state.contacts[contact_of(i + turns_ahead)]);
-        if (i + turns_ahead / 2 >= lanes.size())
+        if (i + 2 * prefetch_distance < lanes.size())
+            prefetch_line(&m_notes[lanes[i + 2 * prefetch_distance] / lane_count]);
+        if (i + prefetch_distance < lanes.size())
+            prefetch(state.contacts[contact_of(i + prefetch_distance)]);
+        if (i + prefetch_distance / 2 >= lanes.size())
             return;
-        const Contact& contact = state.contacts[contact_of(i + turns_ahead / 2)];
+        const Contact& contact = state.contacts[contact_of(i + prefetch_distance / 2)];
         for (const std::int32_t shape : {contact.shape_a, contact.shape_b})
             prefetch(state.shapes[shape]);
         prefetch_line(&state.sims[static_cast<std::size_t>(contact.body_a)]);
     }
 
     // It bears a load: told once, bounced once.
-    void bounce_lane(std::int32_t lane, int k, Told& told)
+    void bounce_lane(std::int32_t lane, int k, ImpactReport& told)
     {
         const WideRow& wide = m_wide[lane / lane_count];
         WideNotes& notes = m_notes[lane / lane_count];
@@ -176,7 +176,7 @@ private:
 
     void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
     {
-        if (!gives_way(state))
+        if (!has_finite_mass(state))
             return;
         const StateConstants& c = m_view.constants[state];
         BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
@@ -216,7 +216,7 @@ private:
         return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), row.n);
     }
 
-    void resolve_impact(ContactRow& row, float approach, int k, Told& told)
+    void resolve_impact(ContactRow& row, float approach, int k, ImpactReport& told)
     {
         row.hit = 1;
         const Contact& contact = m_ctx.state.contacts[row.contact];
@@ -262,12 +262,12 @@ private:
 
     void push(std::int32_t state, Vec2 arm, Vec2 impulse)
     {
-        if (gives_way(state))
+        if (has_finite_mass(state))
             apply_impulse(m_view.states[state], m_view.constants[state], arm, impulse);
     }
 
     // What does not is in all parts of the plane: what all threads read, none writes.
-    [[nodiscard]] bool gives_way(std::int32_t state) const
+    [[nodiscard]] bool has_finite_mass(std::int32_t state) const
     {
         const StateConstants& c = m_view.constants[state];
         return c.inverse_mass != Vec2{} || c.inverse_inertia != 0;
@@ -373,7 +373,7 @@ private:
         return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[row.a].delta_position + arm;
     }
 
-    void begin_touch(const ContactRow& row, int k, Told& told) const
+    void begin_touch(const ContactRow& row, int k, ImpactReport& told) const
     {
         Contact& contact = m_ctx.state.contacts[row.contact];
         contact.flags |= contact_flag::touching | contact_flag::begun;
@@ -396,6 +396,6 @@ private:
 
 void note_approaches(const BouncingIsland& island) { Bounces(island).note_approaches(); }
 
-void bounce(const BouncingIsland& island, int k, Crew& crew) { Bounces(island).bounce(k, crew); }
+void bounce(const BouncingIsland& island, int k, WorkerTeam& team) { Bounces(island).bounce(k, team); }
 
 } // namespace carom::internal

@@ -2,7 +2,7 @@
 
 // What an island's rows have stopped in a sub-step bounces, and is told.
 
-#include "core/crew.h"
+#include "core/worker_team.h"
 #include "dynamics/solver/contact/contact_solver.h"
 #include "dynamics/step_context.h"
 
@@ -21,6 +21,6 @@ struct BouncingIsland
 void note_approaches(const BouncingIsland& island);
 
 /// At the end of sub-step k.
-void bounce(const BouncingIsland& island, int k, Crew& crew);
+void bounce(const BouncingIsland& island, int k, WorkerTeam& team);
 
 } // namespace carom::internal

@@ -75,7 +75,7 @@ CAROM_INLINE void write(LaneFloats& a, F x)
 // which does no harm.
 CAROM_INLINE void fetch(const WideRow* rows, const WideNotes* notes)
 {
-    for (const std::size_t later : {turns_ahead, turns_ahead + 1})
+    for (const std::size_t later : {prefetch_distance, prefetch_distance + 1})
     {
         prefetch(rows[later]);
         prefetch_line(&notes[later].count); // and masks

@@ -25,7 +25,7 @@ CAROM_INLINE LaneInts with_all_lanes(LaneInts contacts)
 // Of eight contacts, what is kept of them, and their bodies.
 struct Places
 {
-    const KeptManifold* kept[lane_count];
+    const CachedManifold* kept[lane_count];
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
 
@@ -135,11 +135,11 @@ struct Kept
 
     CAROM_INLINE explicit Kept(const Places& places)
     {
-        static_assert(offsetof(KeptManifold, found) == 0 &&
-                      offsetof(KeptManifold, center) == 40 && offsetof(KeptManifold, rotation) == 48 &&
-                      offsetof(KeptManifold, reach) == 56 && offsetof(KeptManifold, radius) == 60);
-        static_assert(offsetof(KeptEdge, corners) == 16 && offsetof(KeptEdge, normal) == 32 && offsetof(KeptCorners, cones) == 16 &&
-                      offsetof(KeptCorners, radii) == 32);
+        static_assert(offsetof(CachedManifold, found) == 0 &&
+                      offsetof(CachedManifold, center) == 40 && offsetof(CachedManifold, rotation) == 48 &&
+                      offsetof(CachedManifold, reach) == 56 && offsetof(CachedManifold, radius) == 60);
+        static_assert(offsetof(CachedEdge, corners) == 16 && offsetof(CachedEdge, normal) == 32 && offsetof(CachedCorners, cones) == 16 &&
+                      offsetof(CachedCorners, radii) == 32);
         const auto at = [&](int offset)
         { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
         gather4(at(0), first[0].x, first[0].y, first[1].x, first[1].y);
@@ -276,7 +276,7 @@ CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found
     const Arrow n = {gap.x / distance, gap.y / distance};
     const F8 separation = distance - (kept.last.x + kept.last.y);
     const Arrow back = {-n.x, -n.y};
-    const I8 leads_out = (distance > all(KeptCorners::least_distance)) &
+    const I8 leads_out = (distance > all(CachedCorners::least_distance)) &
                          (dot(n, turned(s.a, kept.second[0])) >= dot(kept.second[0], kept.second[0])) &
                          (dot(back, turned(s.b, kept.second[1])) >= dot(kept.second[1], kept.second[1]));
     Point& p = found.points[0];
@@ -351,7 +351,7 @@ CAROM_INLINE void tell(I8 loaded, const WideNotes& notes, const Found& now, I8 f
 }
 
 template <int points>
-void follow_row(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
+void refresh_constraint(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
 {
     const Places places(notes, scene);
     const I8 filled = load(notes.contact) >= I8{};
@@ -367,7 +367,7 @@ void follow_row(WideRow& row, const WideNotes& notes, const FollowedScene& scene
 
 void follow(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
 {
-    const auto follow_points_of = notes.count == 2 ? follow_row<2> : follow_row<1>;
+    const auto follow_points_of = notes.count == 2 ? refresh_constraint<2> : refresh_constraint<1>;
     follow_points_of(row, notes, scene, found);
 }
 
@@ -420,7 +420,7 @@ void follow_contacts(const LaneInts& contacts, int points, Contact* into, const 
 // Along the direction that parted them, or the whole way that they have come: as room() in manifold_cache.cpp, which decides where it is close.
 std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
 {
-    static_assert(offsetof(KeptParting, direction) == 0 && offsetof(KeptParting, arm) == 8);
+    static_assert(offsetof(CachedParting, direction) == 0 && offsetof(CachedParting, arm) == 8);
     constexpr float rounding = 1e-5f;
     const Places places(contacts, scene);
     const auto kept_at = [&](int offset)

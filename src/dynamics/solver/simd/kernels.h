@@ -16,7 +16,7 @@ struct BoxPair;
 struct BoxPlace;
 struct Contact;
 struct ContactImpulses;
-struct KeptManifold;
+struct CachedManifold;
 struct MovingBlocks;
 struct StateConstants;
 
@@ -25,11 +25,11 @@ struct FollowedScene
 {
     const BodySim* sims;
     const Contact* contacts;
-    const KeptManifold* kept; ///< by contact
-    const BoxPlace* boxes;    ///< by shape
-    float sure_way;           ///< bodies that have moved less against each other are surely followed
-    float surely;             ///< of a bound on the way: how far it is surely kept
-    float sure_cosine;        ///< and have turned by an angle of at least this cosine
+    const CachedManifold* kept; ///< by contact
+    const BoxPlace* boxes;      ///< by shape
+    float sure_way;             ///< bodies that have moved less against each other are surely followed
+    float surely;               ///< of a bound on the way: how far it is surely kept
+    float sure_cosine;          ///< and have turned by an angle of at least this cosine
     float slop;
     float speculation;
 };
@@ -129,7 +129,7 @@ struct WideKernels
     std::int32_t (*move)(BodyState* states, const StateConstants* constants, std::int32_t count, float h);
     /// Paths of bodies that move freely, into their places, and their boxes: as sweep_body in sweep.cpp. False where it must decide, one by one.
     bool (*sweep)(SweptEight& eight, const SweepStep& step);
-    /// Of eight pairs what decides about their contacts, as fate_of in pair_update.cpp has it for one.
+    /// Of eight pairs what decides about their contacts, as update_of in pair_update.cpp has it for one.
     void (*look_at_pairs)(const BoxPair* pairs, const BoxPlace* places, float box_margin, SeenPairs& seen);
     /// Where boxes of block k have changed and overlap others that they did not before, each two once.
     void (*new_overlaps)(const MovingBlocks& blocks, std::int32_t k, const OverlapSink& sink);

@@ -1,4 +1,4 @@
-// Which pairs of boxes may meet, eight at a time; fate_of in pair_update.cpp has the same for one. And which boxes have come to overlap, one against
+// Which pairs of boxes may meet, eight at a time; update_of in pair_update.cpp has the same for one. And which boxes have come to overlap, one against
 // eight neighbours. Part of kernels.inl.
 
 namespace pairs {

@@ -408,7 +408,7 @@ void DirectSolve::give_blow(Stage stage)
     note_speeds();
     find_impulses(stage);
     take_velocities();
-    tell_as_blow();
+    report_as_blow();
 }
 
 // --- errors and speeds --------------------------------------------------------------------------------------------------------------
@@ -772,7 +772,7 @@ void DirectSolve::go_on_from_here()
     }
 }
 
-void DirectSolve::tell_as_blow()
+void DirectSolve::report_as_blow()
 {
     for (const Item& item : m_items)
     {

@@ -251,7 +251,7 @@ private:
     void take_impulses();
     void take_back();
     void go_on_from_here();
-    void tell_as_blow();
+    void report_as_blow();
 
     SolverView m_view{};
     SceneState* m_state = nullptr;

@@ -1,8 +1,8 @@
-#include "core/crew.h"
+#include "core/worker_team.h"
 
 namespace carom::internal {
 
-void Crew::in_parts(const void* work, Call call, int parts)
+void WorkerTeam::in_parts(const void* work, Call call, int parts)
 {
     if (parts == 1)
     {
@@ -29,13 +29,13 @@ void Crew::in_parts(const void* work, Call call, int parts)
 }
 
 // A round does not end before the member that has taken a part is done with it.
-bool Crew::take(int p)
+bool WorkerTeam::take(int p)
 {
     Part& part = m_parts[p];
     std::uint32_t round = part.offered.load(std::memory_order_relaxed);
     if (round == 0 || !part.offered.compare_exchange_strong(round, 0, std::memory_order_acquire))
         return false;
-    part.work(part.context, p, m_members);
+    part.work(part.context, p, m_workers);
     part.done.store(round, std::memory_order_release);
     return true;
 }

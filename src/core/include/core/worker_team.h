@@ -13,10 +13,10 @@
 
 namespace carom::internal {
 
-class Crew
+class WorkerTeam
 {
 public:
-    /// Runs lead(crew) once, with the others of the hooks' workers at hand.
+    /// Runs lead(worker team) once, with the others of the hooks' workers at hand.
     template <class Lead>
     static void run(const TaskHooks& hooks, const Lead& lead)
     {
@@ -24,46 +24,46 @@ public:
     }
 
     /// The same, and aside(i) for each of 0 ... count: by members that the leader has had nothing for in a while, and by all when it is done.
-    template <class Lead, class Aside>
-    static void run(const TaskHooks& hooks, const Lead& lead, int count, const Aside& aside)
+    template <class Lead, class BackgroundTask>
+    static void run(const TaskHooks& hooks, const Lead& lead, int count, const BackgroundTask& background)
     {
-        Crew crew;
+        WorkerTeam team;
         std::atomic<int> next{0};
-        const auto take_aside = [&]
+        const auto take_background_task = [&]
         {
             const int i = next.load(std::memory_order_relaxed) < count ? next.fetch_add(1, std::memory_order_relaxed) : count;
             if (i < count)
-                aside(i);
+                background(i);
             return i < count;
         };
-        crew.m_members = hooks.run == nullptr ? 1 : std::min(hooks.worker_count, most_members);
+        team.m_workers = hooks.run == nullptr ? 1 : std::min(hooks.worker_count, most_workers);
         run_tasks(hooks, hooks.worker_count,
                   [&](int)
                   {
-                      const int member = crew.m_arrived++;
-                      if (member == 0)
+                      const int worker = team.m_arrived++;
+                      if (worker == 0)
                       {
-                          lead(crew);
-                          crew.m_over.store(true, std::memory_order_release);
+                          lead(team);
+                          team.m_over.store(true, std::memory_order_release);
                       }
-                      else if (member < crew.m_members)
+                      else if (worker < team.m_workers)
                       {
-                          crew.serve(member, take_aside);
+                          team.serve(worker, take_background_task);
                       }
-                      while (take_aside())
+                      while (take_background_task())
                       {
                       }
                   });
     }
 
-    [[nodiscard]] int members() const { return m_members; }
-    [[nodiscard]] bool has_helpers() const { return m_members > 1; }
+    [[nodiscard]] int workers() const { return m_workers; }
+    [[nodiscard]] bool has_helpers() const { return m_workers > 1; }
 
     /// Calls work(part, parts) for each part. For the leader.
     template <class Work>
     void in_parts(const Work& work)
     {
-        in_parts(&work, call_of<Work>, m_members);
+        in_parts(&work, call_of<Work>, m_workers);
     }
 
     /// Calls work(piece) for each of 0 ... pieces. A member begins with its own slice of them, from either end, and then takes what others have
@@ -73,17 +73,17 @@ public:
     {
         if (pieces == 0)
             return;
-        std::atomic<int> next[most_members];
-        for (int m = 0; m < m_members; ++m)
-            next[m].store(bound(pieces, m, m_members), std::memory_order_relaxed);
+        std::atomic<int> next[most_workers];
+        for (int m = 0; m < m_workers; ++m)
+            next[m].store(bound(pieces, m, m_workers), std::memory_order_relaxed);
         in_parts(
-            [&](int member, int members)
+            [&](int worker, int workers)
             {
-                for (int i = 0; i < members; ++i)
+                for (int i = 0; i < workers; ++i)
                 {
-                    const int owner = (member + i) % members;
-                    const int first = bound(pieces, owner, members);
-                    const int last = bound(pieces, owner + 1, members);
+                    const int owner = (worker + i) % workers;
+                    const int first = bound(pieces, owner, workers);
+                    const int last = bound(pieces, owner + 1, workers);
                     for (int piece; (piece = next[owner].fetch_add(1, std::memory_order_relaxed)) < last;)
                         work(backwards ? first + last - 1 - piece : piece);
                 }
@@ -97,7 +97,7 @@ public:
         if (count == 0)
             return;
         const auto slice = [&](int part, int parts) { work(bound(count, part, parts), bound(count, part + 1, parts)); };
-        in_parts(&slice, call_of<decltype(slice)>, count < enough ? 1 : m_members);
+        in_parts(&slice, call_of<decltype(slice)>, count < enough ? 1 : m_workers);
     }
 
     /// Where the slice of a part begins.
@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    static constexpr int most_members = 16;
+    static constexpr int most_workers = 16;
     static constexpr int looks_at_own = 64;   // before a member looks for parts of others
     static constexpr int looks_at_all = 1024; // before it takes what is to be done aside: some microseconds
 
@@ -131,15 +131,15 @@ private:
     void in_parts(const void* work, Call call, int parts);
     bool take(int p);
 
-    template <class TakeAside>
-    void serve(int member, const TakeAside& take_aside)
+    template <class TakeTask>
+    void serve(int worker, const TakeTask& take_background_task)
     {
         for (int look = 1; !m_over.load(std::memory_order_acquire); ++look)
         {
-            bool took = take(member);
-            for (int p = 1; !took && look % looks_at_own == 0 && p < m_members; ++p)
+            bool took = take(worker);
+            for (int p = 1; !took && look % looks_at_own == 0 && p < m_workers; ++p)
                 took = take(p);
-            if (took || (look % looks_at_all == 0 && take_aside()))
+            if (took || (look % looks_at_all == 0 && take_background_task()))
                 look = 0;
         }
     }
@@ -147,8 +147,8 @@ private:
     std::atomic<int> m_arrived{0};
     alignas(64) std::atomic<bool> m_over{false};
     alignas(64) std::uint32_t m_round = 0; ///< the leader's
-    int m_members = 1;
-    Part m_parts[most_members];
+    int m_workers = 1;
+    Part m_parts[most_workers];
 };
 
 } // namespace carom::internal
