@@ -255,8 +255,8 @@ void take_impacts(StepContext& ctx, std::size_t u)
 void merge_output(StepContext& ctx, const IslandOutput& output)
 {
     const SceneState& state = ctx.state;
-    for (const ContactRow& row : output.late_rows)
-        commit_row(ctx.state, row);
+    for (const ContactConstraint& constraint : output.late_constraints)
+        commit_constraint(ctx.state, constraint);
     for (const RawTouch& t : output.begins)
     {
         ctx.state.graph_dirty = true;

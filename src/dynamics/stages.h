@@ -27,7 +27,7 @@ void find_deflected_pairs(StepContext& ctx);
 /// Manifolds of awake contacts; begins and ends of touching; wakes what is touched.
 void update_contacts(StepContext& ctx);
 
-/// Islands, states, colours and rows.
+/// Islands, states, colours and constraints.
 void build_islands(StepContext& ctx);
 
 /// All sub-steps of all islands.

@@ -18,7 +18,7 @@ namespace {
 constexpr float longest_step = 1.0f / 30; // s
 
 // At most 0.15 of the rate of the longest sub-step of late: stacks would rise and sink with every other step if it were that of the present one. After 4 to 8 s
-// a pyramid of a hundred rows still moves at 28 mm/s in the mean with 3/16, at 4 mm/s with 0.15; its boxes have strayed by 16 and 25 cm, with 1/8 by 35.
+// a pyramid of a hundred constraints still moves at 28 mm/s in the mean with 3/16, at 4 mm/s with 0.15; its boxes have strayed by 16 and 25 cm, with 1/8 by 35.
 void set_softness(StepContext& ctx)
 {
     const SceneDef& def = ctx.scene.def;

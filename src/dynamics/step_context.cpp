@@ -24,7 +24,7 @@ void IslandOutput::clear()
     impacts.clear();
     reported_impacts = 0;
     begins.clear();
-    late_rows.clear();
+    late_constraints.clear();
     deferred.clear();
     stopped_joints.clear();
     kicked_shapes.clear();

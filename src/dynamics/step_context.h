@@ -28,7 +28,7 @@ struct SceneData;
 class DirectSolve;
 struct RawTouch;
 
-/// Bodies, rows and joints that are solved together through all sub-steps: an island, or islands whose paths may meet.
+/// Bodies, constraints and joints that are solved together through all sub-steps: an island, or islands whose paths may meet.
 struct Island
 {
     std::int32_t first_state = 0; ///< states [first, first + count): dynamic bodies, then copies of the kinematic ones they meet
@@ -36,16 +36,16 @@ struct Island
     std::int32_t dynamic_count = 0; ///< of these, after the first one
     std::int32_t first_edge = 0;
     std::int32_t edge_count = 0;
-    std::int32_t first_row = 0; ///< contact rows, sorted by color
-    std::int32_t row_count = 0;
+    std::int32_t first_constraint = 0; ///< contact constraints, sorted by color
+    std::int32_t constraint_count = 0;
     std::int32_t first_wide =
-        0; ///< groups of wide rows, sorted by color: of large islands; rows are then what does not fit there
+        0; ///< groups of wide contact constraints, sorted by color: of large islands; constraints are then what does not fit there
     std::int32_t wide_store =
-        0; ///< where they are kept in Scratch::wide_rows: small islands of a task, one after the other, in one place
+        0; ///< where they are kept in Scratch::wide_contacts: small islands of a task, one after the other, in one place
     std::int32_t wide_count = 0;
     std::int32_t first_wide_joint = 0;
     std::int32_t wide_joint_count = 0;
-    std::int32_t first_core = 0; ///< of its wide rows
+    std::int32_t first_core = 0; ///< of its wide contact constraints
     std::int32_t core_count = 0;
     std::int32_t first_joint = 0;
     std::int32_t joint_count = 0;
@@ -53,10 +53,11 @@ struct Island
     std::int32_t flier_count = 0;
     std::int32_t first_law = 0;
     std::int32_t law_count = 0;
-    std::int32_t first_impact_row = 0; ///< rows that bear nothing yet and may be hit
-    std::int32_t impact_row_count = 0;
+    std::int32_t first_impact_constraint = 0; ///< constraints that bear nothing yet and may be hit
+    std::int32_t impact_constraint_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_bin = 0; ///< of its wide rows, part by part, in Scratch::bin_starts; and where the last ends
+    std::int32_t first_bin =
+        0; ///< of its wide contact constraints, part by part, in Scratch::bin_starts; and where the last ends
     std::int32_t bin_count = 0; ///< of each part, and of what crosses from one to another: two to a color
     std::int32_t parts = 0;     ///< of the plane, that all threads solve side by side
     std::int32_t first_joint_lane = 0;
@@ -116,7 +117,7 @@ namespace edge_flag {
 inline constexpr std::uint32_t touching = contact_flag::touching; ///< else it may touch within the step
 inline constexpr std::uint32_t round = contact_flag::round;
 inline constexpr std::uint32_t bears = contact_flag::loaded; ///< bore a load in the last step
-inline constexpr std::uint32_t solved = 1;                   ///< gets a row, unless a body flies
+inline constexpr std::uint32_t solved = 1;                   ///< gets a constraint, unless a body flies
 inline constexpr std::uint32_t plain = 4;                    ///< neither rolling resistance nor surface speed
 inline constexpr std::uint32_t in_lane = 8;
 inline constexpr std::uint32_t all = 63;
@@ -130,11 +131,11 @@ struct ContactEdge
     std::int32_t b = none;
     // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
     std::uint16_t flags = 0; ///< see packed_flags
-    std::uint16_t bin = 0;   ///< where lanes are given out, by color, points and place; of rows the color
+    std::uint16_t bin = 0;   ///< where lanes are given out, by color, points and place; of constraints the color
 
     [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
     [[nodiscard]] int points() const { return flags >> 6 & 3; }
-    [[nodiscard]] int color() const { return (flags >> 8) - 1; } ///< that it has from the last step, then of its row
+    [[nodiscard]] int color() const { return (flags >> 8) - 1; } ///< that it has from the last step, then of its constraint
 };
 static_assert(sizeof(ContactEdge) == 16);
 
@@ -153,20 +154,23 @@ struct WideCore
     float depth;         ///< to which it may go
 };
 
-inline constexpr int few_parts = 16; ///< of an island whose rows stay in the cache that processors share
+inline constexpr int few_parts = 16; ///< of an island whose constraints stay in the cache that processors share
 inline constexpr int most_parts = plane_cells;
 inline constexpr int bins_to_a_part = 2 * color_limit;
 
 /// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
-struct SomePlaces
+struct SlotsOfTask
 {
     std::vector<std::int32_t> lanes; ///< by part
-    std::int32_t rows[color_limit + 1] = {};
+    std::int32_t constraints[color_limit + 1] = {};
     std::uint64_t colors = 0;            ///< that they have
     std::vector<std::int32_t> uncolored; ///< of the island's links
     std::vector<WideCore> cores;
 
-    [[nodiscard]] std::int32_t& place_for(const ContactEdge& l) { return l.has(edge_flag::in_lane) ? lanes[l.bin] : rows[l.bin]; }
+    [[nodiscard]] std::int32_t& place_for(const ContactEdge& l)
+    {
+        return l.has(edge_flag::in_lane) ? lanes[l.bin] : constraints[l.bin];
+    }
 };
 
 /// What a task has found.
@@ -262,20 +266,20 @@ struct CachedGraph
 {
     std::vector<CachedBody> bodies;
     std::vector<JointEdge> joints;
-    std::vector<std::uint8_t> bound;      ///< of each state: rows, limits or motors hold it
-    bool are_plain = false;               ///< nothing in them depends on anything else
-    bool stay_plain = false;              ///< and no body or joint has changed, come or gone since
-    bool edges_are_unchanged = false;     ///< those of contacts are what they were
-    bool joints_are_unchanged = false;    ///< so that links of joints are what they were
-    bool hinges_are_unchanged = false;    ///< and wide hinges stand where they stood
-    bool has_hung = false;                ///< as Scratch::has_hung when links of joints were gathered
-    bool rows_apart = false;              ///< islands have stayed: each has its wide rows in a place of its own
-    bool rows_are_unchanged = false;      ///< in this step wide rows have been followed where they stand
-    std::uint64_t rows_unchanged_for = 0; ///< so many steps, this one among them
-    std::uint64_t stamp = 0;              ///< of the rows, as in SceneState::rows_stamp; never the same twice in a scene
-    std::vector<std::int32_t> contacts;   ///< the awake ones, when the rows were filled
-    std::vector<std::int32_t> loose;      ///< of these, those without a lane
-    int touching = 0;                     ///< of the report
+    std::vector<std::uint8_t> bound;        ///< of each state: constraints, limits or motors hold it
+    bool are_plain = false;                 ///< nothing in them depends on anything else
+    bool stay_plain = false;                ///< and no body or joint has changed, come or gone since
+    bool edges_are_unchanged = false;       ///< those of contacts are what they were
+    bool joints_are_unchanged = false;      ///< so that links of joints are what they were
+    bool hinges_are_unchanged = false;      ///< and wide hinges stand where they stood
+    bool has_hung = false;                  ///< as Scratch::has_hung when links of joints were gathered
+    bool constraints_apart = false;         ///< islands have stayed: each has its wide contact constraints in a place of its own
+    bool constraints_are_unchanged = false; ///< in this step wide contact constraints have been followed where they stand
+    std::uint64_t constraints_unchanged_for = 0; ///< so many steps, this one among them
+    std::uint64_t stamp = 0;            ///< of the constraints, as in SceneState::lanes_stamp; never the same twice in a scene
+    std::vector<std::int32_t> contacts; ///< the awake ones, when the constraints were filled
+    std::vector<std::int32_t> loose;    ///< of these, those without a lane
+    int touching = 0;                   ///< of the report
 };
 
 /// An island has a link with a kinematic body.
@@ -386,12 +390,12 @@ struct IslandOutput : ImpactReport
 {
     std::size_t reported_impacts = 0;       ///< the first so many are known to force laws
     std::vector<ImpactEvent> law_impacts{}; ///< what one call of a law tells
-    std::vector<ContactRow> late_rows;
-    std::vector<ContactRow> pulled_rows; ///< see Walls
+    std::vector<ContactConstraint> late_constraints;
+    std::vector<ContactConstraint> pulled_constraints; ///< see Walls
     std::vector<DeferredImpulse> deferred;
     std::vector<StoppedJoint> stopped_joints;   ///< in this sub-step
     std::vector<std::int32_t> struck_lanes;     ///< of the island, in this sub-step
-    std::vector<std::int32_t> struck_states;    ///< that rows move and what flies has struck, in this sub-step
+    std::vector<std::int32_t> struck_states;    ///< that constraints move and what flies has struck, in this sub-step
     std::vector<ImpactReport> reports_of_parts; ///< of the plane, empty but for while threads tell
     std::vector<std::int32_t> deflected;        ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;                 ///< of each of these
@@ -404,7 +408,8 @@ struct IslandOutput : ImpactReport
     ImpactWork impact_work{};    ///< left in this sub-step
     std::int64_t looks_left = 0; ///< at who may be met next, likewise
     bool capped = false;
-    bool disturbed = false; ///< since velocities were integrated: flight has struck what rows move, or rows came or went
+    bool disturbed =
+        false; ///< since velocities were integrated: flight has struck what constraints move, or constraints came or went
 
     void clear();
     IslandOutput();
@@ -478,38 +483,38 @@ struct Scratch
     std::vector<std::int32_t> island_starts;
     std::vector<std::vector<IslandRun>> runs_of_task;
     std::vector<std::vector<CellOfIsland>> cells_of_task;
-    std::vector<std::int32_t> island_of_edge; ///< none: it gets no row
+    std::vector<std::int32_t> island_of_edge; ///< none: it gets no constraint
     std::vector<std::uint8_t> bounced;        ///< of an island's begins, see commit.cpp
     std::vector<std::int32_t> in_plane;       ///< places in awake_bodies, in the order of the plane
     std::size_t fullest_cell = 0; ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
-    std::vector<ContactEdge> solved_edges; ///< those that get rows, by island
+    std::vector<ContactEdge> solved_edges; ///< those that get constraints, by island
     std::vector<std::vector<JointEdge>> joints_of_task;
     std::vector<JointEdge> joint_edges;
     CachedGraph cached_graph;
-    std::vector<std::uint8_t> borne;         ///< by state: a contact bears it
-    std::vector<std::uint8_t> is_looked_at;  ///< by contact slot, in this step; empty: none
-    bool has_uneven = false;                 ///< a body that moves more easily along one axis is awake
-    std::vector<JointEdge> solved_joints;    ///< by island
-    std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by island
-    std::vector<std::int32_t> lane_edges;    ///< link in each lane; none: empty
-    std::vector<std::int32_t> row_edges;     ///< link of each row
+    std::vector<std::uint8_t> borne;            ///< by state: a contact bears it
+    std::vector<std::uint8_t> is_looked_at;     ///< by contact slot, in this step; empty: none
+    bool has_uneven = false;                    ///< a body that moves more easily along one axis is awake
+    std::vector<JointEdge> solved_joints;       ///< by island
+    std::vector<std::int32_t> solved_bodies;    ///< places in awake_bodies, by island
+    std::vector<std::int32_t> lane_edges;       ///< link in each lane; none: empty
+    std::vector<std::int32_t> constraint_edges; ///< link of each constraint
     std::vector<Island> islands;
     std::vector<BodyState> states; ///< [0] stands for every static body
     std::vector<StateConstants> constants;
     std::vector<std::int32_t> state_bodies; ///< body slot of each state
     std::vector<LawWork> laws;              ///< by island
-    std::vector<ContactRow> rows;
-    std::vector<std::int32_t> impact_rows;
-    BlankArray<WideRow> wide_rows;
-    BlankArray<WideNotes> wide_notes;     ///< of each
-    std::vector<std::uint8_t> struck;     ///< lanes of each of these, as the kernels find them
-    std::vector<std::int32_t> bin_starts; ///< groups of wide rows, from the island's first on
+    std::vector<ContactConstraint> constraints;
+    std::vector<std::int32_t> impact_constraints;
+    BlankArray<WideContact> wide_contacts;
+    BlankArray<WideContactNotes> wide_notes; ///< of each
+    std::vector<std::uint8_t> struck;        ///< lanes of each of these, as the kernels find them
+    std::vector<std::int32_t> bin_starts;    ///< groups of wide contact constraints, from the island's first on
     std::vector<std::int32_t> joint_bin_starts;
     std::vector<WideJoint> wide_joints;
     std::vector<WideCore> cores;
     std::vector<BodySpeeds> speeds; ///< by state: when the sub-step began
     std::vector<BodySpeeds>
-        unpushed; ///< by state, of islands that may warm start by body: without what rows gave in the sub-step
+        unpushed; ///< by state, of islands that may warm start by body: without what constraints gave in the sub-step
     std::vector<JointWork> joints;
     std::vector<Flier> fliers;
     std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
@@ -519,7 +524,7 @@ struct Scratch
     std::size_t impacts_lender = 0; ///< whose array of impacts the events have
     std::vector<PathPiece> paths;   ///< of all islands, by body
     std::vector<Crossing> crossings;
-    std::vector<SomePlaces> places_of_task;
+    std::vector<SlotsOfTask> slots_of_task;
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
     std::vector<KinematicMeeting> meetings_with_kinematic; ///< by island, then by link
     std::vector<std::uint64_t> joint_colors;               ///< by state: a bit for each that its hinges in lanes have
@@ -551,10 +556,10 @@ struct Scratch
     return {scratch.fliers.data() + island.first_flier, static_cast<std::size_t>(island.flier_count)};
 }
 
-/// Those of an island that are in no lane; what has come since the step began is in IslandOutput::late_rows.
-[[nodiscard]] inline std::span<ContactRow> rows_of(Scratch& scratch, const Island& island)
+/// Those of an island that are in no lane; what has come since the step began is in IslandOutput::late_constraints.
+[[nodiscard]] inline std::span<ContactConstraint> constraints_of(Scratch& scratch, const Island& island)
 {
-    return {scratch.rows.data() + island.first_row, static_cast<std::size_t>(island.row_count)};
+    return {scratch.constraints.data() + island.first_constraint, static_cast<std::size_t>(island.constraint_count)};
 }
 
 struct StepContext

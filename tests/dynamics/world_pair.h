@@ -61,11 +61,11 @@ public:
         int stayed = 0;
         for (int i = 0; i < steps_taken && !testing::Test::HasFailure(); ++i)
         {
-            m_anew.scene.data().state.rows_stamp = 0; // what is in the rows is another state's
+            m_anew.scene.data().state.lanes_stamp = 0; // what is in the rows is another state's
             both([dt](World& w) { w.scene.step(dt); });
-            stayed += rows_are_unchanged() ? 1 : 0;
+            stayed += constraints_are_unchanged() ? 1 : 0;
             const std::string when = "step " + std::to_string(m_followed.scene.step_count());
-            EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.rows_are_unchanged);
+            EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.constraints_are_unchanged);
             EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.hinges_are_unchanged);
             EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
             EXPECT_EQ(m_followed.scene.report().touching, m_anew.scene.report().touching) << when;
@@ -77,7 +77,10 @@ public:
         return stayed;
     }
 
-    [[nodiscard]] bool rows_are_unchanged() { return m_followed.scene.data().scratch.cached_graph.rows_are_unchanged; }
+    [[nodiscard]] bool constraints_are_unchanged()
+    {
+        return m_followed.scene.data().scratch.cached_graph.constraints_are_unchanged;
+    }
     [[nodiscard]] bool hinges_are_unchanged() { return m_followed.scene.data().scratch.cached_graph.hinges_are_unchanged; }
     [[nodiscard]] const World& followed() const { return m_followed; }
     [[nodiscard]] const World& anew() const { return m_anew; }

@@ -72,7 +72,7 @@ void ContactBatch::find_slots()
         next = end;
     }
     give_up(next, gone);
-    // Those behind a gap know their places again once update_contacts has seen them: it sees all, for contacts are fewer then than when rows were kept.
+    // Those behind a gap know their places again once update_contacts has seen them: it sees all, for contacts are fewer then than when constraints were kept.
     if (gone > m_made.size())
         std::erase(m_state.awake_contacts, none);
 }

@@ -210,20 +210,20 @@ void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier)
 
 namespace {
 
-// Rows of the island with a load, and of it the state on the other side.
+// Constraints of the island with a load, and of it the state on the other side.
 template <class Visit>
 void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
 {
-    const auto look = [&](std::span<const ContactRow> rows)
+    const auto look = [&](std::span<const ContactConstraint> constraints)
     {
-        for (const ContactRow& row : rows)
+        for (const ContactConstraint& constraint : constraints)
         {
-            if (bears_load(row) && (row.a == state || row.b == state))
-                visit(row.a == state ? row.b : row.a);
+            if (bears_load(constraint) && (constraint.a == state || constraint.b == state))
+                visit(constraint.a == state ? constraint.b : constraint.a);
         }
     };
-    look(rows_of(span.scratch, span.island));
-    look(span.output.late_rows);
+    look(constraints_of(span.scratch, span.island));
+    look(span.output.late_constraints);
 }
 
 // With a bat that presses it: without the ball in its way the solver would swing it through.
@@ -270,7 +270,7 @@ namespace {
 // All of it is in the air, and its path through the step is one parabola.
 bool flies_freely(const StepContext& ctx, const Island& island)
 {
-    const bool alike = island.flier_count == island.dynamic_count && island.row_count == 0 && island.wide_count == 0 &&
+    const bool alike = island.flier_count == island.dynamic_count && island.constraint_count == 0 && island.wide_count == 0 &&
                        island.joint_count == 0 && island.wide_joint_count == 0 && island.law_count == 0 && island.slices == 1;
     if (!alike || island.traced || ctx.scene.def.record_substeps)
         return false;

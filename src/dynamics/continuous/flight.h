@@ -11,7 +11,7 @@ namespace carom::internal {
 void raise_fast(StepContext& ctx, const Island& island, int k, IslandOutput& output);
 
 /// Flies the island's bodies in flight through sub-step k, impact by impact, after the solver has moved everything else. What comes to rest against
-/// something becomes the solver's from the next sub-step on; its rows go to output.late_rows.
+/// something becomes the solver's from the next sub-step on; its constraints go to output.late_constraints.
 void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, WorkerTeam& team);
 
 /// Where all of the island flies freely, and none of it meets anything in this step, flies it through the whole step at once. False: nothing has moved.

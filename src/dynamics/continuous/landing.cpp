@@ -14,7 +14,7 @@ namespace carom::internal {
 
 namespace {
 
-// rad: what runs through a tighter bend in a sub-step would leave it before the solver knows, and in the rest of the step come to what has no row.
+// rad: what runs through a tighter bend in a sub-step would leave it before the solver knows, and in the rest of the step come to what has no constraint.
 constexpr double most_bend = 0.25;
 constexpr double most_bend_in_step = 1;
 
@@ -37,7 +37,7 @@ class Landing
 public:
     Landing(const FlightSpan& span, const Flier& f) : m_span(span), m_flier(f) {}
 
-    // Rows for everything near it.
+    // Constraints for everything near it.
     void run()
     {
         const BodyState& s = m_span.state_of(m_flier.state);
@@ -48,58 +48,59 @@ public:
         {
             const Contact& contact = state.contacts[edge >> 1];
             if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) == 0)
-                add_row(edge >> 1, margin);
+                add_constraint(edge >> 1, margin);
         }
     }
 
 private:
-    void add_row(int index, float margin) const
+    void add_constraint(int index, float margin) const
     {
         const Contact& contact = m_span.state.contacts[index];
         const int body = other_body(contact, m_flier.body);
-        const std::int32_t other = state_for_rows(m_span.ctx, m_span.island, body);
-        if (other == none || m_span.flier_at(other) != nullptr || has_row(index))
+        const std::int32_t other = state_for_constraints(m_span.ctx, m_span.island, body);
+        if (other == none || m_span.flier_at(other) != nullptr || has_constraint(index))
             return; // another island's, or still in flight: the next step links them
         const Manifold manifold = world_manifold(m_span.state, contact, pose_now(contact.body_a, other),
                                                  pose_now(contact.body_b, other), margin + motion_of(m_span.ctx, body));
         if (manifold.count == 0 && !may_come_to_face(contact, m_span.island))
             return;
-        m_span.state.contacts[index].manifold = manifold; // the row's points are these
+        m_span.state.contacts[index].manifold = manifold; // the constraint's points are these
         impulses_of(m_span.state, index) = {};
         m_span.state.contacts[index].flags &= ~contact_flag::kept;
         const bool flier_is_a = contact.body_a == m_flier.body;
-        ContactRow row =
-            prepare_row(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other, flier_is_a ? other : m_flier.state);
-        hand_over(contact, row);
-        follow_closely(contact, m_span.island, row);
+        ContactConstraint constraint = prepare_constraint(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other,
+                                                          flier_is_a ? other : m_flier.state);
+        hand_over(contact, constraint);
+        follow_closely(contact, m_span.island, constraint);
         m_span.state_of(other).flags &= ~body_flag::unbound;
-        m_span.output.late_rows.push_back(row);
+        m_span.output.late_constraints.push_back(constraint);
     }
 
     // What held the body goes on bearing it.
-    void hand_over(const Contact& contact, ContactRow& row) const
+    void hand_over(const Contact& contact, ContactConstraint& constraint) const
     {
         const bool is_a = contact.body_a == m_flier.body;
         const std::int32_t own = is_a ? contact.shape_a : contact.shape_b;
         const std::int32_t other = is_a ? contact.shape_b : contact.shape_a;
-        const BodyState& a = m_span.state_of(row.a);
+        const BodyState& a = m_span.state_of(constraint.a);
         const Vec2 center = to_vec2(m_span.sim_of(contact.body_a).center + a.delta_position);
         for (const Hold& h : m_span.holds_of(m_flier))
         {
             if (h.own != own || h.other != other)
                 continue;
-            const auto distance = [&](const RowPoint& p) { return length(center + p.ra - h.point); };
-            RowPoint& p = row.points[row.count == 2 && distance(row.points[1]) < distance(row.points[0])];
+            const auto distance = [&](const ConstraintPoint& p) { return length(center + p.ra - h.point); };
+            ConstraintPoint& p =
+                constraint.points[constraint.count == 2 && distance(constraint.points[1]) < distance(constraint.points[0])];
             p.normal_impulse += m_span.ctx.h * h.force;
             p.tangent_impulse += m_span.ctx.h * h.friction;
         }
     }
 
-    [[nodiscard]] bool has_row(int contact) const
+    [[nodiscard]] bool has_constraint(int contact) const
     {
-        for (const ContactRow& row : m_span.output.late_rows)
+        for (const ContactConstraint& constraint : m_span.output.late_constraints)
         {
-            if (row.contact == contact && !is_dropped(row))
+            if (constraint.contact == contact && !is_dropped(constraint))
                 return true;
         }
         return false;
@@ -162,9 +163,9 @@ void finish_flight(const FlightSpan& span, Flier& f)
     // Along what turns or moves, whose other sides come to meet it: a slice is short, the rest of the sub-step is not.
     const bool goes_far =
         f.carrier != none && f.carrier != held_by_world && span.ctx.slices * span.h * speed_over_carrier(span, f) > 0.5 * f.size;
-    const bool is_beyond_rows =
+    const bool is_beyond_constraints =
         f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || goes_far || is_wedged(span.holds_of(f));
-    if (is_beyond_rows || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
+    if (is_beyond_constraints || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
         release_holds(span, f, span.h);
     else
         land(span, f);

@@ -380,16 +380,16 @@ void take_off(const FlightSpan& span, Flier& f, double time)
     span.output.disturbed = true;
     note_deflected(span.scratch, span.output, span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
     span.state_of(f.state).flags |= body_flag::flier;
-    const auto drop_rows = [&](std::span<ContactRow> rows)
+    const auto drop_constraints = [&](std::span<ContactConstraint> constraints)
     {
-        for (ContactRow& row : rows)
+        for (ContactConstraint& constraint : constraints)
         {
-            if (row.a == f.state || row.b == f.state)
-                drop(row);
+            if (constraint.a == f.state || constraint.b == f.state)
+                drop(constraint);
         }
     };
-    drop_rows(rows_of(span.scratch, span.island));
-    drop_rows(span.output.late_rows);
+    drop_constraints(constraints_of(span.scratch, span.island));
+    drop_constraints(span.output.late_constraints);
     for (int edge = span.state.bodies[f.body].first_contact; edge != none; edge = span.state.contacts[edge >> 1].next[edge & 1])
     {
         if (Contact& contact = span.state.contacts[edge >> 1]; contact.wide != none)

@@ -65,7 +65,7 @@ void advance(const FlightSpan& span, Flier& f, double time);
 /// Struck in this step, and on its way out of where pairs were looked for: the solver would not see what is there.
 [[nodiscard]] bool leaves_its_boxes(const FlightSpan& span, const Flier& f);
 
-/// From the solver's hands into flight, at a time of the sub-step; its rows are dropped.
+/// From the solver's hands into flight, at a time of the sub-step; its constraints are dropped.
 void take_off(const FlightSpan& span, Flier& f, double time);
 
 /// What has hit things too often stays where it is until the sub-step is over.

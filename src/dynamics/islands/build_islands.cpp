@@ -1,5 +1,5 @@
 // Stage 4, islands: first who flies, what joints hold (joint_edges.cpp) and who is solved together (island_graph.cpp), then all that each island needs side by side
-// (island_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (cached_graph.cpp), and so do rows (cached_constraints.cpp)
+// (island_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (cached_graph.cpp), and so do constraints (cached_constraints.cpp)
 // and hinges (WideKernels::follow_joints).
 
 #include "dynamics/islands/cached_graph.h"
@@ -14,7 +14,7 @@ namespace carom::internal {
 void build_islands(StepContext& ctx)
 {
     ctx.scratch.fullest_cell = 0;
-    if (ctx.scratch.cached_graph.rows_are_unchanged)
+    if (ctx.scratch.cached_graph.constraints_are_unchanged)
     {
         refill_islands(ctx);
         return;
@@ -28,7 +28,7 @@ void build_islands(StepContext& ctx)
         cache_constraints(ctx);
         return;
     }
-    ctx.scratch.cached_graph.rows_apart = false;
+    ctx.scratch.cached_graph.constraints_apart = false;
     build_island_graph(ctx);
     lay_out_islands(ctx);
     cache_graph(ctx);

@@ -19,7 +19,7 @@ namespace {
 bool is_plain(const Island& island)
 {
     const bool has_joints = island.joint_count > 0 || island.joint_lane_count > 0;
-    return island.dynamic_count > (has_joints ? IslandEnergy::most_bodies : precise_limit) && island.row_count == 0 &&
+    return island.dynamic_count > (has_joints ? IslandEnergy::most_bodies : precise_limit) && island.constraint_count == 0 &&
            island.core_count == 0 && !island.heap && !island.alone;
 }
 

@@ -1,4 +1,4 @@
-// Rows of an island stand sorted by colour, those of a large island eight to a group and part of the plane by part, see partitions.h. What had a row in the last
+// Constraints of an island stand sorted by colour, those of a large island eight to a group and part of the plane by part, see partitions.h. What had a constraint in the last
 // step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Links are counted by tasks, each its own, and
 // then put where the counts of all say.
 
@@ -25,34 +25,36 @@ namespace carom::internal {
 namespace {
 
 constexpr int edges_to_a_part = 2048;      // of few
-constexpr int edges_to_a_huge_part = 8192; // their rows stay in a cache from solving to relaxing
+constexpr int edges_to_a_huge_part = 8192; // their constraints stay in a cache from solving to relaxing
 constexpr std::size_t most_tasks = 64;     // of an island: each counts all of its bins
 constexpr std::uint16_t no_part = 65535;   // of what does not give way
 
-class RowPlaces
+class ConstraintSlots
 {
 public:
-    RowPlaces(StepContext& ctx, Island& island) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_island(island) {}
+    ConstraintSlots(StepContext& ctx, Island& island) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_island(island)
+    {}
 
     void find()
     {
-        m_island.first_row = static_cast<std::int32_t>(m_scratch.row_edges.size());
-        m_island.first_impact_row = static_cast<std::int32_t>(m_scratch.impact_rows.size());
+        m_island.first_constraint = static_cast<std::int32_t>(m_scratch.constraint_edges.size());
+        m_island.first_impact_constraint = static_cast<std::int32_t>(m_scratch.impact_constraints.size());
         m_island.first_wide = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count;
         m_island.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
         m_is_uniform = m_island.wide && is_uniform(m_ctx, m_island);
         find_parts();
         name_copies();
-        const std::span<SomePlaces> tasks = count_edges();
-        color_new_rows(tasks);
+        const std::span<SlotsOfTask> tasks = count_edges();
+        color_new_constraints(tasks);
         give_out_places(tasks);
         run_tasks(m_ctx.scene.def.tasks, static_cast<int>(tasks.size()),
                   [&](int t) { place(as_index(t) * edges_of_task(), tasks[as_index(t)]); });
         gather(tasks);
         m_island.wide_count = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count - m_island.first_wide;
-        m_island.row_count = static_cast<std::int32_t>(m_scratch.row_edges.size()) - m_island.first_row;
+        m_island.constraint_count = static_cast<std::int32_t>(m_scratch.constraint_edges.size()) - m_island.first_constraint;
         m_island.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_island.first_core;
-        m_island.impact_row_count = static_cast<std::int32_t>(m_scratch.impact_rows.size()) - m_island.first_impact_row;
+        m_island.impact_constraint_count =
+            static_cast<std::int32_t>(m_scratch.impact_constraints.size()) - m_island.first_impact_constraint;
     }
 
 private:
@@ -111,7 +113,7 @@ private:
         cells.back().work += more.work;
     }
 
-    // As many rows as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
+    // As many constraints as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
     [[nodiscard]] std::int64_t work_of(int body) const
     {
         return m_island.parts > few_parts ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
@@ -161,11 +163,11 @@ private:
     }
 
     // They name states from here on.
-    [[nodiscard]] std::span<SomePlaces> count_edges()
+    [[nodiscard]] std::span<SlotsOfTask> count_edges()
     {
         return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), edges_of_task(),
-                             m_scratch.places_of_task,
-                             [&](std::size_t first, std::size_t last, SomePlaces& some)
+                             m_scratch.slots_of_task,
+                             [&](std::size_t first, std::size_t last, SlotsOfTask& some)
                              {
                                  some.lanes.resize(std::max(some.lanes.size(), as_index((m_island.parts + 1) * bins_to_a_part)));
                                  some.uncolored.clear();
@@ -184,9 +186,9 @@ private:
                              });
     }
 
-    void color_new_rows(std::span<SomePlaces> tasks)
+    void color_new_constraints(std::span<SlotsOfTask> tasks)
     {
-        for (SomePlaces& some : tasks)
+        for (SlotsOfTask& some : tasks)
         {
             for (std::size_t u = 0; u < some.uncolored.size(); ++u)
             {
@@ -215,7 +217,7 @@ private:
             prefetch(m_state.bodies[body]);
     }
 
-    void count(ContactEdge& l, SomePlaces& some) const
+    void count(ContactEdge& l, SlotsOfTask& some) const
     {
         const int color = l.color();
         const bool in_lane =
@@ -235,10 +237,10 @@ private:
     // --- places -----------------------------------------------------------------------------------------------------------------------
 
     // Eight lanes to a group, each of one part, one colour and one number of points.
-    void give_out_places(std::span<SomePlaces> tasks)
+    void give_out_places(std::span<SlotsOfTask> tasks)
     {
         std::uint64_t colors = 0;
-        for (const SomePlaces& some : tasks)
+        for (const SlotsOfTask& some : tasks)
             colors |= some.colors;
         m_island.colors = static_cast<std::int32_t>(std::bit_width(colors));
         auto lane = static_cast<std::int32_t>(m_scratch.lane_edges.size());
@@ -250,57 +252,57 @@ private:
             {
                 m_scratch.bin_starts.push_back(lane / lane_count - m_island.first_wide);
                 give_out(
-                    tasks, [&](SomePlaces& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
+                    tasks, [&](SlotsOfTask& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
                     lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
         }
         m_scratch.bin_starts.push_back(lane / lane_count - m_island.first_wide);
-        auto row = m_island.first_row;
-        for_each_row_bin(
+        auto constraint = m_island.first_constraint;
+        for_each_constraint_bin(
             [&](int color)
             {
-                give_out(tasks, [&](SomePlaces& some) -> std::int32_t& { return some.rows[color]; }, row);
+                give_out(tasks, [&](SlotsOfTask& some) -> std::int32_t& { return some.constraints[color]; }, constraint);
             });
         make_room(m_scratch.lane_edges, as_index(lane));
         m_scratch.lane_edges.resize(as_index(lane), none);
-        set_size(m_scratch.row_edges, as_index(row));
+        set_size(m_scratch.constraint_edges, as_index(constraint));
     }
 
     // From how many of a bin each task has to where its first goes.
     template <class Count>
-    static void give_out(std::span<SomePlaces> tasks, const Count& count_of, std::int32_t& place)
+    static void give_out(std::span<SlotsOfTask> tasks, const Count& count_of, std::int32_t& place)
     {
-        for (SomePlaces& some : tasks)
+        for (SlotsOfTask& some : tasks)
             place += std::exchange(count_of(some), place);
     }
 
     template <class Visit>
-    void for_each_row_bin(const Visit& visit) const
+    void for_each_constraint_bin(const Visit& visit) const
     {
         for (int color = 0; color < m_island.colors; ++color)
             visit(color);
         visit(color_limit);
     }
 
-    void place(std::size_t first, SomePlaces& some)
+    void place(std::size_t first, SlotsOfTask& some)
     {
         for (std::size_t i = first; i < std::min(first + edges_of_task(), links().size()); ++i)
         {
             const ContactEdge& l = links()[i];
             const std::int32_t at = some.place_for(l)++;
-            (l.has(edge_flag::in_lane) ? m_scratch.lane_edges : m_scratch.row_edges)[as_index(at)] =
+            (l.has(edge_flag::in_lane) ? m_scratch.lane_edges : m_scratch.constraint_edges)[as_index(at)] =
                 m_island.first_edge + static_cast<std::int32_t>(i);
             if (l.has(edge_flag::in_lane) && l.points() > 0)
                 add_core(l, at, some);
         }
         for (std::int32_t part = 0; part <= m_island.parts; ++part)
             std::fill_n(some.lanes.begin() + part * bins_to_a_part, m_island.bin_count, 0);
-        for_each_row_bin([&](int color) { some.rows[color] = 0; });
+        for_each_constraint_bin([&](int color) { some.constraints[color] = 0; });
     }
 
     // Balls and bodies in joints have a core against walls.
-    void add_core(const ContactEdge& l, std::int32_t lane, SomePlaces& some) const
+    void add_core(const ContactEdge& l, std::int32_t lane, SlotsOfTask& some) const
     {
         const bool a_gives = is_dynamic(m_island, l.a);
         if (a_gives && is_dynamic(m_island, l.b))
@@ -313,15 +315,16 @@ private:
     }
 
     // Cores of one body are of different colours: in the order of lanes wherever in a bin these are.
-    void gather(std::span<SomePlaces> tasks)
+    void gather(std::span<SlotsOfTask> tasks)
     {
-        for (const SomePlaces& some : tasks)
+        for (const SlotsOfTask& some : tasks)
             append_all(m_scratch.cores, some.cores);
         std::ranges::sort(m_scratch.cores.begin() + m_island.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
-        for (auto row = m_island.first_row; row < static_cast<std::int32_t>(m_scratch.row_edges.size()); ++row)
+        for (auto constraint = m_island.first_constraint;
+             constraint < static_cast<std::int32_t>(m_scratch.constraint_edges.size()); ++constraint)
         {
-            if (!m_scratch.solved_edges[as_index(m_scratch.row_edges[as_index(row)])].has(edge_flag::bears))
-                m_scratch.impact_rows.push_back(row);
+            if (!m_scratch.solved_edges[as_index(m_scratch.constraint_edges[as_index(constraint)])].has(edge_flag::bears))
+                m_scratch.impact_constraints.push_back(constraint);
         }
     }
 
@@ -332,7 +335,7 @@ private:
     bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
 };
 
-// Whatever the number of threads: the order in which rows are solved depends on it.
+// Whatever the number of threads: the order in which constraints are solved depends on it.
 int parts_of(const Island& island)
 {
     const int few = std::min(island.edge_count / edges_to_a_part, few_parts);
@@ -356,29 +359,29 @@ void sort_edges(StepContext& ctx)
         });
 }
 
-void place_rows_of_small_islands(StepContext& ctx)
+void place_constraints_of_small_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     set_size(scratch.parts, scratch.state_bodies.size());
-    scratch.row_edges.clear();
+    scratch.constraint_edges.clear();
     scratch.lane_edges.clear();
-    scratch.impact_rows.clear();
+    scratch.impact_constraints.clear();
     scratch.cores.clear();
     scratch.bin_starts.clear();
     for (Island& island : scratch.islands)
     {
         island.parts = parts_of(island);
         if (island.parts == 0)
-            RowPlaces(ctx, island).find();
+            ConstraintSlots(ctx, island).find();
     }
 }
 
-void place_rows_of_large_islands(StepContext& ctx)
+void place_constraints_of_large_islands(StepContext& ctx)
 {
     for (Island& island : ctx.scratch.islands)
     {
         if (island.parts > 0)
-            RowPlaces(ctx, island).find();
+            ConstraintSlots(ctx, island).find();
     }
 }
 

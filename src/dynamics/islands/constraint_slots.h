@@ -1,6 +1,6 @@
 #pragma once
 
-// Where contact rows stand: the last part of the islands stage.
+// Where contact constraints stand: the last part of the islands stage.
 
 #include "dynamics/step_context.h"
 
@@ -10,7 +10,7 @@ namespace carom::internal {
 void sort_edges(StepContext& ctx);
 
 /// After both states and links have their places, those of small islands one after the other; large ones, on all threads, behind them.
-void place_rows_of_small_islands(StepContext& ctx);
-void place_rows_of_large_islands(StepContext& ctx);
+void place_constraints_of_small_islands(StepContext& ctx);
+void place_constraints_of_large_islands(StepContext& ctx);
 
 } // namespace carom::internal

@@ -47,7 +47,7 @@ public:
         const bool touching = (contact.flags & contact_flag::touching) != 0;
         const bool solved = is_solved(contact);
         if (!solved)
-            leave_row(m_ctx.state, index);
+            leave_constraint(m_ctx.state, index);
         if (!touching && !solved)
             return;
         const std::int32_t a = m_places[contact.body_a];

@@ -37,7 +37,7 @@ constexpr int most_sets = 4;                // that are linked side by side
 
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
-bool gets_rows(const SceneState& state, const Contact& contact)
+bool gets_constraints(const SceneState& state, const Contact& contact)
 {
     return is_solved(contact) && (is_moving_dynamic(state, contact.body_a) || is_moving_dynamic(state, contact.body_b));
 }
@@ -113,7 +113,7 @@ public:
         {
             const Contact& contact = state.contacts[edge >> 1];
             const int other = other_body(contact, body);
-            shoots = !gets_rows(state, contact) || state.bodies[other].type != BodyType::Dynamic ||
+            shoots = !gets_constraints(state, contact) || state.bodies[other].type != BodyType::Dynamic ||
                      length(v - state.sims[static_cast<std::size_t>(other)].velocity) > limit;
         }
         return shoots;
@@ -541,8 +541,8 @@ public:
                           });
     }
 
-    // Bodies in flight meet things at their own time; a row would stop them early.
-    [[nodiscard]] bool gets_row(const ContactEdge& l) const
+    // Bodies in flight meet things at their own time; a constraint would stop them early.
+    [[nodiscard]] bool gets_constraint(const ContactEdge& l) const
     {
         return l.has(edge_flag::solved) && !in_flight(l.a) && !in_flight(l.b);
     }
@@ -564,7 +564,7 @@ public:
                               for (std::size_t i = first; i < last; ++i)
                               {
                                   const ContactEdge& l = scratch.links[i];
-                                  const std::int32_t island = scratch.island_of_edge[i] = island_of_row(l);
+                                  const std::int32_t island = scratch.island_of_edge[i] = island_of_constraint(l);
                                   const std::int32_t kinematic = std::min(l.a, l.b); // if either is
                                   if (kinematic < none && island != none)
                                       meetings.push_back({island, static_cast<std::int32_t>(i), -2 - kinematic});
@@ -619,13 +619,13 @@ public:
     }
 
 private:
-    // None where it gets no row.
-    [[nodiscard]] std::int32_t island_of_row(const ContactEdge& l) const
+    // None where it gets no constraint.
+    [[nodiscard]] std::int32_t island_of_constraint(const ContactEdge& l) const
     {
-        if (gets_row(l))
+        if (gets_constraint(l))
             return island_of_edge(l);
         if (l.has(edge_flag::solved))
-            leave_row(state, l.contact);
+            leave_constraint(state, l.contact);
         return none;
     }
 

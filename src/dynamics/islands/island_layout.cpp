@@ -1,5 +1,5 @@
-// Everything that an island needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its rows (constraint_slots.cpp), its joints.
-// States are filled here, on all threads; rows and joints in island_constraints.cpp, just before the island is solved.
+// Everything that an island needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its constraints (constraint_slots.cpp), its joints.
+// States are filled here, on all threads; constraints and joints in island_constraints.cpp, just before the island is solved.
 
 #include "dynamics/islands/island_layout.h"
 
@@ -63,19 +63,19 @@ public:
     }
 
     // Side by side: none reads what another writes.
-    void fill_states_and_place_rows_and_joints()
+    void fill_states_and_place_constraints_and_joints()
     {
         run_tasks(m_ctx.scene.def.tasks, 2 + state_tasks(),
                   [&](int task)
                   {
                       if (task == 0)
-                          place_rows_of_small_islands(m_ctx);
+                          place_constraints_of_small_islands(m_ctx);
                       else if (task == 1)
                           place_joints();
                       else
                           fill_some_states(task - 2);
                   });
-        place_rows_of_large_islands(m_ctx);
+        place_constraints_of_large_islands(m_ctx);
         for (Island& island : m_scratch.islands)
             let_drift(island);
         unbind_those(
@@ -122,12 +122,12 @@ public:
     // For what island_constraints.cpp fills.
     void make_room()
     {
-        set_size(m_scratch.rows, m_scratch.row_edges.size());
+        set_size(m_scratch.constraints, m_scratch.constraint_edges.size());
         set_size(m_scratch.joints, m_scratch.joint_places.size());
         set_size(m_scratch.wide_joints, as_index(m_groups));
     }
 
-    // What held each state when the rows were placed holds it still.
+    // What held each state when the constraints were placed holds it still.
     void bind_as_before()
     {
         unbind_those([&](std::size_t s) { return m_scratch.cached_graph.bound[s] != 0; });
@@ -280,7 +280,7 @@ private:
         return state_for(island, place == none ? none : m_state.awake_bodies[as_index(-2 - place)]);
     }
 
-    // The state of a body as this island's rows see it.
+    // The state of a body as this island's constraints see it.
     std::int32_t state_for(const Island& island, int body)
     {
         if (body == none || m_state.bodies[body].awake_index == none)
@@ -346,7 +346,7 @@ private:
         const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
                                          { return sum + most_rows_of(m_state.joints[place.joint]); });
         island.direct = island.joint_count > 0 && island.wide_joint_count == 0 && rows <= DirectSolve::most_rows;
-        island.drifts = island.direct && island.row_count == 0 && island.wide_count == 0;
+        island.drifts = island.direct && island.constraint_count == 0 && island.wide_count == 0;
         if (island.drifts)
             std::fill_n(m_scratch.bound_by_joint.begin() + island.first_state, island.state_count, 0);
     }
@@ -490,7 +490,7 @@ void lay_out_islands(StepContext& ctx)
 {
     IslandLayout layout(ctx);
     run_both(ctx.scene.def.tasks, [&] { layout.place_states(); }, [&] { sort_edges(ctx); });
-    layout.fill_states_and_place_rows_and_joints();
+    layout.fill_states_and_place_constraints_and_joints();
     layout.add_fliers();
     layout.add_laws();
     layout.make_room();

@@ -1,6 +1,6 @@
 #pragma once
 
-// States, rows and joints of the step's islands side by side: the second half of the islands stage.
+// States, constraints and joints of the step's islands side by side: the second half of the islands stage.
 
 #include "dynamics/step_context.h"
 
@@ -16,7 +16,7 @@ void refill_islands(StepContext& ctx);
 [[nodiscard]] bool is_uniform(const StepContext& ctx, const Island& island);
 [[nodiscard]] bool has_even_mass(const StepContext& ctx, std::int32_t state);
 
-/// Contacts that roll or convey, and what holds a body that may not move along every axis, have rows of their own.
+/// Contacts that roll or convey, and what holds a body that may not move along every axis, have constraints of their own.
 template <class AnyEdge>
 [[nodiscard]] bool give_evenly(const StepContext& ctx, const AnyEdge& l)
 {

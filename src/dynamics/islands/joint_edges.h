@@ -38,7 +38,7 @@ void gather_joints(StepContext& ctx);
 }
 
 /// The contact gets no row in this step.
-inline void leave_row(SceneState& state, std::int32_t contact)
+inline void leave_constraint(SceneState& state, std::int32_t contact)
 {
     forget_impulses(state, contact);
     leave_color(state, state.contacts[contact]);

@@ -88,8 +88,9 @@ public:
             const auto lanes = std::span(m_scratch.lane_edges);
             place(lanes.subspan(static_cast<std::size_t>(island.first_wide) * lane_count,
                                 static_cast<std::size_t>(island.wide_count) * lane_count));
-            const auto rows = std::span(m_scratch.row_edges);
-            place(rows.subspan(static_cast<std::size_t>(island.first_row), static_cast<std::size_t>(island.row_count)));
+            const auto constraints = std::span(m_scratch.constraint_edges);
+            place(constraints.subspan(static_cast<std::size_t>(island.first_constraint),
+                                      static_cast<std::size_t>(island.constraint_count)));
         }
         ++m_color;
         for (const std::int32_t contact : m_state.awake_contacts)
@@ -364,14 +365,14 @@ void reorder(StepContext& ctx)
     }
     sort_bodies(ctx.state);
     part_bodies(ctx);
-    if (ctx.scratch.cached_graph.rows_unchanged_for >= steps_between)
+    if (ctx.scratch.cached_graph.constraints_unchanged_for >= steps_between)
         return; // in the order that they were left in
     ContactOrder order(ctx);
     order.find();
     if (order.is_kept_already())
         return;
     order.apply();
-    ctx.state.rows_stamp = 0; // they name contacts
+    ctx.state.lanes_stamp = 0; // they name contacts
 }
 
 } // namespace carom::internal

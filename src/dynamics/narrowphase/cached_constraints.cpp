@@ -1,4 +1,4 @@
-// A wide row holds all that its contacts are: in a crowd at rest, from step to step, the same contacts with the same number of points, in the same lanes.
+// A wide contact constraint holds all that its contacts are: in a crowd at rest, from step to step, the same contacts with the same number of points, in the same lanes.
 // Then the bodies' poses say the rest. That bodies and contacts are the same is compared; that nothing else has been done to a contact is said by its mark
 // (SceneState::lane_marks); what cannot be followed is found anew by itself, and its lane filled with that.
 
@@ -31,7 +31,7 @@ constexpr std::size_t islands_per_task = 4;
 bool are_in_place(const StepContext& ctx)
 {
     const CachedGraph& kept = ctx.scratch.cached_graph;
-    return kept.rows_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
+    return kept.constraints_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
            ctx.state.awake_contacts == kept.contacts && bodies_are_unchanged(ctx);
 }
 
@@ -61,33 +61,33 @@ bool loose_stay(const StepContext& ctx)
     return stay;
 }
 
-bool are_marked(const SceneState& state, const WideNotes& notes)
+bool are_marked(const SceneState& state, const WideContactNotes& notes)
 {
     return std::ranges::all_of(notes.contact.v, [&](std::int32_t contact)
-                               { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InRow; });
+                               { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InLane; });
 }
 
 // Those of a large island by the threads that solve them, of small ones a few islands to a task.
-bool rows_are_unchanged(const StepContext& ctx)
+bool constraints_are_unchanged(const StepContext& ctx)
 {
     const std::vector<Island>& islands = ctx.scratch.islands;
     std::atomic<bool> stay{true};
     const auto follow = [&](const Island& island, int first, int last)
     {
         ConstraintRefresh follower(ctx);
-        WideRow* const rows = ctx.scratch.wide_rows.data() + island.wide_store;
-        WideNotes* const all_notes = ctx.scratch.wide_notes.data() + island.wide_store;
+        WideContact* const constraints = ctx.scratch.wide_contacts.data() + island.wide_store;
+        WideContactNotes* const all_notes = ctx.scratch.wide_notes.data() + island.wide_store;
         const bool asks_ahead = !is_large(island); // a thread has much of a large one in its cache still
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
-            WideNotes& notes = all_notes[g];
+            WideContactNotes& notes = all_notes[g];
             if (asks_ahead)
             { // beyond the last there is nothing, which does no harm
-                prefetch(rows[g + 2]);
+                prefetch(constraints[g + 2]);
                 prefetch(all_notes[g + 2]);
             }
-            const RefreshChanges changes =
-                are_marked(ctx.state, notes) ? follower.follow(rows[g], notes) : RefreshChanges{.gone = filled_lanes(notes)};
+            const RefreshChanges changes = are_marked(ctx.state, notes) ? follower.follow(constraints[g], notes)
+                                                                        : RefreshChanges{.gone = filled_lanes(notes)};
             if ((changes.gone | changes.told) != 0)
                 stay.store(false, std::memory_order_relaxed);
         }
@@ -130,26 +130,26 @@ bool leans_on_statics(const SceneState& state, const ContactEdge& l)
 
 } // namespace
 
-bool refresh_constraints(StepContext& ctx)
+bool refresh_cached_constraints(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     CachedGraph& kept = scratch.cached_graph;
-    kept.rows_are_unchanged = false;
-    const std::uint64_t stayed_for = std::exchange(kept.rows_unchanged_for, 0);
+    kept.constraints_are_unchanged = false;
+    const std::uint64_t stayed_for = std::exchange(kept.constraints_unchanged_for, 0);
     scratch.is_looked_at.clear();
-    const bool are_of_this_state = ctx.state.rows_stamp != 0 && kept.stamp == ctx.state.rows_stamp;
-    ctx.state.rows_stamp = 0; // until they have been solved
+    const bool are_of_this_state = ctx.state.lanes_stamp != 0 && kept.stamp == ctx.state.lanes_stamp;
+    ctx.state.lanes_stamp = 0; // until they have been solved
     kept.are_plain = kept.are_plain && are_of_this_state;
-    if (!are_of_this_state || !kept.rows_apart)
+    if (!are_of_this_state || !kept.constraints_apart)
         return false;
     scratch.borne.assign(scratch.state_bodies.size(), 0);
     scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    kept.rows_are_unchanged =
-        are_in_place(ctx) && loose_stay(ctx) && rows_are_unchanged(ctx) && (!ctx.scene.def.continuous || all_are_borne(ctx));
-    if (!kept.rows_are_unchanged)
+    kept.constraints_are_unchanged = are_in_place(ctx) && loose_stay(ctx) && constraints_are_unchanged(ctx) &&
+                                     (!ctx.scene.def.continuous || all_are_borne(ctx));
+    if (!kept.constraints_are_unchanged)
         return false;
     scratch.is_looked_at.clear();
-    kept.rows_unchanged_for = stayed_for + 1;
+    kept.constraints_unchanged_for = stayed_for + 1;
     return true;
 }
 
@@ -159,9 +159,9 @@ void cache_constraints(StepContext& ctx)
     CachedGraph& kept = scratch.cached_graph;
     const auto may_stay = [&](const ContactEdge& l)
     { return !l.has(edge_flag::solved) || (l.has(edge_flag::plain) && leans_on_statics(ctx.state, l)); };
-    kept.rows_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.islands.empty() &&
-                      std::ranges::all_of(scratch.links, may_stay);
-    if (!kept.rows_apart)
+    kept.constraints_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.islands.empty() &&
+                             std::ranges::all_of(scratch.links, may_stay);
+    if (!kept.constraints_apart)
         return;
     kept.contacts = ctx.state.awake_contacts;
     kept.touching = ctx.report.touching;

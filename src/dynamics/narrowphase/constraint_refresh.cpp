@@ -25,26 +25,26 @@ ConstraintRefresh::ConstraintRefresh(const StepContext& ctx)
     : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
 {}
 
-RefreshChanges ConstraintRefresh::follow(WideRow& row, WideNotes& notes)
+RefreshChanges ConstraintRefresh::follow(WideContact& constraint, WideContactNotes& notes)
 {
-    FollowedRow now;
-    m_kernels.follow(row, notes, m_scene, now);
+    RefreshedContacts now;
+    m_kernels.follow(constraint, notes, m_scene, now);
     RefreshChanges changes;
     const std::uint32_t looked = now.unsure | now.begins_or_ends;
     const std::uint32_t sure = filled_lanes(notes) & ~looked;
     notes.may_hit = now.unloaded & sure;
-    clear_sums(row, notes);
+    clear_sums(constraint, notes);
     for_each_lane(sure & ~notes.followed, [&](int i) { m_state.contacts[notes.contact.v[i]].flags |= contact_flag::followed; });
     notes.followed |= sure;
-    for_each_lane(now.borne & sure, [&](int i) { note_borne(row, i); });
-    for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(row, notes, i, now.separation.v[i]); });
-    for_each_lane(looked, [&](int i) { look_at(row, notes, i, changes); });
-    m_kernels.prepare(row, notes.count);
+    for_each_lane(now.borne & sure, [&](int i) { note_borne(constraint, i); });
+    for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(constraint, notes, i, now.separation.v[i]); });
+    for_each_lane(looked, [&](int i) { look_at(constraint, notes, i, changes); });
+    m_kernels.prepare(constraint, notes.count);
     return changes;
 }
 
 // Found anew, or followed, by itself.
-void ConstraintRefresh::look_at(WideRow& row, WideNotes& notes, int i, RefreshChanges& changes)
+void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes, int i, RefreshChanges& changes)
 {
     const std::uint32_t bit = 1u << i;
     const std::int32_t index = notes.contact.v[i];
@@ -59,23 +59,24 @@ void ConstraintRefresh::look_at(WideRow& row, WideNotes& notes, int i, RefreshCh
     }
     ContactEdge link;
     link.contact = index;
-    link.a = row.a.v[i];
-    link.b = row.b.v[i];
-    refill_lane(m_ctx, link, row, notes, i);
-    note_if_loaded(row, notes, i, least_separation(contact.manifold));
+    link.a = constraint.a.v[i];
+    link.b = constraint.b.v[i];
+    refill_lane(m_ctx, link, constraint, notes, i);
+    note_if_loaded(constraint, notes, i, least_separation(contact.manifold));
 }
 
 // What is not borne may fly.
-void ConstraintRefresh::note_borne(const WideRow& row, int i) const
+void ConstraintRefresh::note_borne(const WideContact& constraint, int i) const
 {
-    for (const std::int32_t s : {row.a.v[i], row.b.v[i]})
+    for (const std::int32_t s : {constraint.a.v[i], constraint.b.v[i]})
         std::atomic_ref(m_scratch.borne[static_cast<std::size_t>(s)]).store(1, std::memory_order_relaxed);
 }
 
-void ConstraintRefresh::note_if_loaded(const WideRow& row, const WideNotes& notes, int i, float separation) const
+void ConstraintRefresh::note_if_loaded(const WideContact& constraint, const WideContactNotes& notes, int i,
+                                       float separation) const
 {
     if (is_loaded(m_ctx, m_state.contacts[notes.contact.v[i]], separation))
-        note_borne(row, i);
+        note_borne(constraint, i);
 }
 
 } // namespace carom::internal

@@ -230,7 +230,7 @@ namespace {
 
 constexpr std::size_t contacts_at_once = 512;
 
-// Since refresh_constraints has tried to do with less.
+// Since refresh_cached_constraints has tried to do with less.
 bool is_looked_at(const Scratch& scratch, std::int32_t contact)
 {
     return !scratch.is_looked_at.empty() && scratch.is_looked_at[static_cast<std::size_t>(contact)] != 0;
@@ -445,7 +445,7 @@ void report_all(StepContext& ctx, std::span<const ContactChanges> parts, std::ve
 
 void update_contacts(StepContext& ctx)
 {
-    if (refresh_constraints(ctx))
+    if (refresh_cached_constraints(ctx))
     {
         ctx.report.pairs = static_cast<int>(ctx.state.awake_contacts.size());
         ctx.report.touching = ctx.scratch.cached_graph.touching;

@@ -17,13 +17,13 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int enough_rows = 256; // to share
+constexpr int enough_constraints = 256; // to share
 
 // Each of `count` places from the first on.
 template <class Visit>
 void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, const Visit& visit)
 {
-    team.share(count, enough_rows,
+    team.share(count, enough_constraints,
                [&](int first, int last)
                {
                    for (std::int32_t i = begin + first; i < begin + last; ++i)
@@ -47,8 +47,8 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
 {
     const Scratch& scratch = ctx.scratch;
     const std::int32_t first_lane = (island.first_wide + g) * lane_count;
-    WideRow& row = ctx.scratch.wide_rows[as_index(island.wide_store + g)];
-    WideNotes& notes = ctx.scratch.wide_notes[as_index(island.wide_store + g)];
+    WideContact& constraint = ctx.scratch.wide_contacts[as_index(island.wide_store + g)];
+    WideContactNotes& notes = ctx.scratch.wide_notes[as_index(island.wide_store + g)];
     notes.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
@@ -56,29 +56,29 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
         const std::int32_t link = scratch.lane_edges[as_index(first_lane + i)];
         if (link == none)
         {
-            row.a.v[i] = row.b.v[i] = island.first_state;
+            constraint.a.v[i] = constraint.b.v[i] = island.first_state;
             notes.contact.v[i] = none;
             continue;
         }
         const ContactEdge& l = scratch.solved_edges[as_index(link)];
-        row.a.v[i] = l.a;
-        row.b.v[i] = l.b;
+        constraint.a.v[i] = l.a;
+        constraint.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
         notes.count = l.points(); // the same in all lanes
         Contact& contact = ctx.state.contacts[l.contact];
         contact.wide = (island.wide_store + g) * lane_count + i;
-        ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InRow;
+        ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InLane;
     }
-    wide_kernels().fill(row, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
+    wide_kernels().fill(constraint, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
 }
 
-void fill_row(const StepContext& ctx, const Island& island, std::int32_t i)
+void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t i)
 {
-    const ContactEdge& l = ctx.scratch.solved_edges[as_index(ctx.scratch.row_edges[as_index(i)])];
+    const ContactEdge& l = ctx.scratch.solved_edges[as_index(ctx.scratch.constraint_edges[as_index(i)])];
     const Contact& contact = ctx.state.contacts[l.contact];
-    ContactRow& row = ctx.scratch.rows[as_index(i)];
-    row = prepare_row(ctx, l.contact, contact.manifold, l.a, l.b);
-    follow_closely(contact, island, row);
+    ContactConstraint& constraint = ctx.scratch.constraints[as_index(i)];
+    constraint = prepare_constraint(ctx, l.contact, contact.manifold, l.a, l.b);
+    follow_closely(contact, island, constraint);
 }
 
 // The hinge of a lane that is filled later, and still later where it holds.
@@ -156,9 +156,10 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     const StepContext island_ctx = island.slices > 1 ? sliced(ctx, island.slices) : ctx;
-    if (!ctx.scratch.cached_graph.rows_are_unchanged)
+    if (!ctx.scratch.cached_graph.constraints_are_unchanged)
         contact_bins(ctx.scratch, island).for_each(team, [&](int g) { fill_group(island_ctx, island, g); });
-    for_each_place(team, island.first_row, island.row_count, [&](std::int32_t i) { fill_row(island_ctx, island, i); });
+    for_each_place(team, island.first_constraint, island.constraint_count,
+                   [&](std::int32_t i) { fill_constraint(island_ctx, island, i); });
     for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i)
                    {
@@ -179,21 +180,21 @@ void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     Scratch& scratch = ctx.scratch;
-    WideRow* const rows = scratch.wide_rows.data() + island.wide_store;
-    WideNotes* const notes = scratch.wide_notes.data() + island.wide_store;
+    WideContact* const constraints = scratch.wide_contacts.data() + island.wide_store;
+    WideContactNotes* const notes = scratch.wide_notes.data() + island.wide_store;
     contact_bins(scratch, island)
         .for_each(team,
                   [&](int g)
                   {
-                      if (are_rows_far(island))
+                      if (are_constraints_far(island))
                       { // beyond the last there is nothing, which does no harm
-                          prefetch(rows[as_index(g) + prefetch_distance]);
+                          prefetch(constraints[as_index(g) + prefetch_distance]);
                           prefetch(notes[as_index(g) + prefetch_distance]);
                       }
-                      wide_kernels().take_impulses(rows[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
+                      wide_kernels().take_impulses(constraints[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
                   });
-    for_each_place(team, island.first_row, island.row_count,
-                   [&](std::int32_t i) { commit_row(ctx.state, scratch.rows[as_index(i)]); });
+    for_each_place(team, island.first_constraint, island.constraint_count,
+                   [&](std::int32_t i) { commit_constraint(ctx.state, scratch.constraints[as_index(i)]); });
     for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
     joint_bins(scratch, island)
@@ -205,20 +206,21 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
                   });
 }
 
-void commit_row(SceneState& state, const ContactRow& row)
+void commit_constraint(SceneState& state, const ContactConstraint& constraint)
 {
-    Contact& contact = state.contacts[row.contact];
+    Contact& contact = state.contacts[constraint.contact];
     Manifold& m = contact.manifold;
-    m.normal = row.n;
-    m.count = row.count;
-    m.rolling_impulse = row.rolling_impulse;
+    m.normal = constraint.n;
+    m.count = constraint.count;
+    m.rolling_impulse = constraint.rolling_impulse;
     contact.flags &= ~contact_flag::loaded;
-    for (int i = 0; i < row.count; ++i)
+    for (int i = 0; i < constraint.count; ++i)
     {
-        const RowPoint& p = row.points[i];
+        const ConstraintPoint& p = constraint.points[i];
         m.points[i].anchor_a = p.ra;
         m.points[i].anchor_b = p.rb;
-        impulses_of(state, row.contact).points[i] = {p.normal_impulse, p.tangent_impulse, p.total_impulse, p.total_tangent};
+        impulses_of(state, constraint.contact).points[i] = {p.normal_impulse, p.tangent_impulse, p.total_impulse,
+                                                            p.total_tangent};
         if (p.normal_impulse > 0)
             contact.flags |= contact_flag::loaded;
     }

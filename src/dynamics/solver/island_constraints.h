@@ -1,7 +1,7 @@
 #pragma once
 
-// Rows and joints of one island: from contacts and joint records to what the solver runs over, and back. It is done around the island's solve, so that a
-// small island stays in the cache from its first row to its last impulse.
+// Constraints and joints of one island: from contacts and joint records to what the solver runs over, and back. It is done around the island's solve, so that a
+// small island stays in the cache from its first constraint to its last impulse.
 
 #include "core/worker_team.h"
 #include "dynamics/step_context.h"
@@ -14,7 +14,7 @@ void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 /// Impulses and forces, to contacts and joints.
 void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& team);
 
-/// Of a row that the island got while it was solved.
-void commit_row(SceneState& state, const ContactRow& row);
+/// Of a constraint that the island got while it was solved.
+void commit_constraint(SceneState& state, const ContactConstraint& constraint);
 
 } // namespace carom::internal

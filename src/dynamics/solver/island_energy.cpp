@@ -36,7 +36,10 @@ bool is_at_work(const JointRecord& joint, const JointWork& work)
     return work.rows.held_count > 0 || joint.kind == JointType::Spring || axis_impulse(joint) != 0;
 }
 
-bool is_loaded(const ContactRow& row) { return row.count > 0 && (row.pressed != 0 || bears_load(row)); }
+bool is_loaded(const ContactConstraint& constraint)
+{
+    return constraint.count > 0 && (constraint.pressed != 0 || bears_load(constraint));
+}
 
 double stored(const JointRecord& joint, const JointPose& pose)
 {
@@ -310,12 +313,12 @@ void IslandEnergy::connect(std::int32_t a, std::int32_t b)
     }
 }
 
-void IslandEnergy::connect_rows(std::span<const ContactRow> rows)
+void IslandEnergy::connect_constraints(std::span<const ContactConstraint> constraints)
 {
-    for (const ContactRow& row : rows)
+    for (const ContactConstraint& constraint : constraints)
     {
-        if (is_loaded(row))
-            connect(row.a, row.b);
+        if (is_loaded(constraint))
+            connect(constraint.a, constraint.b);
     }
 }
 
@@ -334,7 +337,7 @@ void IslandEnergy::join(std::int32_t own, std::int32_t other)
         group.is_passive = false;
 }
 
-// Impulse times the way on which a row has made good what others had moved.
+// Impulse times the way on which a constraint has made good what others had moved.
 double IslandEnergy::take_work(JointWork& work) const
 {
     const JointRecord& joint = m_state->joints[work.joint];
@@ -358,7 +361,7 @@ void IslandEnergy::note_joint(JointWork& work)
     const JointRecord& joint = m_state->joints[work.joint];
     Group& first = group_of(is_ours(work.a) ? work.a : work.b);
     first.is_passive &= std::max(std::fabs(work.moved[0]), std::fabs(work.moved[1])) <= m_slop; // farther, it is a blow
-    first.row_work += take_work(work);
+    first.constraint_work += take_work(work);
     for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
     {
         if (!is_ours(own))
@@ -370,55 +373,55 @@ void IslandEnergy::note_joint(JointWork& work)
     }
 }
 
-void IslandEnergy::note_rows(std::span<const ContactRow> rows)
+void IslandEnergy::note_constraints(std::span<const ContactConstraint> constraints)
 {
-    for (const ContactRow& row : rows)
+    for (const ContactConstraint& constraint : constraints)
     {
-        if (is_loaded(row))
-            note_row(row);
+        if (is_loaded(constraint))
+            note_constraint(constraint);
     }
 }
 
 // Load times the way on which it has pushed an overlap out; the impulse of a blow is no load.
-double IslandEnergy::push_out_of(const ContactRow& row) const
+double IslandEnergy::push_out_of(const ContactConstraint& constraint) const
 {
     double work = 0;
-    for (int i = 0; i < row.count; ++i)
+    for (int i = 0; i < constraint.count; ++i)
     {
-        const RowPoint& p = row.points[i];
-        const float out = std::min(row_separation(m_view, row, p), 0.0f) - std::min(p.separation_before, 0.0f);
+        const ConstraintPoint& p = constraint.points[i];
+        const float out = std::min(constraint_separation(m_view, constraint, p), 0.0f) - std::min(p.separation_before, 0.0f);
         if (p.approach <= m_rest_speed)
             work += as_double(p.normal_impulse) * as_double(m_view.inverse_h) * as_double(std::max(out, 0.0f));
     }
     return work;
 }
 
-void IslandEnergy::note_row(const ContactRow& row)
+void IslandEnergy::note_constraint(const ContactConstraint& constraint)
 {
-    group_of(is_ours(row.a) ? row.a : row.b).push_out += push_out_of(row);
-    for (const auto& [own, other] : {std::pair{row.a, row.b}, std::pair{row.b, row.a}})
+    group_of(is_ours(constraint.a) ? constraint.a : constraint.b).push_out += push_out_of(constraint);
+    for (const auto& [own, other] : {std::pair{constraint.a, constraint.b}, std::pair{constraint.b, constraint.a}})
     {
         if (!is_ours(own))
             continue;
         join(own, other);
-        group_of(own).is_passive &= row.surface_speed == 0;
+        group_of(own).is_passive &= constraint.surface_speed == 0;
         group_of(own).may_lose = true;
         group_of(own).touches = true;
     }
 }
 
-void IslandEnergy::note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows)
+void IslandEnergy::note_load(std::span<const ContactConstraint> constraints, std::span<const ContactConstraint> late_constraints)
 {
     if (m_all_driven)
         return;
     for (const JointWork& work : m_joints)
         connect(work.a, work.b);
-    connect_rows(rows);
-    connect_rows(late_rows);
+    connect_constraints(constraints);
+    connect_constraints(late_constraints);
     for (JointWork& work : m_joints)
         note_joint(work);
-    note_rows(rows);
-    note_rows(late_rows);
+    note_constraints(constraints);
+    note_constraints(late_constraints);
 }
 
 // --- scaling ------------------------------------------------------------------------------------------------------------------------
@@ -506,7 +509,7 @@ double IslandEnergy::inner_energy(int index, const Drift& drift)
 void IslandEnergy::scale(int index, bool exact)
 {
     const Group& group = m_groups[static_cast<std::size_t>(index)];
-    const double missing = group.of(group.missing) + group.row_work;
+    const double missing = group.of(group.missing) + group.constraint_work;
     // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
     const double work = group.of(group.work);
     const bool may_rise = group.may_lose && work < 0 && missing < 0;

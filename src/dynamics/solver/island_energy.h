@@ -24,7 +24,7 @@ public:
     void before_impacts();
     void after_impacts(std::span<const StoppedJoint> stopped);
     /// After the relaxation: joints and contacts that bear something make groups.
-    void note_load(std::span<const ContactRow> rows, std::span<const ContactRow> late_rows);
+    void note_load(std::span<const ContactConstraint> constraints, std::span<const ContactConstraint> late_constraints);
     /// At the end. `exact`: the joints were solved to the end; else they may only have put in too much.
     void restore(bool exact);
     /// It has moved bodies.
@@ -104,9 +104,9 @@ private:
         Energy missing{};
         Energy first{};
         Energy work{};
-        double push_out = 0;  ///< that contacts have done, for bodies overlapped: it gives them no speed
-        double row_work = 0;  ///< that joints have done, for others moved them
-        double slop_work = 0; ///< of the forces along the slop
+        double push_out = 0;        ///< that contacts have done, for bodies overlapped: it gives them no speed
+        double constraint_work = 0; ///< that joints have done, for others moved them
+        double slop_work = 0;       ///< of the forces along the slop
         bool touches = false;
         bool is_joined = false;   ///< by joints or contacts
         bool is_anchored = false; ///< to what does not move
@@ -133,10 +133,10 @@ private:
     void connect(std::int32_t a, std::int32_t b);
     void join(std::int32_t own, std::int32_t other);
     void note_joint(JointWork& work);
-    void connect_rows(std::span<const ContactRow> rows);
-    void note_rows(std::span<const ContactRow> rows);
-    void note_row(const ContactRow& row);
-    [[nodiscard]] double push_out_of(const ContactRow& row) const;
+    void connect_constraints(std::span<const ContactConstraint> constraints);
+    void note_constraints(std::span<const ContactConstraint> constraints);
+    void note_constraint(const ContactConstraint& constraint);
+    [[nodiscard]] double push_out_of(const ContactConstraint& constraint) const;
     [[nodiscard]] double take_work(JointWork& work) const;
     void add_kinetic(double sign);
     void add_work();

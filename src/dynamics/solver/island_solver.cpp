@@ -1,4 +1,4 @@
-// One island through all its sub-steps. In every sub-step the soft rows advance first, then the island's balls in flight through the same interval, then
+// One island through all its sub-steps. In every sub-step the soft constraints advance first, then the island's balls in flight through the same interval, then
 // everything relaxes and bounces (restitution.cpp). In a huge island balls fly after everything has relaxed: solve_by_parts.
 
 #include "dynamics/solver/island_solver.h"
@@ -41,30 +41,30 @@ constexpr int passes_of_deep_overlaps = 7;
 constexpr float follow_turn = 0.03f; // rad
 
 // Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
-void carry_points(const Manifold& old, const Manifold& fresh, ContactRow& row)
+void carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint& constraint)
 {
-    RowPoint points[2];
+    ConstraintPoint points[2];
     bool taken[2] = {};
     for (int i = 0; i < fresh.count; ++i)
     {
-        for (int j = 0; j < row.count; ++j)
+        for (int j = 0; j < constraint.count; ++j)
         {
-            const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && row.count == 1);
+            const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && constraint.count == 1);
             if (!same || taken[j])
                 continue;
-            points[i] = row.points[j];
+            points[i] = constraint.points[j];
             taken[j] = true;
             break;
         }
     }
-    for (int j = 0; j < row.count; ++j)
+    for (int j = 0; j < constraint.count; ++j)
     {
         if (taken[j])
             continue;
-        points[0].total_impulse += row.points[j].total_impulse;
-        points[0].total_tangent += row.points[j].total_tangent;
+        points[0].total_impulse += constraint.points[j].total_impulse;
+        points[0].total_tangent += constraint.points[j].total_tangent;
     }
-    std::copy(std::begin(points), std::end(points), std::begin(row.points));
+    std::copy(std::begin(points), std::end(points), std::begin(constraint.points));
 }
 
 class IslandSolver
@@ -76,11 +76,11 @@ public:
           m_watches_energy(island.precise ||
                            (!island.heap && island.dynamic_count <= IslandEnergy::most_bodies && island.joint_count > 0)),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
-          m_rows(rows_of(ctx.scratch, island)),
+          m_constraints(constraints_of(ctx.scratch, island)),
           m_joints(std::span(ctx.scratch.joints)
                        .subspan(static_cast<std::size_t>(island.first_joint), static_cast<std::size_t>(island.joint_count))),
-          m_wide(ctx.scratch.wide_rows.data() + island.wide_store), m_notes(ctx.scratch.wide_notes.data() + island.wide_store),
-          m_struck(ctx.scratch.struck.data() + island.wide_store),
+          m_wide(ctx.scratch.wide_contacts.data() + island.wide_store),
+          m_notes(ctx.scratch.wide_notes.data() + island.wide_store), m_struck(ctx.scratch.struck.data() + island.wide_store),
           m_softness{m_ctx.h, 1 / m_ctx.h, m_view.push_speed, m_ctx.contact_softness, m_ctx.static_softness, m_ctx.rest_speed},
           m_wide_joints(ctx.scratch.wide_joints.data() + island.first_wide_joint),
           m_joint_softness{1 / m_ctx.h, make_softness(m_ctx.joint_hertz, 0, m_ctx.h)},
@@ -93,9 +93,9 @@ public:
         place_joints(m_view, m_ctx.state, m_joints);
         if (!m_joints.empty())
             take_forbidden_speeds();
-        find_pulled_rows();
+        find_pulled_constraints();
         note_moved_joints();
-        add_rows_beyond_seams();
+        add_constraints_beyond_seams();
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
         if (m_ctx.slices > 1)
@@ -104,9 +104,9 @@ public:
 
 private:
     // Contacts of what joints connect, with what does not give way: those that stand in lanes, once more by themselves.
-    void find_pulled_rows()
+    void find_pulled_constraints()
     {
-        m_output.pulled_rows.clear();
+        m_output.pulled_constraints.clear();
         for (const JointWork& work : m_joints)
         {
             for (const std::int32_t s : {work.a, work.b})
@@ -116,21 +116,22 @@ private:
                 m_view.states[s].flags |= body_flag::jointed;
                 const int body = m_scratch.state_bodies[as_index(s)];
                 if (m_island.wide_count > 0)
-                    for_each_contact(m_ctx.state, body, [&](int contact) { add_pulled_row(contact, body, s); });
+                    for_each_contact(m_ctx.state, body, [&](int contact) { add_pulled_constraint(contact, body, s); });
             }
         }
     }
 
-    void add_pulled_row(int index, int body, std::int32_t own)
+    void add_pulled_constraint(int index, int body, std::int32_t own)
     {
         const Contact& contact = m_ctx.state.contacts[index];
         if (contact.manifold.count == 0 || is_left_out(contact))
             return;
-        const std::int32_t other = state_for_rows(m_ctx, m_island, other_body(contact, body));
+        const std::int32_t other = state_for_constraints(m_ctx, m_island, other_body(contact, body));
         if (other == none || is_dynamic(other))
             return;
         const bool is_a = contact.body_a == body;
-        m_output.pulled_rows.push_back(prepare_row(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
+        m_output.pulled_constraints.push_back(
+            prepare_constraint(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
     }
 
     [[nodiscard]] static bool is_left_out(const Contact& contact)
@@ -140,7 +141,7 @@ private:
 
     [[nodiscard]] bool is_dynamic(std::int32_t state) const { return (m_view.states[state].flags & body_flag::dynamic) != 0; }
 
-    void add_rows_beyond_seams()
+    void add_constraints_beyond_seams()
     {
         if (!m_island.precise)
             return;
@@ -151,22 +152,23 @@ private:
                 continue;
             const int body = m_scratch.state_bodies[static_cast<std::size_t>(s)];
             for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-                add_row_beyond_seam(edge >> 1, body, s);
+                add_constraint_beyond_seam(edge >> 1, body, s);
         }
     }
 
-    void add_row_beyond_seam(int index, int body, std::int32_t own)
+    void add_constraint_beyond_seam(int index, int body, std::int32_t own)
     {
         const Contact& contact = m_ctx.state.contacts[index];
         if (contact.manifold.count > 0 || is_left_out(contact) || !may_come_to_face(contact, m_island))
             return;
         const bool is_a = contact.body_a == body;
-        const std::int32_t other = state_for_rows(m_ctx, m_island, other_body(contact, body));
+        const std::int32_t other = state_for_constraints(m_ctx, m_island, other_body(contact, body));
         const bool is_others_too = other != none && (m_view.states[other].flags & body_flag::dynamic) != 0;
         if (other == none || (is_others_too && !is_a))
             return;
-        m_output.late_rows.push_back(prepare_row(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
-        follow_closely(contact, m_island, m_output.late_rows.back());
+        m_output.late_constraints.push_back(
+            prepare_constraint(m_ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
+        follow_closely(contact, m_island, m_output.late_constraints.back());
     }
 
     void substep(int k)
@@ -215,8 +217,8 @@ private:
     [[nodiscard]] bool is_airborne() const
     {
         return m_island.flier_count == m_island.dynamic_count && m_island.state_count == m_island.dynamic_count + 1 &&
-               m_rows.empty() && m_output.late_rows.empty() && m_island.wide_count == 0 && m_island.wide_joint_count == 0 &&
-               std::ranges::none_of(fliers_of(m_scratch, m_island), &Flier::landed);
+               m_constraints.empty() && m_output.late_constraints.empty() && m_island.wide_count == 0 &&
+               m_island.wide_joint_count == 0 && std::ranges::none_of(fliers_of(m_scratch, m_island), &Flier::landed);
     }
 
     // What lands on the way is the solver's from there on.
@@ -237,11 +239,11 @@ private:
     {
         if (!m_watches_energy)
             return;
-        for_each_row(
-            [this](ContactRow& row)
+        for_each_constraint(
+            [this](ContactConstraint& constraint)
             {
-                for (int i = 0; i < row.count; ++i)
-                    row.points[i].separation_before = row_separation(m_view, row, row.points[i]);
+                for (int i = 0; i < constraint.count; ++i)
+                    constraint.points[i].separation_before = constraint_separation(m_view, constraint, constraint.points[i]);
             });
         for (JointWork& work : m_joints)
             work.errors_before = work.errors();
@@ -251,7 +253,7 @@ private:
     void bounce_and_restore(int k)
     {
         if (m_watches_energy)
-            m_energy.note_load(m_rows, late_rows());
+            m_energy.note_load(m_constraints, late_constraints());
         const bool kicked = bounce(k);
         if (m_watches_energy && !kicked)
             m_energy.restore(is_direct());
@@ -262,11 +264,11 @@ private:
     // Nothing but lanes is solved, and nothing comes between solving and relaxing. In a huge island something always flies: there it flies after both.
     [[nodiscard]] bool goes_by_parts() const
     {
-        return m_island.parts > 0 && m_joints.empty() && m_island.wide_joint_count == 0 && m_rows.empty() &&
-               m_output.late_rows.empty() && !m_island.traced && (m_island.parts > few_parts || !has_fliers());
+        return m_island.parts > 0 && m_joints.empty() && m_island.wide_joint_count == 0 && m_constraints.empty() &&
+               m_output.late_constraints.empty() && !m_island.traced && (m_island.parts > few_parts || !has_fliers());
     }
 
-    // Each part goes from solving through its new poses to relaxing at once, while its rows are in the cache. What crosses from part to part is solved before
+    // Each part goes from solving through its new poses to relaxing at once, while its constraints are in the cache. What crosses from part to part is solved before
     // and relaxed after.
     void solve_by_parts()
     {
@@ -291,11 +293,11 @@ private:
         m_bins.crossing(m_team, relax);
     }
 
-    // In a huge island: what has flown into some bodies finds them relaxed already, and what has landed has rows only now.
+    // In a huge island: what has flown into some bodies finds them relaxed already, and what has landed has constraints only now.
     void relax_struck()
     {
         std::vector<std::int32_t>& parts = m_output.struck_states;
-        if (parts.empty() && late_rows().empty())
+        if (parts.empty() && late_constraints().empty())
             return;
         std::ranges::transform(parts, parts.begin(), [&](std::int32_t state) { return m_scratch.parts[as_index(state)]; });
         std::erase_if(parts, [&](std::int32_t part) { return part >= m_island.parts; }); // of what does not give way
@@ -308,7 +310,7 @@ private:
         };
         m_bins.crossing(m_team, relax);
         m_team.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_bins.of_part(parts[as_index(i)], relax); });
-        solve_rows(m_view, late_rows(), false);
+        solve_contact_constraints(m_view, late_constraints(), false);
     }
 
     // What relaxing has added: it comes again.
@@ -330,7 +332,7 @@ private:
     // Groups of one bin.
     [[nodiscard]] WideBin lanes(int first, int last) const
     {
-        return {m_wide + first, m_notes + first, last - first, are_rows_far(m_island)};
+        return {m_wide + first, m_notes + first, last - first, are_constraints_far(m_island)};
     }
 
     void solve_lanes(int first, int last) const { m_kernels.solve(lanes(first, last), m_view.states, m_softness); }
@@ -353,8 +355,8 @@ private:
         {
             take_from_sums(0, m_island.wide_count);
             m_bins.by_color(m_team, [this](int first, int last) { relax_lanes(first, last); });
-            solve_rows(m_view, m_rows, false);
-            solve_rows(m_view, late_rows(), false);
+            solve_contact_constraints(m_view, m_constraints, false);
+            solve_contact_constraints(m_view, late_constraints(), false);
         }
         m_is_deep = 0;
     }
@@ -364,13 +366,13 @@ private:
 
     void note_pressed()
     {
-        for_each_row([](ContactRow& row) { row.pressed = bears_load(row) ? 1 : 0; });
+        for_each_constraint([](ContactConstraint& constraint) { constraint.pressed = bears_load(constraint) ? 1 : 0; });
     }
 
     // At the poses that have been reached: takes out the speed that pushed overlaps out.
     void relax()
     {
-        refresh_rows();
+        refresh_constraints();
         place_joints(m_view, m_ctx.state, m_joints);
         prepare_direct(DirectSolve::Masses::Own);
         solve(false);
@@ -401,7 +403,7 @@ private:
     // What is kept for the next step's warm start is of a whole sub-step.
     void scale_impulses(float by)
     {
-        for_each_row([by](ContactRow& row) { scale_row(row, by); });
+        for_each_constraint([by](ContactConstraint& constraint) { scale_constraint(constraint, by); });
         for (const JointWork& work : m_joints)
         {
             for (float& impulse : m_ctx.state.joints[work.joint].impulses)
@@ -409,13 +411,13 @@ private:
         }
     }
 
-    [[nodiscard]] std::span<ContactRow> late_rows() { return m_output.late_rows; }
+    [[nodiscard]] std::span<ContactConstraint> late_constraints() { return m_output.late_constraints; }
 
     template <class Visit>
-    void for_each_row(const Visit& visit)
+    void for_each_constraint(const Visit& visit)
     {
-        for (const std::span<ContactRow> rows : {m_rows, late_rows()})
-            std::for_each(rows.begin(), rows.end(), visit);
+        for (const std::span<ContactConstraint> constraints : {m_constraints, late_constraints()})
+            std::for_each(constraints.begin(), constraints.end(), visit);
     }
 
     void note_approaches()
@@ -424,8 +426,8 @@ private:
         note_limit_approach(m_view, m_ctx.state, m_joints);
     }
 
-    // v += h a, then damping. Balls in flight have their own way. Where points and normals keep through the step, all that the rows gave to a body in the
-    // last sub-step is given again at once: what warm starting adds up row by row. It is what the body's speeds are beyond those that they would be without.
+    // v += h a, then damping. Balls in flight have their own way. Where points and normals keep through the step, all that the constraints gave to a body in the
+    // last sub-step is given again at once: what warm starting adds up constraint by constraint. It is what the body's speeds are beyond those that they would be without.
     void integrate_velocities(int k)
     {
         const bool disturbed = std::exchange(m_output.disturbed, false);
@@ -499,8 +501,8 @@ private:
         m_joint_bins.by_color(m_team, [&](int first, int last)
                               { m_kernels.warm_start_joints(m_wide_joints + first, last - first, m_view.states); });
         m_bins.by_color(m_team, [&](int first, int last) { m_kernels.warm_start(lanes(first, last), m_view.states); });
-        warm_start(m_view, m_rows);
-        warm_start(m_view, late_rows());
+        warm_start(m_view, m_constraints);
+        warm_start(m_view, late_constraints());
     }
 
     [[nodiscard]] DirectSolve& direct_solve()
@@ -563,13 +565,13 @@ private:
         solve_in_turns(use_bias);
     }
 
-    [[nodiscard]] bool has_contacts() { return !m_rows.empty() || !late_rows().empty() || m_island.wide_count > 0; }
+    [[nodiscard]] bool has_contacts() { return !m_constraints.empty() || !late_constraints().empty() || m_island.wide_count > 0; }
 
     // Where bodies are few, joints and contacts take turns. Contacts of a few bodies are solved until they agree: what a wall stops last still comes into its
     // neighbours, and overlap is pushed out against the forces.
     void solve_in_turns(bool use_bias)
     {
-        const std::size_t contacts = m_rows.size() + late_rows().size();
+        const std::size_t contacts = m_constraints.size() + late_constraints().size();
         const bool alternate = is_direct() && contacts > 0 && m_island.wide_count == 0;
         const bool settles = m_island.precise && contacts > 0 && contacts + m_joints.size() > 1;
         const int most = settles ? settle_turns : alternate ? turns : 1;
@@ -584,12 +586,12 @@ private:
             m_joint_bins.by_color(m_team, [&](int first, int last)
                                   { joint_pass(m_wide_joints + first, last - first, m_view.states, m_joint_softness); });
             m_bins.by_color(m_team, [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
-            if (alternate && m_output.direct->has_free_figures())
-                m_output.direct->solve_contacts(m_rows, late_rows(), use_bias, tiny_speed());
+            if (alternate && m_output.direct->has_free_articulations())
+                m_output.direct->solve_contacts(m_constraints, late_constraints(), use_bias, tiny_speed());
             else
             {
-                solve_rows(m_view, m_rows, use_bias);
-                solve_rows(m_view, late_rows(), use_bias);
+                solve_contact_constraints(m_view, m_constraints, use_bias);
+                solve_contact_constraints(m_view, late_constraints(), use_bias);
             }
             if (settles && have_settled() && (!alternate || turn + 1 >= turns))
                 break;
@@ -661,7 +663,8 @@ private:
     [[nodiscard]] Walls walls()
     {
         const auto cores = std::span(m_scratch.cores).subspan(as_index(m_island.first_core), as_index(m_island.core_count));
-        return {m_view, {m_rows, late_rows(), m_output.pulled_rows, {m_wide, as_index(m_island.wide_count)}, cores}};
+        return {m_view,
+                {m_constraints, late_constraints(), m_output.pulled_constraints, {m_wide, as_index(m_island.wide_count)}, cores}};
     }
 
     // --- contacts in small islands: looked at anew within the step -----------------------------------------------------------------------
@@ -676,11 +679,11 @@ private:
         return {sim.center + s.delta_position + ahead * s.velocity, q * sim.rotation, sim.local_center};
     }
 
-    [[nodiscard]] Manifold manifold_of(int index, const ContactRow& row, float ahead) const
+    [[nodiscard]] Manifold manifold_of(int index, const ContactConstraint& constraint, float ahead) const
     {
         const Contact& contact = m_ctx.state.contacts[index];
-        return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, row.a, ahead), pose_of(contact.body_b, row.b, ahead),
-                              1e9f);
+        return world_manifold(m_ctx.state, contact, pose_of(contact.body_a, constraint.a, ahead),
+                              pose_of(contact.body_b, constraint.b, ahead), 1e9f);
     }
 
     struct Facing
@@ -689,12 +692,12 @@ private:
         Manifold manifold;
     };
 
-    // The contact through which the row's shapes face each other now: a ball that rolls over a seam changes from piece to piece.
-    [[nodiscard]] Facing facing(const ContactRow& row, float ahead) const
+    // The contact through which the constraint's shapes face each other now: a ball that rolls over a seam changes from piece to piece.
+    [[nodiscard]] Facing facing(const ContactConstraint& constraint, float ahead) const
     {
         const SceneState& state = m_ctx.state;
-        Facing best{row.contact, manifold_of(row.contact, row, ahead)};
-        const Contact& contact = state.contacts[row.contact];
+        Facing best{constraint.contact, manifold_of(constraint.contact, constraint, ahead)};
+        const Contact& contact = state.contacts[constraint.contact];
         if (best.manifold.count == 1 || (contact.flags & contact_flag::piece) == 0)
             return best;
         const bool chain_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
@@ -708,7 +711,7 @@ private:
             if ((chain_is_a ? other.shape_b : other.shape_a) != visitor ||
                 state.shapes[other_piece].owner != state.shapes[piece].owner)
                 continue;
-            const Manifold m = manifold_of(edge >> 1, row, ahead);
+            const Manifold m = manifold_of(edge >> 1, constraint, ahead);
             if (m.count == 1 && (best.manifold.count != 1 || m.points[0].separation < best.manifold.points[0].separation))
                 best = {edge >> 1, m};
         }
@@ -718,72 +721,74 @@ private:
     // The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
     void predict_bends()
     {
-        for_each_row([this](ContactRow& row) { predict_bend(row); });
+        for_each_constraint([this](ContactConstraint& constraint) { predict_bend(constraint); });
     }
 
-    void predict_bend(ContactRow& row) const
+    void predict_bend(ContactConstraint& constraint) const
     {
-        if (row.followed != 0 && is_carried(row))
-            predict_turn(row);
-        if (row.refreshed == 0 || row.count != 1)
+        if (constraint.followed != 0 && is_carried(constraint))
+            predict_turn(constraint);
+        if (constraint.refreshed == 0 || constraint.count != 1)
             return;
-        RowPoint& p = row.points[0];
+        ConstraintPoint& p = constraint.points[0];
         p.predicted_bend = 0;
-        const BodyState& a = m_view.states[row.a];
-        const BodyState& b = m_view.states[row.b];
-        const float now = row_separation(m_view, row, p);
+        const BodyState& a = m_view.states[constraint.a];
+        const BodyState& b = m_view.states[constraint.b];
+        const float now = constraint_separation(m_view, constraint, p);
         const float reach = m_ctx.h * (length(b.velocity - a.velocity) + std::fabs(a.angular_velocity) * length(p.ra));
         if (now > reach)
             return;
-        const Manifold ahead = facing(row, m_ctx.h).manifold;
-        if (ahead.count != 1 || dot(ahead.normal, row.n) < 0.5f)
+        const Manifold ahead = facing(constraint, m_ctx.h).manifold;
+        if (ahead.count != 1 || dot(ahead.normal, constraint.n) < 0.5f)
             return;
         const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
-        p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, row.n));
+        p.predicted_bend = ahead.points[0].separation - (now + m_ctx.h * dot(v, constraint.n));
     }
 
     // By a kinematic body that turns.
-    [[nodiscard]] bool is_carried(const ContactRow& row) const
+    [[nodiscard]] bool is_carried(const ContactConstraint& constraint) const
     {
         const auto carries = [](const BodyState& s) { return (s.flags & body_flag::dynamic) == 0 && s.angular_velocity != 0; };
-        return carries(m_view.states[row.a]) || carries(m_view.states[row.b]);
+        return carries(m_view.states[constraint.a]) || carries(m_view.states[constraint.b]);
     }
 
     // Of corners and edges, to second order in the turn: points go around, and the face of a, or of b, turns meanwhile.
-    void predict_turn(ContactRow& row) const
+    void predict_turn(ContactConstraint& constraint) const
     {
-        const BodyState& a = m_view.states[row.a];
-        const BodyState& b = m_view.states[row.b];
+        const BodyState& a = m_view.states[constraint.a];
+        const BodyState& b = m_view.states[constraint.b];
         const float wa = a.angular_velocity;
         const float wb = b.angular_velocity;
         const float turning = 0.5f * m_ctx.h * m_ctx.h;
-        for (int i = 0; i < row.count; ++i)
+        for (int i = 0; i < constraint.count; ++i)
         {
-            RowPoint& p = row.points[i];
+            ConstraintPoint& p = constraint.points[i];
             const Vec2 v = b.velocity + cross(wb, p.rb) - a.velocity - cross(wa, p.ra);
-            p.predicted_bend =
-                turning * (wa * wa * dot(row.n, p.ra) - wb * wb * dot(row.n, p.rb) + (wa + wb) * dot(perp(row.n), v));
+            p.predicted_bend = turning * (wa * wa * dot(constraint.n, p.ra) - wb * wb * dot(constraint.n, p.rb) +
+                                          (wa + wb) * dot(perp(constraint.n), v));
         }
     }
 
-    void refresh_rows()
+    void refresh_constraints()
     {
-        for_each_row([this](ContactRow& row) { row.followed != 0 ? follow(row) : refresh_row(row); });
+        for_each_constraint([this](ContactConstraint& constraint)
+                            { constraint.followed != 0 ? follow(constraint) : refresh_constraint(constraint); });
     }
 
     // Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
-    void follow(ContactRow& row)
+    void follow(ContactConstraint& constraint)
     {
-        const BodyState& a = m_view.states[row.a];
-        const BodyState& b = m_view.states[row.b];
-        const float least = (is_carried(row) ? 0.1f : 1.0f) * follow_turn;
-        if (row.count > 0 && !has_turned(row.turn_a, a.delta_rotation, least) && !has_turned(row.turn_b, b.delta_rotation, least))
+        const BodyState& a = m_view.states[constraint.a];
+        const BodyState& b = m_view.states[constraint.b];
+        const float least = (is_carried(constraint) ? 0.1f : 1.0f) * follow_turn;
+        if (constraint.count > 0 && !has_turned(constraint.turn_a, a.delta_rotation, least) &&
+            !has_turned(constraint.turn_b, b.delta_rotation, least))
             return;
-        Manifold fresh = manifold_of(row.contact, row, 0);
-        carry_points(m_ctx.state.contacts[row.contact].manifold, fresh, row);
-        set_row_geometry(m_scratch, row, fresh);
-        m_ctx.state.contacts[row.contact].manifold = fresh;
-        impulses_of(m_ctx.state, row.contact) = {}; // the row has them
+        Manifold fresh = manifold_of(constraint.contact, constraint, 0);
+        carry_points(m_ctx.state.contacts[constraint.contact].manifold, fresh, constraint);
+        set_constraint_geometry(m_scratch, constraint, fresh);
+        m_ctx.state.contacts[constraint.contact].manifold = fresh;
+        impulses_of(m_ctx.state, constraint.contact) = {}; // the constraint has them
     }
 
     [[nodiscard]] static bool has_turned(Rotation from, Rotation to, float least)
@@ -791,48 +796,49 @@ private:
         return std::fabs(to.s - from.s) + std::fabs(to.c - from.c) > least;
     }
 
-    void refresh_row(ContactRow& row)
+    void refresh_constraint(ContactConstraint& constraint)
     {
-        if (row.refreshed == 0)
+        if (constraint.refreshed == 0)
             return;
-        if (row.count == 0)
+        if (constraint.count == 0)
         {
-            roll_back(row);
+            roll_back(constraint);
             return;
         }
-        const Facing now = facing(row, 0);
+        const Facing now = facing(constraint, 0);
         if (now.manifold.count != 1)
             return;
-        if (now.contact != row.contact && has_row(now.contact))
+        if (now.contact != constraint.contact && has_constraint(now.contact))
         {
-            row.count = 0; // rolled over to a piece that has its own row
+            constraint.count = 0; // rolled over to a piece that has its own constraint
             return;
         }
-        set_row_geometry(m_scratch, row, now.manifold);
-        if (now.contact == row.contact)
+        set_constraint_geometry(m_scratch, constraint, now.manifold);
+        if (now.contact == constraint.contact)
             return;
         leave_color(m_ctx.state, m_ctx.state.contacts[now.contact]);
         m_ctx.state.contacts[now.contact].color =
-            std::exchange(m_ctx.state.contacts[row.contact].color, none); // of the same bodies
-        forget_impulses(m_ctx.state, row.contact);
-        row.contact = now.contact;
+            std::exchange(m_ctx.state.contacts[constraint.contact].color, none); // of the same bodies
+        forget_impulses(m_ctx.state, constraint.contact);
+        constraint.contact = now.contact;
     }
 
     // Onto the piece that it left before.
-    void roll_back(ContactRow& row)
+    void roll_back(ContactConstraint& constraint)
     {
-        const Manifold now = manifold_of(row.contact, row, 0);
+        const Manifold now = manifold_of(constraint.contact, constraint, 0);
         if (now.count != 1)
             return;
-        row.points[0].normal_impulse = row.points[0].tangent_impulse = 0;
-        set_row_geometry(m_scratch, row, now);
+        constraint.points[0].normal_impulse = constraint.points[0].tangent_impulse = 0;
+        set_constraint_geometry(m_scratch, constraint, now);
     }
 
-    [[nodiscard]] bool has_row(int contact)
+    [[nodiscard]] bool has_constraint(int contact)
     {
-        const auto is_it = [&](const ContactRow& row) { return row.contact == contact && !is_dropped(row); };
-        return std::any_of(m_rows.begin(), m_rows.end(), is_it) ||
-               std::any_of(m_output.late_rows.begin(), m_output.late_rows.end(), is_it);
+        const auto is_it = [&](const ContactConstraint& constraint)
+        { return constraint.contact == contact && !is_dropped(constraint); };
+        return std::any_of(m_constraints.begin(), m_constraints.end(), is_it) ||
+               std::any_of(m_output.late_constraints.begin(), m_output.late_constraints.end(), is_it);
     }
 
     // --- impacts ---------------------------------------------------------------------------------------------------------------------
@@ -857,7 +863,7 @@ private:
 
     void finish_substep(int k)
     {
-        for_each_row(sum_impulses);
+        for_each_constraint(sum_impulses);
         finish_joint_substep(m_view, m_ctx.state, m_joints);
         if (!m_joints.empty() && m_output.direct->yields())
             go_on_yielding();
@@ -891,32 +897,32 @@ private:
                     m_view.states[s].flags |= body_flag::pressed;
             }
         }
-        for_each_row(
-            [&](ContactRow& row)
+        for_each_constraint(
+            [&](ContactConstraint& constraint)
             {
-                if (!is_pulled(row.a, row.b))
+                if (!is_pulled(constraint.a, constraint.b))
                     return;
-                for (RowPoint& p : row.points)
+                for (ConstraintPoint& p : constraint.points)
                     p.normal_impulse = p.tangent_impulse = 0;
             });
-        for (WideRow& row : std::span(m_wide, as_index(m_island.wide_count)))
+        for (WideContact& constraint : std::span(m_wide, as_index(m_island.wide_count)))
         {
             for (int i = 0; i < lane_count; ++i)
             {
-                if (!is_pulled(row.a.v[i], row.b.v[i]))
+                if (!is_pulled(constraint.a.v[i], constraint.b.v[i]))
                     continue;
-                for (WidePoint& p : row.points)
+                for (WidePoint& p : constraint.points)
                     p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
             }
         }
     }
 
-    static void sum_impulses(ContactRow& row)
+    static void sum_impulses(ContactConstraint& constraint)
     {
-        for (int i = 0; i < row.count; ++i)
+        for (int i = 0; i < constraint.count; ++i)
         {
-            row.points[i].total_impulse += row.points[i].normal_impulse;
-            row.points[i].total_tangent += row.points[i].tangent_impulse;
+            constraint.points[i].total_impulse += constraint.points[i].normal_impulse;
+            constraint.points[i].total_tangent += constraint.points[i].tangent_impulse;
         }
     }
 
@@ -930,10 +936,10 @@ private:
     WorkerTeam& m_team;
     bool m_watches_energy;
     SolverView m_view;
-    std::span<ContactRow> m_rows;
+    std::span<ContactConstraint> m_constraints;
     std::span<JointWork> m_joints;
-    WideRow* m_wide;
-    WideNotes* m_notes;
+    WideContact* m_wide;
+    WideContactNotes* m_notes;
     std::uint8_t* m_struck; ///< lanes of each group
     WideSoftness m_softness;
     WideJoint* m_wide_joints;

@@ -6,7 +6,7 @@
 
 namespace carom::internal {
 
-/// All sub-steps of an island whose rows are filled. `energy` is memory; `worker team` shares a large island's work.
+/// All sub-steps of an island whose constraints are filled. `energy` is memory; `worker team` shares a large island's work.
 void solve_island(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, WorkerTeam& team);
 
 } // namespace carom::internal

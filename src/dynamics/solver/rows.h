@@ -1,7 +1,7 @@
 #pragma once
 
-// The rows that the solver iterates over, made from contacts and joints once per step. Symbols: a, b the bodies; n the normal from a to b, t = perp(n);
-// r the lever arm; m the effective mass of a row, 1 / (J M^-1 J^T).
+// The constraints that the solver iterates over, made from contacts and joints once per step. Symbols: a, b the bodies; n the normal from a to b, t = perp(n);
+// r the lever arm; m the effective mass of a constraint, 1 / (J M^-1 J^T).
 
 #include "carom/math.h"
 #include "dynamics/state/scene_state.h"
@@ -64,7 +64,7 @@ struct LawWork
     Vec2 acceleration{};
 };
 
-struct RowPoint
+struct ConstraintPoint
 {
     Vec2 ra{}; ///< lever arms of the Jacobian
     Vec2 rb{};
@@ -78,12 +78,12 @@ struct RowPoint
     float normal_mass = 0;
     float tangent_mass = 0;
     float separation_before = 0; ///< at the start of the sub-step, in islands that are watched for their energy
-    float approach = 0;          ///< speed at the start of the sub-step, of rows that bear nothing yet
+    float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear nothing yet
     float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
 };
 
-struct ContactRow
+struct ContactConstraint
 {
     std::int32_t a = 0; ///< states
     std::int32_t b = 0;
@@ -104,17 +104,21 @@ struct ContactRow
     std::uint8_t hit = 0;       ///< its impact was reported
     std::uint8_t pressed = 0;   ///< in this sub-step, before it was relaxed
     Softness softness{};
-    RowPoint points[2];
+    ConstraintPoint points[2];
 };
 
-[[nodiscard]] inline bool bears_load(const ContactRow& row)
+[[nodiscard]] inline bool bears_load(const ContactConstraint& constraint)
 {
-    return (row.count > 0 && row.points[0].normal_impulse > 0) || (row.count == 2 && row.points[1].normal_impulse > 0);
+    return (constraint.count > 0 && constraint.points[0].normal_impulse > 0) ||
+           (constraint.count == 2 && constraint.points[1].normal_impulse > 0);
 }
 
 /// Of a body that has taken off; without points alone it may still come to have some.
-inline void drop(ContactRow& row) { row.count = row.refreshed = row.followed = 0; }
-[[nodiscard]] inline bool is_dropped(const ContactRow& row) { return row.count == 0 && row.refreshed == 0 && row.followed == 0; }
+inline void drop(ContactConstraint& constraint) { constraint.count = constraint.refreshed = constraint.followed = 0; }
+[[nodiscard]] inline bool is_dropped(const ContactConstraint& constraint)
+{
+    return constraint.count == 0 && constraint.refreshed == 0 && constraint.followed == 0;
+}
 
 /// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
 struct SpringKick

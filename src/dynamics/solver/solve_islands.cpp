@@ -1,5 +1,5 @@
 // Stage 5, solve: large islands one after the other on all threads, small ones side by side, a batch of them to a task, or by threads that a large one has
-// nothing for. An island's rows are filled just before it is solved (island_solver.cpp) and committed right after.
+// nothing for. An island's constraints are filled just before it is solved (island_solver.cpp) and committed right after.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
@@ -63,7 +63,7 @@ void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, WorkerTe
 // Batches of about so many bodies: enough work for a task, and a choice that depends on the islands alone.
 constexpr int batch_bodies = 64;
 
-// The islands of a batch are solved one after the other in the same memory, which stays in the cache, unless their rows stay for the
+// The islands of a batch are solved one after the other in the same memory, which stays in the cache, unless their constraints stay for the
 // next step. Fills Scratch::order with where batches begin.
 void form_batches(Scratch& scratch)
 {
@@ -98,15 +98,15 @@ void form_batches(Scratch& scratch)
     for (Island& island : scratch.islands)
     {
         island.wide_store += is_large(island) ? store : 0; // the large ones come behind
-        if (scratch.cached_graph.rows_apart)
+        if (scratch.cached_graph.constraints_apart)
         {
             island.wide_store = island.first_wide;
             groups = island.first_wide + island.wide_count;
         }
     }
-    scratch.wide_rows.make_room(static_cast<std::size_t>(groups));
+    scratch.wide_contacts.make_room(static_cast<std::size_t>(groups));
     scratch.wide_notes.make_room(static_cast<std::size_t>(groups));
-    set_size(scratch.struck, scratch.wide_rows.size());
+    set_size(scratch.struck, scratch.wide_contacts.size());
 }
 
 // All threads on one after the other.
@@ -158,7 +158,7 @@ void solve_islands(StepContext& ctx)
         WorkerTeam::run(tasks, [&](WorkerTeam& team) { solve_large(ctx, team); }, batches, solve_some);
     else
         run_tasks(tasks, batches, solve_some);
-    ctx.state.rows_stamp = ++scratch.cached_graph.stamp;
+    ctx.state.lanes_stamp = ++scratch.cached_graph.stamp;
 }
 
 } // namespace carom::internal

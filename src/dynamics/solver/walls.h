@@ -11,16 +11,16 @@ namespace carom::internal {
 class Walls
 {
 public:
-    struct Rows
+    struct Constraints
     {
-        std::span<const ContactRow> rows;
-        std::span<const ContactRow> late_rows;
-        std::span<const ContactRow> pulled; ///< of bodies in joints, that stand in lanes
-        std::span<const WideRow> wide;
+        std::span<const ContactConstraint> constraints;
+        std::span<const ContactConstraint> late_constraints;
+        std::span<const ContactConstraint> pulled; ///< of bodies in joints, that stand in lanes
+        std::span<const WideContact> wide;
         std::span<const WideCore> cores;
     };
 
-    Walls(const SolverView& view, const Rows& rows) : m_view(view), m_rows(rows) {}
+    Walls(const SolverView& view, const Constraints& constraints) : m_view(view), m_constraints(constraints) {}
 
     /// How much deeper the present speeds lead bodies in joints into them within the sub-step, in all.
     [[nodiscard]] float entry() const;
@@ -31,15 +31,15 @@ public:
     void guard_wide_cores(int first, int last) const;
 
 private:
-    [[nodiscard]] bool is_jointed(const ContactRow& row) const;
-    [[nodiscard]] float entry(const ContactRow& row) const;
-    int guard_rows(float part) const;
-    bool guard_core(const ContactRow& row, float part) const;
+    [[nodiscard]] bool is_jointed(const ContactConstraint& constraint) const;
+    [[nodiscard]] float entry(const ContactConstraint& constraint) const;
+    int guard_constraints(float part) const;
+    bool guard_core(const ContactConstraint& constraint, float part) const;
     void guard_wide_core(const WideCore& core) const;
     void push_out(std::int32_t state, Vec2 way) const;
 
     const SolverView& m_view;
-    Rows m_rows;
+    Constraints m_constraints;
 };
 
 } // namespace carom::internal

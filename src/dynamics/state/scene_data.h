@@ -19,7 +19,7 @@ namespace carom::internal {
 struct Tolerances
 {
     float slop = 0;        ///< shapes this near touch; what overlaps by no more may fly
-    float speculation = 0; ///< gap within which quiet pairs get rows
+    float speculation = 0; ///< gap within which quiet pairs get constraints
     float keep = 0;        ///< in crowds manifolds are followed until bodies have moved so far against each other
     float box_margin = 0;  ///< how fat boxes are
     float push_speed = 0;  ///< overlap is removed no faster

@@ -190,7 +190,7 @@ inline constexpr std::uint32_t of_union =
     32768; ///< flush neighbours have turned or emptied its manifold: no points are not apart
 inline constexpr std::uint32_t all_cached = kept | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
-    1024; ///< in its row alone: normal, anchors and separations are older than the step, see settled_manifold
+    1024; ///< in its constraint alone: normal, anchors and separations are older than the step, see settled_manifold
 } // namespace contact_flag
 
 /// Of a manifold's points, for warm starting and for who asks.
@@ -222,8 +222,8 @@ struct alignas(64) Contact
     float friction = 0;
     float rolling_resistance = 0;
     float surface_speed = 0;   ///< of b against a along perp(normal)
-    std::int32_t color = none; ///< of its row; kept as long as it has one, see coloring.h
-    std::int32_t wide = none;  ///< during a step: where its wide row is, group * lane_count + lane
+    std::int32_t color = none; ///< of its constraint; kept as long as it has one, see coloring.h
+    std::int32_t wide = none;  ///< during a step: where its wide contact constraint is, group * lane_count + lane
     Manifold manifold{};
 };
 static_assert(sizeof(Contact) == 128);
@@ -270,11 +270,11 @@ struct alignas(64) CachedManifold
     float radius = 0;    ///< of the corners before the edge
 };
 
-/// Does a wide row of the last step still hold all that a contact is? As far as rows_stamp holds.
+/// Does a wide contact constraint of the last step still hold all that a contact is? As far as lanes_stamp holds.
 enum class LaneMark : std::uint8_t
 {
     None,
-    InRow
+    InLane
 };
 
 /// Two shapes whose fat boxes overlap, one of which is awake. They have a contact while they may meet in the step.
@@ -293,7 +293,7 @@ enum class JointType : std::uint8_t
     Prismatic,
 };
 
-/// Where a joint's rows keep their impulses.
+/// Where a joint's constraints keep their impulses.
 enum JointSlot
 {
     slot_x, ///< a point held along x, or a slider held across its axis
@@ -307,7 +307,7 @@ enum JointSlot
     joint_slots
 };
 
-/// What a joint may be off by: its held rows, then how far it has passed its lower and upper limit, as numbers below 0.
+/// What a joint may be off by: its held constraints, then how far it has passed its lower and upper limit, as numbers below 0.
 inline constexpr int joint_errors = 4;
 
 /// The pose of a body a while ago, or when it became quiet. It is valid while the sleep_time is not 0.
@@ -385,10 +385,11 @@ struct SceneState
     std::vector<std::int32_t> awake_contacts;
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
-    std::uint64_t rows_stamp = 0;           ///< of the wide rows in Scratch that hold the impulses of this state; 0: none do
-    float substep_of_impulses = 0;          ///< s, of which the impulses are that contacts and joints keep
-    float longest_substep = 0;              ///< s, of late
-    bool graph_dirty = true;                ///< touches, joints, masses, types or sleep have changed since islands were built
+    std::uint64_t lanes_stamp =
+        0; ///< of the wide contact constraints in Scratch that hold the impulses of this state; 0: none do
+    float substep_of_impulses = 0; ///< s, of which the impulses are that contacts and joints keep
+    float longest_substep = 0;     ///< s, of late
+    bool graph_dirty = true;       ///< touches, joints, masses, types or sleep have changed since islands were built
     Vec2 gravity{};
     float slop = 0;                 ///< the scene's, see Tolerances
     float greatest_sleep_speed = 0; ///< that any body has had; the scene's, or more
@@ -397,7 +398,7 @@ struct SceneState
     double accumulator = 0;
 };
 
-/// The contact has been changed, or will be, by other than its row.
+/// The contact has been changed, or will be, by other than its constraint.
 inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static_cast<std::size_t>(contact)] = LaneMark::None; }
 
 [[nodiscard]] inline ContactImpulses& impulses_of(SceneState& state, int contact)

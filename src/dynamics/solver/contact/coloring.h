@@ -1,7 +1,7 @@
 #pragma once
 
-// Rows of one colour share no body that gives way, so that they are solved side by side. A contact keeps its colour for as long as it has a row; which
-// colours a body's contacts have stands in SceneState::colors, so that only a new row looks for one.
+// Constraints of one colour share no body that gives way, so that they are solved side by side. A contact keeps its colour for as long as it has a constraint; which
+// colours a body's contacts have stands in SceneState::colors, so that only a new constraint looks for one.
 
 #include "dynamics/state/scene_state.h"
 
@@ -12,7 +12,7 @@
 
 namespace carom::internal {
 
-inline constexpr int color_limit = 63; ///< no colour is left: the row stands alone
+inline constexpr int color_limit = 63; ///< no colour is left: the constraint stands alone
 
 [[nodiscard]] inline bool is_moving_dynamic(const SceneState& state, int body)
 {

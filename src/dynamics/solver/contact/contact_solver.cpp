@@ -7,7 +7,7 @@
 // Apart (C > 0) the bias is C / h: the bodies may close the gap in this sub-step but not more. Overlapping, it is the soft constraint's
 // bias_rate C, no faster than the push speed. Friction: |tangent impulse| <= mu normal impulse, towards the surface speed.
 //
-// Rows of round shapes in small islands also carry predicted_bend: what the straight-line prediction of C misses over the sub-step because
+// Constraints of round shapes in small islands also carry predicted_bend: what the straight-line prediction of C misses over the sub-step because
 // the surfaces curve. It is corrected rigidly, C / h style; with the fresh normal of the relaxation that makes the pair of passes the
 // RATTLE integrator, which neither gains nor loses energy around a curve.
 
@@ -33,41 +33,43 @@ struct Pair
     const StateConstants& ca;
     const StateConstants& cb;
 
-    Pair(const SolverView& view, const ContactRow& row)
-        : sa(view.states[row.a]), sb(view.states[row.b]), ca(view.constants[row.a]), cb(view.constants[row.b])
+    Pair(const SolverView& view, const ContactConstraint& constraint)
+        : sa(view.states[constraint.a]), sb(view.states[constraint.b]), ca(view.constants[constraint.a]),
+          cb(view.constants[constraint.b])
     {}
 
-    [[nodiscard]] Vec2 relative_velocity(const RowPoint& p) const
+    [[nodiscard]] Vec2 relative_velocity(const ConstraintPoint& p) const
     {
         return sb.velocity + cross(sb.angular_velocity, p.rb) - sa.velocity - cross(sa.angular_velocity, p.ra);
     }
 
-    void apply(const RowPoint& p, Vec2 impulse) const
+    void apply(const ConstraintPoint& p, Vec2 impulse) const
     {
         apply_impulse(sa, ca, p.ra, -impulse);
         apply_impulse(sb, cb, p.rb, impulse);
     }
 };
 
-void solve_rolling(const Pair& pair, ContactRow& row)
+void solve_rolling(const Pair& pair, ContactConstraint& constraint)
 {
     float load = 0;
-    for (int i = 0; i < row.count; ++i)
-        load += row.points[i].normal_impulse;
-    const float limit = row.rolling * load;
-    const float wanted = row.rolling_impulse + row.rolling_mass * (pair.sa.angular_velocity - pair.sb.angular_velocity);
+    for (int i = 0; i < constraint.count; ++i)
+        load += constraint.points[i].normal_impulse;
+    const float limit = constraint.rolling * load;
+    const float wanted =
+        constraint.rolling_impulse + constraint.rolling_mass * (pair.sa.angular_velocity - pair.sb.angular_velocity);
     const float clamped = std::clamp(wanted, -limit, limit);
-    const float change = clamped - row.rolling_impulse;
-    row.rolling_impulse = clamped;
+    const float change = clamped - constraint.rolling_impulse;
+    constraint.rolling_impulse = clamped;
     pair.sa.angular_velocity -= pair.ca.inverse_inertia * change;
     pair.sb.angular_velocity += pair.cb.inverse_inertia * change;
 }
 
-void solve_friction(const Pair& pair, const ContactRow& row, RowPoint& p)
+void solve_friction(const Pair& pair, const ContactConstraint& constraint, ConstraintPoint& p)
 {
-    const Vec2 t = perp(row.n);
-    const float slip = dot(pair.relative_velocity(p), t) - row.surface_speed;
-    const float limit = row.friction * p.normal_impulse;
+    const Vec2 t = perp(constraint.n);
+    const float slip = dot(pair.relative_velocity(p), t) - constraint.surface_speed;
+    const float limit = constraint.friction * p.normal_impulse;
     const float clamped = std::clamp(p.tangent_impulse - p.tangent_mass * slip, -limit, limit);
     const float change = clamped - p.tangent_impulse;
     p.tangent_impulse = clamped;
@@ -75,53 +77,54 @@ void solve_friction(const Pair& pair, const ContactRow& row, RowPoint& p)
 }
 
 // Inlined in any case: three numbers are returned through memory, and waited for.
-[[gnu::always_inline]] inline NormalTarget target_of_normal(const SolverView& view, const ContactRow& row, const RowPoint& p,
-                                                            bool use_bias)
+[[gnu::always_inline]] inline NormalTarget target_of_normal(const SolverView& view, const ContactConstraint& constraint,
+                                                            const ConstraintPoint& p, bool use_bias)
 {
-    const float separation = row_separation(view, row, p);
+    const float separation = constraint_separation(view, constraint, p);
     if (!use_bias)
         return {std::max(separation, 0.0f) * view.inverse_h, 1, 0};
     const float ahead = separation + p.predicted_bend;
     if (ahead > 0)
         return {ahead * view.inverse_h, 1, 0};
-    const float soft = std::max(row.softness.bias_rate * std::min(separation, 0.0f), -view.push_speed);
+    const float soft = std::max(constraint.softness.bias_rate * std::min(separation, 0.0f), -view.push_speed);
     const float bent = soft + (separation > 0 ? ahead : p.predicted_bend) * view.inverse_h;
-    if (row.refreshed)
+    if (constraint.refreshed)
         return {bent, 1, 0};
-    return {bent, row.softness.mass_scale, row.softness.impulse_scale};
+    return {bent, constraint.softness.mass_scale, constraint.softness.impulse_scale};
 }
 
-void set_normal_impulse(const Pair& pair, const ContactRow& row, RowPoint& p, float impulse)
+void set_normal_impulse(const Pair& pair, const ContactConstraint& constraint, ConstraintPoint& p, float impulse)
 {
     const float change = impulse - p.normal_impulse;
     p.normal_impulse = impulse;
-    pair.apply(p, change * row.n);
+    pair.apply(p, change * constraint.n);
 }
 
-void solve_normal(const SolverView& view, const Pair& pair, const ContactRow& row, RowPoint& p, bool use_bias)
+void solve_normal(const SolverView& view, const Pair& pair, const ContactConstraint& constraint, ConstraintPoint& p,
+                  bool use_bias)
 {
-    const NormalTarget target = target_of_normal(view, row, p, use_bias);
-    const float speed = dot(pair.relative_velocity(p), row.n);
+    const NormalTarget target = target_of_normal(view, constraint, p, use_bias);
+    const float speed = dot(pair.relative_velocity(p), constraint.n);
     const float change = -p.normal_mass * target.mass_scale * (speed + target.bias) - target.impulse_scale * p.normal_impulse;
-    set_normal_impulse(pair, row, p, std::max(p.normal_impulse + change, 0.0f)); // contacts push and never pull
+    set_normal_impulse(pair, constraint, p, std::max(p.normal_impulse + change, 0.0f)); // contacts push and never pull
 }
 
 // Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account, boxes that
 // overlap are shot apart and stacks lean. With x the accumulated impulses: A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
-void solve_both_normals(const SolverView& view, const Pair& pair, ContactRow& row, bool use_bias)
+void solve_both_normals(const SolverView& view, const Pair& pair, ContactConstraint& constraint, bool use_bias)
 {
-    RowPoint& p = row.points[0];
-    RowPoint& q = row.points[1];
-    const NormalTarget tp = target_of_normal(view, row, p, use_bias);
-    const NormalTarget tq = target_of_normal(view, row, q, use_bias);
+    ConstraintPoint& p = constraint.points[0];
+    ConstraintPoint& q = constraint.points[1];
+    const NormalTarget tp = target_of_normal(view, constraint, p, use_bias);
+    const NormalTarget tq = target_of_normal(view, constraint, q, use_bias);
     const float k11 = 1 / p.normal_mass;
     const float k22 = 1 / q.normal_mass;
-    const float k12 = row.coupling;
+    const float k12 = constraint.coupling;
     // Softness is compliance on the diagonal: mass_scale = k / (k + c), impulse_scale = c / (k + c).
     const float a11 = k11 / tp.mass_scale;
     const float a22 = k22 / tq.mass_scale;
-    const float b1 = dot(pair.relative_velocity(p), row.n) + tp.bias - (k11 * p.normal_impulse + k12 * q.normal_impulse);
-    const float b2 = dot(pair.relative_velocity(q), row.n) + tq.bias - (k12 * p.normal_impulse + k22 * q.normal_impulse);
+    const float b1 = dot(pair.relative_velocity(p), constraint.n) + tp.bias - (k11 * p.normal_impulse + k12 * q.normal_impulse);
+    const float b2 = dot(pair.relative_velocity(q), constraint.n) + tq.bias - (k12 * p.normal_impulse + k22 * q.normal_impulse);
     const float inverse_det = 1 / (a11 * a22 - k12 * k12);
     float x = inverse_det * (k12 * b2 - a22 * b1);
     float y = inverse_det * (k12 * b1 - a11 * b2);
@@ -135,71 +138,71 @@ void solve_both_normals(const SolverView& view, const Pair& pair, ContactRow& ro
             x = 0;
         }
     }
-    set_normal_impulse(pair, row, p, x);
-    set_normal_impulse(pair, row, q, y);
+    set_normal_impulse(pair, constraint, p, x);
+    set_normal_impulse(pair, constraint, q, y);
 }
 
 } // namespace
 
-float row_separation(const SolverView& view, const ContactRow& row, const RowPoint& p)
+float constraint_separation(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p)
 {
-    const BodyState& a = view.states[row.a];
-    const BodyState& b = view.states[row.b];
+    const BodyState& a = view.states[constraint.a];
+    const BodyState& b = view.states[constraint.b];
     const Vec2 d = b.delta_position + rotate(b.delta_rotation, p.rb0) - a.delta_position - rotate(a.delta_rotation, p.ra0);
-    return p.base + dot(d, row.n);
+    return p.base + dot(d, constraint.n);
 }
 
-NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& p, bool use_bias)
+NormalTarget normal_target(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p, bool use_bias)
 {
-    return target_of_normal(view, row, p, use_bias);
+    return target_of_normal(view, constraint, p, use_bias);
 }
 
-float row_slip(const SolverView& view, const ContactRow& row, const RowPoint& p)
+float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p)
 {
-    return dot(Pair(view, row).relative_velocity(p), perp(row.n)) - row.surface_speed;
+    return dot(Pair(view, constraint).relative_velocity(p), perp(constraint.n)) - constraint.surface_speed;
 }
 
-float row_speed(const SolverView& view, const ContactRow& row, const RowPoint& p)
+float constraint_speed(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p)
 {
-    return dot(Pair(view, row).relative_velocity(p), row.n);
+    return dot(Pair(view, constraint).relative_velocity(p), constraint.n);
 }
 
-void warm_start(const SolverView& view, std::span<ContactRow> rows)
+void warm_start(const SolverView& view, std::span<ContactConstraint> constraints)
 {
-    for (ContactRow& row : rows)
+    for (ContactConstraint& constraint : constraints)
     {
-        const Pair pair(view, row);
-        for (int i = 0; i < row.count; ++i)
+        const Pair pair(view, constraint);
+        for (int i = 0; i < constraint.count; ++i)
         {
-            const RowPoint& p = row.points[i];
-            pair.apply(p, p.normal_impulse * row.n + p.tangent_impulse * perp(row.n));
+            const ConstraintPoint& p = constraint.points[i];
+            pair.apply(p, p.normal_impulse * constraint.n + p.tangent_impulse * perp(constraint.n));
         }
-        pair.sa.angular_velocity -= pair.ca.inverse_inertia * row.rolling_impulse;
-        pair.sb.angular_velocity += pair.cb.inverse_inertia * row.rolling_impulse;
+        pair.sa.angular_velocity -= pair.ca.inverse_inertia * constraint.rolling_impulse;
+        pair.sb.angular_velocity += pair.cb.inverse_inertia * constraint.rolling_impulse;
     }
 }
 
-void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias)
+void solve_contact_constraints(const SolverView& view, std::span<ContactConstraint> constraints, bool use_bias)
 {
-    for (ContactRow& row : rows)
+    for (ContactConstraint& constraint : constraints)
     {
-        const Pair pair(view, row);
-        if (row.rolling > 0)
-            solve_rolling(pair, row);
-        if (row.count == 2 && row.coupling != 0)
-            solve_both_normals(view, pair, row, use_bias);
+        const Pair pair(view, constraint);
+        if (constraint.rolling > 0)
+            solve_rolling(pair, constraint);
+        if (constraint.count == 2 && constraint.coupling != 0)
+            solve_both_normals(view, pair, constraint, use_bias);
         else
-            for (int i = 0; i < row.count; ++i)
-                solve_normal(view, pair, row, row.points[i], use_bias);
-        for (int i = 0; i < row.count; ++i)
-            solve_friction(pair, row, row.points[i]);
+            for (int i = 0; i < constraint.count; ++i)
+                solve_normal(view, pair, constraint, constraint.points[i], use_bias);
+        for (int i = 0; i < constraint.count; ++i)
+            solve_friction(pair, constraint, constraint.points[i]);
     }
 }
 
-void note_approach(const SolverView& view, ContactRow& row)
+void note_approach(const SolverView& view, ContactConstraint& constraint)
 {
-    for (int i = 0; i < row.count; ++i)
-        row.points[i].approach = -row_speed(view, row, row.points[i]);
+    for (int i = 0; i < constraint.count; ++i)
+        constraint.points[i].approach = -constraint_speed(view, constraint, constraint.points[i]);
 }
 
 } // namespace carom::internal

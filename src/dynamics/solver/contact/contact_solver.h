@@ -1,6 +1,6 @@
 #pragma once
 
-// The passes over contact rows. Each takes the rows of one island; h is the sub-step.
+// The passes over contact constraints. Each takes the constraints of one island; h is the sub-step.
 
 #include "dynamics/step_context.h"
 
@@ -28,11 +28,11 @@ struct SolverView
     return straight - (0.5f * view.h * view.h) * view.constants[state].acceleration;
 }
 
-void warm_start(const SolverView& view, std::span<ContactRow> rows);
+void warm_start(const SolverView& view, std::span<ContactConstraint> constraints);
 
 /// One pass of sequential impulses: rolling, friction, then the normal direction. With bias the soft constraint also removes overlap;
 /// without ("relax") it only stops approach, taking out the speed that the bias put in.
-void solve_rows(const SolverView& view, std::span<ContactRow> rows, bool use_bias);
+void solve_contact_constraints(const SolverView& view, std::span<ContactConstraint> constraints, bool use_bias);
 
 /// The aim of a point's normal impulse: a speed of -bias, softly where the scales say so.
 struct NormalTarget
@@ -42,16 +42,18 @@ struct NormalTarget
     float impulse_scale;
 };
 
-[[nodiscard]] NormalTarget normal_target(const SolverView& view, const ContactRow& row, const RowPoint& point, bool use_bias);
+[[nodiscard]] NormalTarget normal_target(const SolverView& view, const ContactConstraint& constraint,
+                                         const ConstraintPoint& point, bool use_bias);
 /// The speed of b's surface over a's along perp(n), beyond the surface speed, m/s.
-[[nodiscard]] float row_slip(const SolverView& view, const ContactRow& row, const RowPoint& point);
+[[nodiscard]] float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
-/// Approach speeds of rows that bear nothing yet, before the sub-step's forces.
-void note_approach(const SolverView& view, ContactRow& row);
+/// Approach speeds of constraints that bear nothing yet, before the sub-step's forces.
+void note_approach(const SolverView& view, ContactConstraint& constraint);
 
-[[nodiscard]] float row_separation(const SolverView& view, const ContactRow& row, const RowPoint& point);
+[[nodiscard]] float constraint_separation(const SolverView& view, const ContactConstraint& constraint,
+                                          const ConstraintPoint& point);
 /// The speed at which the separation grows, m/s.
-[[nodiscard]] float row_speed(const SolverView& view, const ContactRow& row, const RowPoint& point);
+[[nodiscard]] float constraint_speed(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
 void apply_impulse(BodyState& state, const StateConstants& constants, Vec2 arm, Vec2 impulse);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Wide rows of an island stand in bins, two to a colour. A large island is cut into parts of the plane, each with bins of its own: no two parts share a body that
+// Wide constraints of an island stand in bins, two to a colour. A large island is cut into parts of the plane, each with bins of its own: no two parts share a body that
 // gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another has bins behind all parts' and
 // is solved before them, colour by colour.
 
@@ -130,8 +130,8 @@ inline constexpr int worth_all_threads = 1536; // groups
     return island.parts > 0 || island.wide_joint_count >= worth_all_threads;
 }
 
-/// Its rows come from memory.
-[[nodiscard]] inline bool are_rows_far(const Island& island) { return island.wide_count > most_near_rows; }
+/// Its constraints come from memory.
+[[nodiscard]] inline bool are_constraints_far(const Island& island) { return island.wide_count > most_near_constraints; }
 
 [[nodiscard]] inline Partitions contact_bins(const Scratch& scratch, const Island& island)
 {

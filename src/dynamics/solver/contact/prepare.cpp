@@ -84,32 +84,33 @@ float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, V
 }
 
 // Of the normal directions of two points. Points nearly in one place share their load anyhow; solving for both would only divide noise.
-float coupling(const StateConstants& a, const StateConstants& b, const ContactRow& row)
+float coupling(const StateConstants& a, const StateConstants& b, const ContactConstraint& constraint)
 {
-    const RowPoint& p = row.points[0];
-    const RowPoint& q = row.points[1];
-    const float k =
-        row.n.x * row.n.x * (a.inverse_mass.x + b.inverse_mass.x) + row.n.y * row.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
-        cross(p.ra, row.n) * cross(q.ra, row.n) * a.inverse_inertia + cross(p.rb, row.n) * cross(q.rb, row.n) * b.inverse_inertia;
+    const ConstraintPoint& p = constraint.points[0];
+    const ConstraintPoint& q = constraint.points[1];
+    const float k = constraint.n.x * constraint.n.x * (a.inverse_mass.x + b.inverse_mass.x) +
+                    constraint.n.y * constraint.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
+                    cross(p.ra, constraint.n) * cross(q.ra, constraint.n) * a.inverse_inertia +
+                    cross(p.rb, constraint.n) * cross(q.rb, constraint.n) * b.inverse_inertia;
     const bool distinct = p.normal_mass > 0 && q.normal_mass > 0 && k * k * p.normal_mass * q.normal_mass < 0.999f;
     return distinct ? k : 0;
 }
 
 } // namespace
 
-void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m)
+void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& m)
 {
-    const BodyState& sa = scratch.states[static_cast<std::size_t>(row.a)];
-    const BodyState& sb = scratch.states[static_cast<std::size_t>(row.b)];
-    const StateConstants& ca = scratch.constants[static_cast<std::size_t>(row.a)];
-    const StateConstants& cb = scratch.constants[static_cast<std::size_t>(row.b)];
-    row.n = m.normal;
-    row.count = m.count;
-    row.turn_a = sa.delta_rotation;
-    row.turn_b = sb.delta_rotation;
+    const BodyState& sa = scratch.states[static_cast<std::size_t>(constraint.a)];
+    const BodyState& sb = scratch.states[static_cast<std::size_t>(constraint.b)];
+    const StateConstants& ca = scratch.constants[static_cast<std::size_t>(constraint.a)];
+    const StateConstants& cb = scratch.constants[static_cast<std::size_t>(constraint.b)];
+    constraint.n = m.normal;
+    constraint.count = m.count;
+    constraint.turn_a = sa.delta_rotation;
+    constraint.turn_b = sb.delta_rotation;
     for (int i = 0; i < m.count; ++i)
     {
-        RowPoint& p = row.points[i];
+        ConstraintPoint& p = constraint.points[i];
         p.ra = m.points[i].anchor_a;
         p.rb = m.points[i].anchor_b;
         p.ra0 = inverse_rotate(sa.delta_rotation, p.ra);
@@ -118,7 +119,7 @@ void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& m
         p.normal_mass = effective_mass(ca, cb, m.normal, p.ra, p.rb);
         p.tangent_mass = effective_mass(ca, cb, perp(m.normal), p.ra, p.rb);
     }
-    row.coupling = m.count == 2 ? coupling(ca, cb, row) : 0;
+    constraint.coupling = m.count == 2 ? coupling(ca, cb, constraint) : 0;
 }
 
 float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives)
@@ -129,17 +130,17 @@ float core_depth(const SceneState& state, const Contact& contact, const Manifold
     return depth;
 }
 
-void scale_row(ContactRow& row, float by)
+void scale_constraint(ContactConstraint& constraint, float by)
 {
-    row.rolling_impulse *= by;
-    for (RowPoint& p : row.points)
+    constraint.rolling_impulse *= by;
+    for (ConstraintPoint& p : constraint.points)
     {
         p.normal_impulse *= by;
         p.tangent_impulse *= by;
     }
 }
 
-std::int32_t state_for_rows(const StepContext& ctx, const Island& island, int body)
+std::int32_t state_for_constraints(const StepContext& ctx, const Island& island, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
     if (record.awake_index == none)
@@ -158,30 +159,30 @@ std::int32_t state_for_rows(const StepContext& ctx, const Island& island, int bo
     return none;
 }
 
-ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
+ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
 {
     const Contact& contact = ctx.state.contacts[index];
     const StateConstants& ca = ctx.scratch.constants[static_cast<std::size_t>(a)];
     const StateConstants& cb = ctx.scratch.constants[static_cast<std::size_t>(b)];
-    ContactRow row;
-    row.a = a;
-    row.b = b;
-    row.contact = index;
-    row.friction = contact.friction;
-    row.surface_speed = contact.surface_speed;
+    ContactConstraint constraint;
+    constraint.a = a;
+    constraint.b = b;
+    constraint.contact = index;
+    constraint.friction = contact.friction;
+    constraint.surface_speed = contact.surface_speed;
     const bool immovable = ca.inverse_mass == Vec2{} || cb.inverse_mass == Vec2{};
-    row.softness = immovable ? ctx.static_softness : ctx.contact_softness;
+    constraint.softness = immovable ? ctx.static_softness : ctx.contact_softness;
     if (immovable)
-        row.core = core_depth(ctx.state, contact, manifold, ca.inverse_mass != Vec2{});
-    set_row_geometry(ctx.scratch, row, manifold);
-    for (int i = 0; i < row.count; ++i)
+        constraint.core = core_depth(ctx.state, contact, manifold, ca.inverse_mass != Vec2{});
+    set_constraint_geometry(ctx.scratch, constraint, manifold);
+    for (int i = 0; i < constraint.count; ++i)
     {
         const PointImpulses& impulses = impulses_of(ctx.state, index).points[i];
-        row.points[i].normal_impulse = impulses.normal;
-        row.points[i].tangent_impulse = impulses.tangent;
+        constraint.points[i].normal_impulse = impulses.normal;
+        constraint.points[i].tangent_impulse = impulses.tangent;
     }
     if (ctx.slices > 1)
-        scale_row(row, 1 / static_cast<float>(ctx.slices));
+        scale_constraint(constraint, 1 / static_cast<float>(ctx.slices));
     if (contact.rolling_resistance > 0)
     {
         // The limit is a length: coefficient times the radius of what rolls.
@@ -189,11 +190,11 @@ ContactRow prepare_row(const StepContext& ctx, int index, const Manifold& manifo
         const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;
         const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);
         const float k = ca.inverse_inertia + cb.inverse_inertia;
-        row.rolling = contact.rolling_resistance * radius;
-        row.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.slices);
-        row.rolling_mass = k > 0 ? 1 / k : 0;
+        constraint.rolling = contact.rolling_resistance * radius;
+        constraint.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.slices);
+        constraint.rolling_mass = k > 0 ? 1 / k : 0;
     }
-    return row;
+    return constraint;
 }
 
 } // namespace carom::internal

@@ -40,36 +40,36 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
     c.angular_decay = decay(sim.angular_damping, ctx.h);
 }
 
-[[nodiscard]] ContactRow prepare_row(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
-                                     std::int32_t b);
-/// The state of a body as the island's rows see it: all that does not move shares the first, kinematic bodies have a copy in every island. none: it
+[[nodiscard]] ContactConstraint prepare_constraint(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
+                                                   std::int32_t b);
+/// The state of a body as the island's constraints see it: all that does not move shares the first, kinematic bodies have a copy in every island. none: it
 /// belongs to another island.
-[[nodiscard]] std::int32_t state_for_rows(const StepContext& ctx, const Island& island, int body);
+[[nodiscard]] std::int32_t state_for_constraints(const StepContext& ctx, const Island& island, int body);
 /// A body in flight; joint: the hinge to the world that it turns on, or none.
 [[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint);
 
 /// To which depth a contact with what does not give way may go: half of what is inside the other side. Boxes that were put deeper come out by themselves.
 [[nodiscard]] float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives);
 
-/// Writes the points of a manifold taken at the bodies' present poses within the step into the row.
-void set_row_geometry(const Scratch& scratch, ContactRow& row, const Manifold& manifold);
+/// Writes the points of a manifold taken at the bodies' present poses within the step into the constraint.
+void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& manifold);
 
-/// In small islands rows are looked at anew within the step.
-inline void follow_closely(const Contact& contact, const Island& island, ContactRow& row)
+/// In small islands constraints are looked at anew within the step.
+inline void follow_closely(const Contact& contact, const Island& island, ContactConstraint& constraint)
 {
     const bool round = (contact.flags & contact_flag::round) != 0;
-    row.refreshed = island.precise && round;
-    row.followed = island.precise && !round;
+    constraint.refreshed = island.precise && round;
+    constraint.followed = island.precise && !round;
 }
 
 /// A piece of a chain or an arc that has no point with a body now may have one before the step is over, as the body slides over a seam: in small
-/// islands such contacts have rows without points, that are looked at anew.
+/// islands such contacts have constraints without points, that are looked at anew.
 [[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Island& island)
 {
     return island.precise && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
 }
 
 /// All impulses of the last sub-step, for a sub-step of another length.
-void scale_row(ContactRow& row, float by);
+void scale_constraint(ContactConstraint& constraint, float by);
 
 } // namespace carom::internal

@@ -16,21 +16,21 @@ namespace {
 
 struct Lane
 {
-    WideRow& row;
-    WideNotes& notes;
+    WideContact& constraint;
+    WideContactNotes& notes;
     int i;
 
     Lane(Scratch& scratch, std::int32_t lane)
-        : row(scratch.wide_rows[as_index(lane / lane_count)]), notes(scratch.wide_notes[as_index(lane / lane_count)]),
+        : constraint(scratch.wide_contacts[as_index(lane / lane_count)]), notes(scratch.wide_notes[as_index(lane / lane_count)]),
           i(lane % lane_count)
     {}
 
     // J M^-1 J^T of the normal, as the kernels have it.
     [[nodiscard]] float k(const WidePoint& p) const
     {
-        const float mass = row.inverse_mass_a.v[i] + row.inverse_mass_b.v[i];
-        return mass + p.across_a.v[i] * p.across_a.v[i] * row.inverse_inertia_a.v[i] +
-               p.across_b.v[i] * p.across_b.v[i] * row.inverse_inertia_b.v[i];
+        const float mass = constraint.inverse_mass_a.v[i] + constraint.inverse_mass_b.v[i];
+        return mass + p.across_a.v[i] * p.across_a.v[i] * constraint.inverse_inertia_a.v[i] +
+               p.across_b.v[i] * p.across_b.v[i] * constraint.inverse_inertia_b.v[i];
     }
 };
 
@@ -42,15 +42,15 @@ const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
 // Two points that are not nearly in one place.
 bool are_distinct(const Lane& lane)
 {
-    const float coupling = lane.row.coupling.v[lane.i];
-    return coupling * coupling < 0.999f * (lane.k(lane.row.points[0]) * lane.k(lane.row.points[1]));
+    const float coupling = lane.constraint.coupling.v[lane.i];
+    return coupling * coupling < 0.999f * (lane.k(lane.constraint.points[0]) * lane.k(lane.constraint.points[1]));
 }
 
 } // namespace
 
-void clear_sums(WideRow& row, WideNotes& notes)
+void clear_sums(WideContact& constraint, WideContactNotes& notes)
 {
-    for (WidePoint& p : row.points)
+    for (WidePoint& p : constraint.points)
     {
         p.total_impulse = {};
         p.total_tangent = {};
@@ -59,7 +59,7 @@ void clear_sums(WideRow& row, WideNotes& notes)
         approach = {};
 }
 
-void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row, WideNotes& notes, int i)
+void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact& constraint, WideContactNotes& notes, int i)
 {
     for (std::uint32_t* lanes :
          {&notes.loaded, &notes.may_hit, &notes.untold, &notes.edge_of_b, &notes.nearest, &notes.kept, &notes.followed})
@@ -68,18 +68,18 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row
     const Manifold& m = contact.manifold;
     const StateConstants& a = constants_of(ctx, states.a);
     const StateConstants& b = constants_of(ctx, states.b);
-    row.a.v[i] = states.a;
-    row.b.v[i] = states.b;
+    constraint.a.v[i] = states.a;
+    constraint.b.v[i] = states.b;
     notes.contact.v[i] = states.contact;
     notes.body_a.v[i] = contact.body_a;
     notes.body_b.v[i] = contact.body_b;
-    row.nx.v[i] = m.normal.x;
-    row.ny.v[i] = m.normal.y;
-    row.friction.v[i] = contact.friction;
-    row.inverse_mass_a.v[i] = a.inverse_mass.x;
-    row.inverse_mass_b.v[i] = b.inverse_mass.x;
-    row.inverse_inertia_a.v[i] = a.inverse_inertia;
-    row.inverse_inertia_b.v[i] = b.inverse_inertia;
+    constraint.nx.v[i] = m.normal.x;
+    constraint.ny.v[i] = m.normal.y;
+    constraint.friction.v[i] = contact.friction;
+    constraint.inverse_mass_a.v[i] = a.inverse_mass.x;
+    constraint.inverse_mass_b.v[i] = b.inverse_mass.x;
+    constraint.inverse_inertia_a.v[i] = a.inverse_inertia;
+    constraint.inverse_inertia_b.v[i] = b.inverse_inertia;
     notes.count = m.count;
     if (caches_edge_of_b(contact))
         notes.edge_of_b |= 1u << i;
@@ -88,7 +88,7 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row
     for (int k = 0; k < m.count; ++k)
     {
         const ManifoldPoint& from = m.points[k];
-        WidePoint& p = row.points[k];
+        WidePoint& p = constraint.points[k];
         p.across_a.v[i] = cross(from.anchor_a, m.normal);
         p.along_a.v[i] = dot(from.anchor_a, m.normal);
         p.across_b.v[i] = cross(from.anchor_b, m.normal);
@@ -104,24 +104,24 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row
         notes.kept |= 1u << i;
 }
 
-ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
+ContactConstraint constraint_of_lane(Scratch& scratch, std::int32_t index)
 {
     const Lane lane(scratch, index);
     const int i = lane.i;
-    ContactRow row;
-    row.a = lane.row.a.v[i];
-    row.b = lane.row.b.v[i];
-    row.contact = lane.notes.contact.v[i];
-    row.count = lane.notes.count;
-    row.n = {lane.row.nx.v[i], lane.row.ny.v[i]};
-    row.friction = lane.row.friction.v[i];
-    if (row.count == 2 && are_distinct(lane))
-        row.coupling = lane.row.coupling.v[i];
-    const auto arm = [&](float along, float across) { return along * row.n - across * perp(row.n); };
-    for (int k = 0; k < row.count; ++k)
+    ContactConstraint constraint;
+    constraint.a = lane.constraint.a.v[i];
+    constraint.b = lane.constraint.b.v[i];
+    constraint.contact = lane.notes.contact.v[i];
+    constraint.count = lane.notes.count;
+    constraint.n = {lane.constraint.nx.v[i], lane.constraint.ny.v[i]};
+    constraint.friction = lane.constraint.friction.v[i];
+    if (constraint.count == 2 && are_distinct(lane))
+        constraint.coupling = lane.constraint.coupling.v[i];
+    const auto arm = [&](float along, float across) { return along * constraint.n - across * perp(constraint.n); };
+    for (int k = 0; k < constraint.count; ++k)
     {
-        const WidePoint& from = lane.row.points[k];
-        RowPoint& p = row.points[k];
+        const WidePoint& from = lane.constraint.points[k];
+        ConstraintPoint& p = constraint.points[k];
         p.ra = arm(from.along_a.v[i], from.across_a.v[i]);
         p.rb = arm(from.along_b.v[i], from.across_b.v[i]);
         p.normal_mass = 1 / lane.k(from);
@@ -131,23 +131,23 @@ ContactRow row_of_lane(Scratch& scratch, std::int32_t index)
         p.total_tangent = from.total_tangent.v[i];
         p.approach = lane.notes.approach[k].v[i];
     }
-    return row;
+    return constraint;
 }
 
-void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t index)
+void put_impulses(Scratch& scratch, const ContactConstraint& constraint, std::int32_t index)
 {
     const Lane lane(scratch, index);
-    for (int k = 0; k < row.count; ++k)
+    for (int k = 0; k < constraint.count; ++k)
     {
-        WidePoint& p = lane.row.points[k];
-        p.normal_impulse.v[lane.i] = row.points[k].normal_impulse;
-        p.tangent_impulse.v[lane.i] = row.points[k].tangent_impulse;
-        p.total_impulse.v[lane.i] = row.points[k].total_impulse;
-        p.total_tangent.v[lane.i] = row.points[k].total_tangent;
+        WidePoint& p = lane.constraint.points[k];
+        p.normal_impulse.v[lane.i] = constraint.points[k].normal_impulse;
+        p.tangent_impulse.v[lane.i] = constraint.points[k].tangent_impulse;
+        p.total_impulse.v[lane.i] = constraint.points[k].total_impulse;
+        p.total_tangent.v[lane.i] = constraint.points[k].total_tangent;
     }
 }
 
-std::uint32_t filled_lanes(const WideNotes& notes)
+std::uint32_t filled_lanes(const WideContactNotes& notes)
 {
     std::uint32_t lanes = 0;
     for (int i = 0; i < lane_count; ++i)
@@ -158,16 +158,17 @@ std::uint32_t filled_lanes(const WideNotes& notes)
 void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
 {
     const Lane lane(ctx.scratch, contact.wide);
-    WideRow& row = lane.row;
-    WideNotes& notes = lane.notes;
+    WideContact& constraint = lane.constraint;
+    WideContactNotes& notes = lane.notes;
     const int i = lane.i;
     for (PointImpulses& p : impulses_of(ctx.state, notes.contact.v[i]).points)
         p.normal = p.tangent = 0;
-    row.a.v[i] = row.b.v[i] = fixed;
+    constraint.a.v[i] = constraint.b.v[i] = fixed;
     notes.contact.v[i] = none;
-    row.inverse_mass_a.v[i] = row.inverse_mass_b.v[i] = row.inverse_inertia_a.v[i] = row.inverse_inertia_b.v[i] = 0;
-    row.coupling.v[i] = 0;
-    for (WidePoint& p : row.points)
+    constraint.inverse_mass_a.v[i] = constraint.inverse_mass_b.v[i] = constraint.inverse_inertia_a.v[i] =
+        constraint.inverse_inertia_b.v[i] = 0;
+    constraint.coupling.v[i] = 0;
+    for (WidePoint& p : constraint.points)
         p.base.v[i] = p.separation.v[i] = p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
     notes.loaded &= ~(1u << i);
     notes.may_hit &= ~(1u << i);

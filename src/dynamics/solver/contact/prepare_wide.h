@@ -1,26 +1,26 @@
 #pragma once
 
-// From contacts to wide rows, and back.
+// From contacts to wide contact constraints, and back.
 
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// What a row gathers over a step.
-void clear_sums(WideRow& row, WideNotes& notes);
+/// What a constraint gathers over a step.
+void clear_sums(WideContact& constraint, WideContactNotes& notes);
 
 /// Writes the contact of a link between states into a lane that it has stood in before, as WideKernels::fill does with eight; sums are cleared already.
 /// WideKernels::prepare does the rest.
-void refill_lane(const StepContext& ctx, const ContactEdge& states, WideRow& row, WideNotes& notes, int lane);
+void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact& constraint, WideContactNotes& notes, int lane);
 
 /// As bits.
-[[nodiscard]] std::uint32_t filled_lanes(const WideNotes& notes);
+[[nodiscard]] std::uint32_t filled_lanes(const WideContactNotes& notes);
 
-/// The lane as a row of its own: where its points are at the start of the step, what they bear, and the masses along the normal.
-[[nodiscard]] ContactRow row_of_lane(Scratch& scratch, std::int32_t lane);
+/// The lane as a constraint of its own: where its points are at the start of the step, what they bear, and the masses along the normal.
+[[nodiscard]] ContactConstraint constraint_of_lane(Scratch& scratch, std::int32_t lane);
 
-/// Impulses of such a row go back into its lane.
-void put_impulses(Scratch& scratch, const ContactRow& row, std::int32_t lane);
+/// Impulses of such a constraint go back into its lane.
+void put_impulses(Scratch& scratch, const ContactConstraint& constraint, std::int32_t lane);
 
 /// Its body has taken off: the lane pushes no more.
 void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed);

@@ -1,4 +1,4 @@
-// What rows have stopped in a sub-step bounces off, and users are told of it. Rows of small islands are asked one by one, of lanes those that the kernels have
+// What constraints have stopped in a sub-step bounces off, and users are told of it. Constraints of small islands are asked one by one, of lanes those that the kernels have
 // found struck while relaxing.
 
 #include "dynamics/solver/contact/restitution.h"
@@ -30,28 +30,28 @@ class Bounces
 public:
     explicit Bounces(const BouncingIsland& of)
         : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_island(of.island), m_output(of.output), m_view(of.view),
-          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_rows.data() + m_island.wide_store),
+          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_contacts.data() + m_island.wide_store),
           m_notes(m_scratch.wide_notes.data() + m_island.wide_store), m_struck(m_scratch.struck.data() + m_island.wide_store)
     {}
 
     void note_approaches()
     {
-        for (int i = 0; i < m_island.impact_row_count; ++i)
-            note_approach(m_view, impact_row(i));
+        for (int i = 0; i < m_island.impact_constraint_count; ++i)
+            note_approach(m_view, impact_constraint(i));
     }
 
     void bounce(int k, WorkerTeam& team)
     {
-        for (int i = 0; i < m_island.impact_row_count; ++i)
-            bounce_row(impact_row(i), k);
+        for (int i = 0; i < m_island.impact_constraint_count; ++i)
+            bounce_constraint(impact_constraint(i), k);
         bounce_lanes(k, team);
     }
 
 private:
-    [[nodiscard]] ContactRow& impact_row(int i)
+    [[nodiscard]] ContactConstraint& impact_constraint(int i)
     {
-        return m_scratch
-            .rows[static_cast<std::size_t>(m_scratch.impact_rows[static_cast<std::size_t>(m_island.first_impact_row + i)])];
+        return m_scratch.constraints[static_cast<std::size_t>(
+            m_scratch.impact_constraints[static_cast<std::size_t>(m_island.first_impact_constraint + i)])];
     }
 
     // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
@@ -129,8 +129,8 @@ private:
     // It bears a load: told once, bounced once.
     void bounce_lane(std::int32_t lane, int k, ImpactReport& told)
     {
-        const WideRow& wide = m_wide[lane / lane_count];
-        WideNotes& notes = m_notes[lane / lane_count];
+        const WideContact& wide = m_wide[lane / lane_count];
+        WideContactNotes& notes = m_notes[lane / lane_count];
         const int i = lane % lane_count;
         const unsigned bit = 1u << i;
         float approach = 0;
@@ -141,37 +141,37 @@ private:
         }
         const bool strikes = (notes.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
         const std::int32_t index = m_island.wide_store * lane_count + lane;
-        ContactRow row = row_of_lane(m_scratch, index);
-        row.hit = strikes ? 0 : 1;
+        ContactConstraint constraint = constraint_of_lane(m_scratch, index);
+        constraint.hit = strikes ? 0 : 1;
         if ((notes.untold & bit) != 0)
-            begin_touch(row, k, told);
+            begin_touch(constraint, k, told);
         notes.untold &= ~bit;
         if (!strikes)
             return;
-        resolve_impact(row, approach, k, told);
+        resolve_impact(constraint, approach, k, told);
         notes.may_hit &= ~bit;
-        put_impulses(m_scratch, row, index);
+        put_impulses(m_scratch, constraint, index);
     }
 
     // What flies off is not pushed again by warm starting.
-    void forget_pushes(const ContactRow& before, const ContactRow& after)
+    void forget_pushes(const ContactConstraint& before, const ContactConstraint& after)
     {
         for (int i = 0; i < before.count; ++i)
         {
             if (after.points[i].normal_impulse != 0)
                 continue;
-            const RowPoint& p = before.points[i];
+            const ConstraintPoint& p = before.points[i];
             note_push(before, p, p.normal_impulse * before.n + p.tangent_impulse * perp(before.n));
         }
     }
 
-    // Of an impulse that no row gives again.
-    void note_push(const ContactRow& row, const RowPoint& p, Vec2 impulse)
+    // Of an impulse that no constraint gives again.
+    void note_push(const ContactConstraint& constraint, const ConstraintPoint& p, Vec2 impulse)
     {
         if (!m_notes_pushes)
             return;
-        note_push(row.a, p.ra, -impulse);
-        note_push(row.b, p.rb, impulse);
+        note_push(constraint.a, p.ra, -impulse);
+        note_push(constraint.b, p.rb, impulse);
     }
 
     void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
@@ -185,15 +185,15 @@ private:
         unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
     }
 
-    void bounce_row(ContactRow& row, int k)
+    void bounce_constraint(ContactConstraint& constraint, int k)
     {
-        if (row.hit != 0)
+        if (constraint.hit != 0)
             return;
         float approach = 0;
         float load = 0;
-        for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
         {
-            if (p.approach > 0 && came_at(row, p) <= 0)
+            if (p.approach > 0 && came_at(constraint, p) <= 0)
                 p.approach = 0; // the normal has turned away from it meanwhile
             load += p.normal_impulse;
             if (p.normal_impulse > 0)
@@ -201,25 +201,25 @@ private:
         }
         if (load <= 0)
             return;
-        const bool first_touch = (m_ctx.state.contacts[row.contact].flags & contact_flag::touching) == 0;
+        const bool first_touch = (m_ctx.state.contacts[constraint.contact].flags & contact_flag::touching) == 0;
         if (first_touch)
-            begin_touch(row, k, m_output);
+            begin_touch(constraint, k, m_output);
         if (approach > m_ctx.rest_speed)
-            resolve_impact(row, approach, k, m_output);
+            resolve_impact(constraint, approach, k, m_output);
     }
 
-    // The approach speed when the sub-step began, along the normal that the row has now.
-    [[nodiscard]] float came_at(const ContactRow& row, const RowPoint& p) const
+    // The approach speed when the sub-step began, along the normal that the constraint has now.
+    [[nodiscard]] float came_at(const ContactConstraint& constraint, const ConstraintPoint& p) const
     {
-        const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
-        const BodySpeeds& b = m_scratch.speeds[as_index(row.b)];
-        return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), row.n);
+        const BodySpeeds& a = m_scratch.speeds[as_index(constraint.a)];
+        const BodySpeeds& b = m_scratch.speeds[as_index(constraint.b)];
+        return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), constraint.n);
     }
 
-    void resolve_impact(ContactRow& row, float approach, int k, ImpactReport& told)
+    void resolve_impact(ContactConstraint& constraint, float approach, int k, ImpactReport& told)
     {
-        row.hit = 1;
-        const Contact& contact = m_ctx.state.contacts[row.contact];
+        constraint.hit = 1;
+        const Contact& contact = m_ctx.state.contacts[constraint.contact];
         const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
         const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
         if (kick.a_fired)
@@ -227,37 +227,37 @@ private:
         if (kick.b_fired)
             told.kicked_shapes.push_back(contact.shape_b);
         auto event = event_of<ImpactEvent>(m_ctx.state, contact);
-        const ContactRow before = row;
-        bounce_points(row, e, kick.speed);
+        const ContactConstraint before = constraint;
+        bounce_points(constraint, e, kick.speed);
         event.time = m_ctx.h * static_cast<float>(k + 1);
         event.restitution = e;
-        event.friction = row.friction;
+        event.friction = constraint.friction;
         event.kick_speed = kick.speed;
-        fill_impact(row, event);
-        take_impulses(row, e, kick.speed);
-        forget_pushes(before, row);
+        fill_impact(constraint, event);
+        take_impulses(constraint, e, kick.speed);
+        forget_pushes(before, constraint);
         ++told.bulk_impacts;
         if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted them; or thrown them beyond all numbers
             append(told.impacts, event);
     }
 
-    [[nodiscard]] static float wanted_speed(const RowPoint& p, float e, float kick)
+    [[nodiscard]] static float wanted_speed(const ConstraintPoint& p, float e, float kick)
     {
         return e * std::max(p.approach, 0.0f) + kick;
     }
 
     // How much separating speed a point still lacks.
-    [[nodiscard]] float missing_speed(const ContactRow& row, const RowPoint& p, float e, float kick) const
+    [[nodiscard]] float missing_speed(const ContactConstraint& constraint, const ConstraintPoint& p, float e, float kick) const
     {
-        return wanted_speed(p, e, kick) - row_speed(m_view, row, p);
+        return wanted_speed(p, e, kick) - constraint_speed(m_view, constraint, p);
     }
 
-    void push(const ContactRow& row, RowPoint& p, float impulse)
+    void push(const ContactConstraint& constraint, ConstraintPoint& p, float impulse)
     {
         p.normal_impulse += impulse;
-        note_push(row, p, impulse * row.n);
-        push(row.a, p.ra, -impulse * row.n);
-        push(row.b, p.rb, impulse * row.n);
+        note_push(constraint, p, impulse * constraint.n);
+        push(constraint.a, p.ra, -impulse * constraint.n);
+        push(constraint.b, p.rb, impulse * constraint.n);
     }
 
     void push(std::int32_t state, Vec2 arm, Vec2 impulse)
@@ -274,40 +274,40 @@ private:
     }
 
     // Two points struck at once bounce at once: a box that lands flat bounces flat.
-    void bounce_points(ContactRow& row, float e, float kick)
+    void bounce_points(ContactConstraint& constraint, float e, float kick)
     {
         if (e <= 0 && kick <= 0)
             return;
-        RowPoint& p = row.points[0];
-        RowPoint& q = row.points[1];
-        if (row.count == 2 && row.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
+        ConstraintPoint& p = constraint.points[0];
+        ConstraintPoint& q = constraint.points[1];
+        if (constraint.count == 2 && constraint.coupling != 0 && p.normal_impulse > 0 && q.normal_impulse > 0)
         {
             const float k11 = 1 / p.normal_mass;
             const float k22 = 1 / q.normal_mass;
-            const float inverse_det = 1 / (k11 * k22 - row.coupling * row.coupling);
-            const float d1 = missing_speed(row, p, e, kick);
-            const float d2 = missing_speed(row, q, e, kick);
-            const float j1 = inverse_det * (k22 * d1 - row.coupling * d2);
-            const float j2 = inverse_det * (k11 * d2 - row.coupling * d1);
+            const float inverse_det = 1 / (k11 * k22 - constraint.coupling * constraint.coupling);
+            const float d1 = missing_speed(constraint, p, e, kick);
+            const float d2 = missing_speed(constraint, q, e, kick);
+            const float j1 = inverse_det * (k22 * d1 - constraint.coupling * d2);
+            const float j2 = inverse_det * (k11 * d2 - constraint.coupling * d1);
             if (p.normal_impulse + j1 >= 0 && q.normal_impulse + j2 >= 0)
             {
-                push(row, p, j1);
-                push(row, q, j2);
+                push(constraint, p, j1);
+                push(constraint, q, j2);
                 return;
             }
         }
-        for (int i = 0; i < row.count; ++i)
+        for (int i = 0; i < constraint.count; ++i)
         {
-            RowPoint& r = row.points[i];
+            ConstraintPoint& r = constraint.points[i];
             if (r.normal_impulse > 0)
-                push(row, r, std::max(r.normal_mass * missing_speed(row, r, e, kick), -r.normal_impulse));
+                push(constraint, r, std::max(r.normal_mass * missing_speed(constraint, r, e, kick), -r.normal_impulse));
         }
     }
 
     // Points that fly off are not pushed again by warm starting.
-    static void take_impulses(ContactRow& row, float e, float kick)
+    static void take_impulses(ContactConstraint& constraint, float e, float kick)
     {
-        for (RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
         {
             if (wanted_speed(p, e, kick) <= 0)
                 continue;
@@ -318,11 +318,11 @@ private:
     }
 
     // The points that struck count as one between them, for their impulses act along one line. A corner that only bears a load has no part in it.
-    void fill_impact(const ContactRow& row, ImpactEvent& event) const
+    void fill_impact(const ContactConstraint& constraint, ImpactEvent& event) const
     {
         Vec2 arm_a{};
         Vec2 arm_b{};
-        for (const RowPoint& p : std::span(row.points).first(as_index(row.count)))
+        for (const ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
         {
             if (p.approach <= 0 || p.normal_impulse <= 0)
                 continue;
@@ -335,20 +335,20 @@ private:
             return;
         arm_a *= 1 / event.impulse;
         arm_b *= 1 / event.impulse;
-        const BodySpeeds& a = m_scratch.speeds[as_index(row.a)];
-        const BodySpeeds& b = m_scratch.speeds[as_index(row.b)];
-        event.normal = row.n;
-        event.point = place_on_a(row, arm_a);
+        const BodySpeeds& a = m_scratch.speeds[as_index(constraint.a)];
+        const BodySpeeds& b = m_scratch.speeds[as_index(constraint.b)];
+        event.normal = constraint.n;
+        event.point = place_on_a(constraint, arm_a);
         event.velocity_a = a.velocity + cross(a.angular_velocity, arm_a);
         event.velocity_b = b.velocity + cross(b.angular_velocity, arm_b);
-        event.velocity_after_a = velocity_at(row.a, arm_a);
-        event.velocity_after_b = velocity_at(row.b, arm_b);
-        event.speed_a = dot(event.velocity_a, row.n);
-        event.speed_b = dot(event.velocity_b, row.n);
+        event.velocity_after_a = velocity_at(constraint.a, arm_a);
+        event.velocity_after_b = velocity_at(constraint.b, arm_b);
+        event.speed_a = dot(event.velocity_a, constraint.n);
+        event.speed_b = dot(event.velocity_b, constraint.n);
         event.approach_speed = event.speed_a - event.speed_b;
-        event.effective_mass_a = point_mass(m_view.constants[row.a], row.n, arm_a);
-        event.effective_mass_b = point_mass(m_view.constants[row.b], row.n, arm_b);
-        const Vec2 impulse = event.impulse * row.n + event.friction_impulse * perp(row.n);
+        event.effective_mass_a = point_mass(m_view.constants[constraint.a], constraint.n, arm_a);
+        event.effective_mass_b = point_mass(m_view.constants[constraint.b], constraint.n, arm_b);
+        const Vec2 impulse = event.impulse * constraint.n + event.friction_impulse * perp(constraint.n);
         event.energy_lost =
             -0.5f * dot(impulse, event.velocity_b - event.velocity_a + event.velocity_after_b - event.velocity_after_a);
     }
@@ -367,18 +367,18 @@ private:
         return exceeds_rounding(inverse, dot(arm, arm) * c.inverse_inertia) ? 1 / inverse : 0;
     }
 
-    [[nodiscard]] Position place_on_a(const ContactRow& row, Vec2 arm) const
+    [[nodiscard]] Position place_on_a(const ContactConstraint& constraint, Vec2 arm) const
     {
-        const Contact& contact = m_ctx.state.contacts[row.contact];
-        return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[row.a].delta_position + arm;
+        const Contact& contact = m_ctx.state.contacts[constraint.contact];
+        return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[constraint.a].delta_position + arm;
     }
 
-    void begin_touch(const ContactRow& row, int k, ImpactReport& told) const
+    void begin_touch(const ContactConstraint& constraint, int k, ImpactReport& told) const
     {
-        Contact& contact = m_ctx.state.contacts[row.contact];
+        Contact& contact = m_ctx.state.contacts[constraint.contact];
         contact.flags |= contact_flag::touching | contact_flag::begun;
-        append(told.begins, {row.contact, contact.shape_a, contact.shape_b, place_on_a(row, row.points[0].ra), row.n,
-                             m_ctx.h * static_cast<float>(k + 1)});
+        append(told.begins, {constraint.contact, contact.shape_a, contact.shape_b,
+                             place_on_a(constraint, constraint.points[0].ra), constraint.n, m_ctx.h * static_cast<float>(k + 1)});
     }
 
     const StepContext& m_ctx;
@@ -387,8 +387,8 @@ private:
     IslandOutput& m_output;
     const SolverView& m_view;
     bool m_notes_pushes;
-    const WideRow* m_wide;
-    WideNotes* m_notes;
+    const WideContact* m_wide;
+    WideContactNotes* m_notes;
     const std::uint8_t* m_struck; ///< lanes of each group
 };
 

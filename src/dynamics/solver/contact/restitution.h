@@ -1,6 +1,6 @@
 #pragma once
 
-// What an island's rows have stopped in a sub-step bounces, and is told.
+// What an island's constraints have stopped in a sub-step bounces, and is told.
 
 #include "core/worker_team.h"
 #include "dynamics/solver/contact/contact_solver.h"
@@ -14,10 +14,10 @@ struct BouncingIsland
     const Island& island;
     IslandOutput& output;
     const SolverView& view;
-    bool notes_pushes; ///< it warm starts by body: what is pushed beside the rows must not be taken for what they give
+    bool notes_pushes; ///< it warm starts by body: what is pushed beside the constraints must not be taken for what they give
 };
 
-/// Of rows that bear nothing yet, before the sub-step.
+/// Of constraints that bear nothing yet, before the sub-step.
 void note_approaches(const BouncingIsland& island);
 
 /// At the end of sub-step k.

@@ -28,9 +28,9 @@ struct WidePoint
     LaneFloats total_tangent;
 };
 
-/// What solving reads and writes, and nothing else: rows of a large island come from memory in every sub-step. What follows from the masses with little
+/// What solving reads and writes, and nothing else: constraints of a large island come from memory in every sub-step. What follows from the masses with little
 /// arithmetic does not stand here.
-struct alignas(64) WideRow
+struct alignas(64) WideContact
 {
     LaneInts a; ///< states
     LaneInts b;
@@ -44,10 +44,10 @@ struct alignas(64) WideRow
     LaneFloats coupling; ///< of two normals, J1 M^-1 J2^T
     WidePoint points[2];
 };
-static_assert(sizeof(WideRow) == 1024);
+static_assert(sizeof(WideContact) == 1024);
 
-/// Who stands in the lanes of a row, and what is known of their contacts; masks are of lanes.
-struct alignas(64) WideNotes
+/// Who stands in the lanes of a constraint, and what is known of their contacts; masks are of lanes.
+struct alignas(64) WideContactNotes
 {
     LaneInts contact; ///< none: the lane is empty
     LaneInts body_a;
@@ -63,14 +63,14 @@ struct alignas(64) WideNotes
     std::uint32_t followed;  ///< the contact has contact_flag::followed
 };
 
-/// More rows than this come from memory, for the third cache does not hold them: 8 MB.
-inline constexpr std::int32_t most_near_rows = 8'192;
+/// More constraints than this come from memory, for the third cache does not hold them: 8 MB.
+inline constexpr std::int32_t most_near_constraints = 8'192;
 
 /// Groups that have as many points each, and no two share a body that gives way.
 struct WideBin
 {
-    WideRow* rows;
-    WideNotes* notes;
+    WideContact* constraints;
+    WideContactNotes* notes;
     std::int32_t count;
     bool are_far; ///< those of the next turns are asked for
 };

@@ -1,14 +1,14 @@
-// The contact passes, from equation to lanes; contact_solver.cpp has the same for a row at a time, and the equations. Part of kernels.inl.
+// The contact passes, from equation to lanes; contact_solver.cpp has the same for a constraint at a time, and the equations. Part of kernels.inl.
 
 namespace contacts {
 
 // How passes read and write: of one group, with F8, or of two that stand one after the other and share no body that gives way, with F16. Of two, what is
-// named is the first one's; the second one's is a row further on.
+// named is the first one's; the second one's is a constraint further on.
 template <class F>
-struct Rows;
+struct Constraints;
 
 template <>
-struct Rows<F8>
+struct Constraints<F8>
 {
     static CAROM_INLINE F8 read(const LaneFloats& a) { return load(a); }
     static CAROM_INLINE I8 read(const LaneInts& a) { return load(a); }
@@ -22,7 +22,7 @@ struct Rows<F8>
 };
 
 template <>
-struct Rows<F16>
+struct Constraints<F16>
 {
     using F = F16;
 
@@ -30,7 +30,7 @@ struct Rows<F16>
     static CAROM_INLINE Field& next(Field& a)
     {
         using Byte = std::conditional_t<std::is_const_v<Field>, const char, char>;
-        return *reinterpret_cast<Field*>(reinterpret_cast<Byte*>(&a) + sizeof(WideRow));
+        return *reinterpret_cast<Field*>(reinterpret_cast<Byte*>(&a) + sizeof(WideContact));
     }
 
     static CAROM_INLINE F read(const LaneFloats& a) { return sixteen_of(load(a), load(next(a))); }
@@ -62,38 +62,38 @@ struct Rows<F16>
 template <class F>
 CAROM_INLINE F read(const LaneFloats& a)
 {
-    return Rows<F>::read(a);
+    return Constraints<F>::read(a);
 }
 
 template <class F>
 CAROM_INLINE void write(LaneFloats& a, F x)
 {
-    Rows<F>::write(a, x);
+    Constraints<F>::write(a, x);
 }
 
-// Two that are solved together in a later turn. What fetches ahead by itself stops at the end of each page, after four rows. Beyond the last there is nothing,
+// Two that are solved together in a later turn. What fetches ahead by itself stops at the end of each page, after four constraints. Beyond the last there is nothing,
 // which does no harm.
-CAROM_INLINE void fetch(const WideRow* rows, const WideNotes* notes)
+CAROM_INLINE void fetch(const WideContact* constraints, const WideContactNotes* notes)
 {
     for (const std::size_t later : {prefetch_distance, prefetch_distance + 1})
     {
-        prefetch(rows[later]);
+        prefetch(constraints[later]);
         prefetch_line(&notes[later].count); // and masks
     }
 }
 
-// Calls pass(row, F()) for groups of a bin, two at a time as long as there are two.
+// Calls pass(constraint, F()) for groups of a bin, two at a time as long as there are two.
 template <class Pass>
 CAROM_INLINE void for_each_group(const WideBin& bin, const Pass& pass)
 {
     for (std::int32_t i = 0; i < bin.count; i += 2)
     {
         if (bin.are_far)
-            fetch(bin.rows + i, bin.notes + i);
+            fetch(bin.constraints + i, bin.notes + i);
         if (i + 1 < bin.count)
-            pass(bin.rows[i], F16());
+            pass(bin.constraints[i], F16());
         else
-            pass(bin.rows[i], F8());
+            pass(bin.constraints[i], F8());
     }
 }
 
@@ -109,17 +109,17 @@ struct Group
     F vn, vt; ///< of b's center against a's
     F pn, pt; ///< impulses of this pass
 
-    CAROM_INLINE Group(const WideRow& row, const BodyState* states)
+    CAROM_INLINE Group(const WideContact& constraint, const BodyState* states)
     {
-        nx = read<F>(row.nx);
-        ny = read<F>(row.ny);
-        mass_a = read<F>(row.inverse_mass_a);
-        mass_b = read<F>(row.inverse_mass_b);
-        inertia_a = read<F>(row.inverse_inertia_a);
-        inertia_b = read<F>(row.inverse_inertia_b);
+        nx = read<F>(constraint.nx);
+        ny = read<F>(constraint.ny);
+        mass_a = read<F>(constraint.inverse_mass_a);
+        mass_b = read<F>(constraint.inverse_mass_b);
+        inertia_a = read<F>(constraint.inverse_inertia_a);
+        inertia_b = read<F>(constraint.inverse_inertia_b);
         mass = mass_a + mass_b;
-        a = Rows<F>::speeds(states, row.a);
-        b = Rows<F>::speeds(states, row.b);
+        a = Constraints<F>::speeds(states, constraint.a);
+        b = Constraints<F>::speeds(states, constraint.b);
         const F dx = b.x - a.x;
         const F dy = b.y - a.y;
         vn = dx * nx + dy * ny;
@@ -155,7 +155,7 @@ struct Group
         pt += impulse;
     }
 
-    CAROM_INLINE void finish(const WideRow& row, BodyState* states)
+    CAROM_INLINE void finish(const WideContact& constraint, BodyState* states)
     {
         const F px = pn * nx - pt * ny;
         const F py = pn * ny + pt * nx;
@@ -163,8 +163,8 @@ struct Group
         a.y -= mass_a * py;
         b.x += mass_b * px;
         b.y += mass_b * py;
-        Rows<F>::put_speeds(states, row.a, a, are_fixed(mass_a, inertia_a));
-        Rows<F>::put_speeds(states, row.b, b, are_fixed(mass_b, inertia_b));
+        Constraints<F>::put_speeds(states, constraint.a, a, are_fixed(mass_a, inertia_a));
+        Constraints<F>::put_speeds(states, constraint.b, b, are_fixed(mass_b, inertia_b));
     }
 };
 
@@ -174,10 +174,10 @@ struct Displacement
 {
     F centers, turned_a, turned_b, sin_a, sin_b;
 
-    CAROM_INLINE Displacement(const WideRow& row, const Group<F>& g, const BodyState* states)
+    CAROM_INLINE Displacement(const WideContact& constraint, const Group<F>& g, const BodyState* states)
     {
-        const Poses<F> a = Rows<F>::poses(states, row.a);
-        const Poses<F> b = Rows<F>::poses(states, row.b);
+        const Poses<F> a = Constraints<F>::poses(states, constraint.a);
+        const Poses<F> b = Constraints<F>::poses(states, constraint.b);
         centers = (b.x - a.x) * g.nx + (b.y - a.y) * g.ny;
         turned_a = a.c - 1;
         turned_b = b.c - 1;
@@ -250,13 +250,13 @@ CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const Target<F>& t)
 // Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account and stacks lean.
 // A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
 template <class F>
-CAROM_INLINE void solve_normals(Group<F>& g, WideRow& row, const Target<F>& t1, const Target<F>& t2)
+CAROM_INLINE void solve_normals(Group<F>& g, WideContact& constraint, const Target<F>& t1, const Target<F>& t2)
 {
-    WidePoint& p = row.points[0];
-    WidePoint& q = row.points[1];
+    WidePoint& p = constraint.points[0];
+    WidePoint& q = constraint.points[1];
     const F k11 = g.k(p);
     const F k22 = g.k(q);
-    const F k12 = read<F>(row.coupling);
+    const F k12 = read<F>(constraint.coupling);
     const F old1 = read<F>(p.normal_impulse);
     const F old2 = read<F>(q.normal_impulse);
     const F a11 = k11 * t1.give;
@@ -286,19 +286,19 @@ CAROM_INLINE F solve_friction(Group<F>& g, WidePoint& p, F friction)
 }
 
 template <class F, int points>
-CAROM_INLINE void solve_group(WideRow& row, BodyState* states, const WideSoftness& s)
+CAROM_INLINE void solve_group(WideContact& constraint, BodyState* states, const WideSoftness& s)
 {
-    Group<F> g(row, states);
+    Group<F> g(constraint, states);
     const Soft<F> soft(g, s);
-    const Target<F> t = target_of(g, row.points[0], soft, s);
+    const Target<F> t = target_of(g, constraint.points[0], soft, s);
     if (points == 2)
-        solve_normals(g, row, t, target_of(g, row.points[1], soft, s));
+        solve_normals(g, constraint, t, target_of(g, constraint.points[1], soft, s));
     else
-        solve_normal(g, row.points[0], t);
-    const F friction = read<F>(row.friction);
+        solve_normal(g, constraint.points[0], t);
+    const F friction = read<F>(constraint.friction);
     for (int i = 0; i < points; ++i)
-        solve_friction(g, row.points[i], friction);
-    g.finish(row, states);
+        solve_friction(g, constraint.points[i], friction);
+    g.finish(constraint, states);
 }
 
 // The least separation of each lane.
@@ -306,54 +306,54 @@ CAROM_INLINE F8 of_both(F8 x) { return x; }
 CAROM_INLINE F8 of_both(F16 x) { return least(first_eight(x), second_eight(x)); }
 
 template <class F, int points>
-CAROM_INLINE F8 relax_group(WideRow& row, BodyState* states, const WideSoftness& s)
+CAROM_INLINE F8 relax_group(WideContact& constraint, BodyState* states, const WideSoftness& s)
 {
-    Group<F> g(row, states);
-    const Displacement<F> d(row, g, states);
-    const Target<F> t = relaxed(g, row.points[0], d, s);
+    Group<F> g(constraint, states);
+    const Displacement<F> d(constraint, g, states);
+    const Target<F> t = relaxed(g, constraint.points[0], d, s);
     if (points == 2)
-        solve_normals(g, row, t, relaxed(g, row.points[1], d, s));
+        solve_normals(g, constraint, t, relaxed(g, constraint.points[1], d, s));
     else
-        solve_normal(g, row.points[0], t);
+        solve_normal(g, constraint.points[0], t);
     for (int i = 0; i < points; ++i)
-        write(row.points[i].total_impulse, read<F>(row.points[i].total_impulse) + s.share * read<F>(row.points[i].normal_impulse));
-    const F friction = read<F>(row.friction);
+        write(constraint.points[i].total_impulse, read<F>(constraint.points[i].total_impulse) + s.share * read<F>(constraint.points[i].normal_impulse));
+    const F friction = read<F>(constraint.friction);
     for (int i = 0; i < points; ++i)
     {
-        const F tangent = solve_friction(g, row.points[i], friction);
-        write(row.points[i].total_tangent, read<F>(row.points[i].total_tangent) + s.share * tangent);
+        const F tangent = solve_friction(g, constraint.points[i], friction);
+        write(constraint.points[i].total_tangent, read<F>(constraint.points[i].total_tangent) + s.share * tangent);
     }
-    g.finish(row, states);
-    const F separation = read<F>(row.points[0].separation);
-    return of_both(points == 2 ? least(separation, read<F>(row.points[points - 1].separation)) : separation);
+    g.finish(constraint, states);
+    const F separation = read<F>(constraint.points[0].separation);
+    return of_both(points == 2 ? least(separation, read<F>(constraint.points[points - 1].separation)) : separation);
 }
 
 // How fast the points of a group came together when the sub-step began.
 template <int points>
-CAROM_INLINE void note_approach(const WideRow& row, WideNotes& notes, const BodySpeeds* before)
+CAROM_INLINE void note_approach(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before)
 {
-    const Speeds a = speeds_of(before, row.a);
-    const Speeds b = speeds_of(before, row.b);
-    const F8 vn = (b.x - a.x) * load(row.nx) + (b.y - a.y) * load(row.ny);
+    const Speeds a = speeds_of(before, constraint.a);
+    const Speeds b = speeds_of(before, constraint.b);
+    const F8 vn = (b.x - a.x) * load(constraint.nx) + (b.y - a.y) * load(constraint.ny);
     for (int i = 0; i < points; ++i)
     {
-        const WidePoint& p = row.points[i];
+        const WidePoint& p = constraint.points[i];
         store(notes.approach[i], -(vn + load(p.across_b) * b.w - load(p.across_a) * a.w));
     }
 }
 
 // Lanes that bear a load: struck harder than rest, or touching for the first time.
 template <int points>
-CAROM_INLINE std::uint8_t struck_lanes(const WideRow& row, WideNotes& notes, const BodySpeeds* before, float rest_speed)
+CAROM_INLINE std::uint8_t struck_lanes(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before, float rest_speed)
 {
     if ((notes.may_hit | notes.untold) == 0)
         return 0;
-    const I8 first = load(row.points[0].normal_impulse) > all(0);
-    const I8 second = points == 2 ? load(row.points[1].normal_impulse) > all(0) : I8{};
+    const I8 first = load(constraint.points[0].normal_impulse) > all(0);
+    const I8 second = points == 2 ? load(constraint.points[1].normal_impulse) > all(0) : I8{};
     const unsigned loaded = bits(first | second);
     if ((loaded & notes.may_hit) == 0)
         return static_cast<std::uint8_t>(loaded & notes.untold);
-    note_approach<points>(row, notes, before);
+    note_approach<points>(constraint, notes, before);
     I8 struck = first & (load(notes.approach[0]) > all(rest_speed));
     if (points == 2)
         struck |= second & (load(notes.approach[1]) > all(rest_speed));
@@ -361,31 +361,31 @@ CAROM_INLINE std::uint8_t struck_lanes(const WideRow& row, WideNotes& notes, con
 }
 
 template <class F, int points>
-CAROM_INLINE void warm_start_group(WideRow& row, BodyState* states)
+CAROM_INLINE void warm_start_group(WideContact& constraint, BodyState* states)
 {
-    Group<F> g(row, states);
+    Group<F> g(constraint, states);
     for (int i = 0; i < points; ++i)
     {
-        g.push(row.points[i], read<F>(row.points[i].normal_impulse));
-        g.rub(row.points[i], read<F>(row.points[i].tangent_impulse));
+        g.push(constraint.points[i], read<F>(constraint.points[i].normal_impulse));
+        g.rub(constraint.points[i], read<F>(constraint.points[i].tangent_impulse));
     }
-    g.finish(row, states);
+    g.finish(constraint, states);
 }
 
 template <int points>
 void solve_bin(WideBin bin, BodyState* states, WideSoftness s)
 {
-    for_each_group(bin, [&](WideRow& row, auto lanes) { solve_group<decltype(lanes), points>(row, states, s); });
+    for_each_group(bin, [&](WideContact& constraint, auto lanes) { solve_group<decltype(lanes), points>(constraint, states, s); });
 }
 
 template <int points>
 float relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
 {
     F8 deepest = all(0);
-    for_each_group(bin, [&](WideRow& row, auto lanes)
-                   { deepest = least(deepest, relax_group<decltype(lanes), points>(row, states, s)); });
+    for_each_group(bin, [&](WideContact& constraint, auto lanes)
+                   { deepest = least(deepest, relax_group<decltype(lanes), points>(constraint, states, s)); });
     for (int i = 0; i < bin.count; ++i)
-        struck[i] = struck_lanes<points>(bin.rows[i], bin.notes[i], before, s.rest_speed);
+        struck[i] = struck_lanes<points>(bin.constraints[i], bin.notes[i], before, s.rest_speed);
     LaneFloats of_lanes;
     store(of_lanes, deepest);
     return *std::min_element(std::begin(of_lanes.v), std::end(of_lanes.v));
@@ -394,8 +394,8 @@ float relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds
 template <int points>
 void warm_start_bin(WideBin bin, BodyState* states)
 {
-    bin.are_far = true; // the first walk over rows that no near cache holds
-    for_each_group(bin, [&](WideRow& row, auto lanes) { warm_start_group<decltype(lanes), points>(row, states); });
+    bin.are_far = true; // the first walk over constraints that no near cache holds
+    for_each_group(bin, [&](WideContact& constraint, auto lanes) { warm_start_group<decltype(lanes), points>(constraint, states); });
 }
 
 void warm_start(const WideBin& bin, BodyState* states)

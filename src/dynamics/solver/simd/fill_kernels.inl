@@ -1,4 +1,4 @@
-// Rows are filled from their contacts and impulses, and get their effective masses; refill_lane has the same for one lane. Part of kernels.inl.
+// Constraints are filled from their contacts and impulses, and get their effective masses; refill_lane has the same for one lane. Part of kernels.inl.
 
 namespace fills {
 
@@ -25,7 +25,7 @@ CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane
     store(p.total_tangent, all(0));
 }
 
-CAROM_INLINE void fill_impulses(WideRow& row, const WideNotes& notes, const ContactImpulses* impulses)
+CAROM_INLINE void fill_impulses(WideContact& constraint, const WideContactNotes& notes, const ContactImpulses* impulses)
 {
     for (int k = 0; k < notes.count; ++k)
     {
@@ -33,19 +33,19 @@ CAROM_INLINE void fill_impulses(WideRow& row, const WideNotes& notes, const Cont
         const auto at = [&](int i)
         { return reinterpret_cast<const char*>((notes.contact.v[i] < 0 ? nothing : impulses[notes.contact.v[i]]).points + k); };
         gather4(at, normal, tangent, total_normal, total_tangent);
-        store(row.points[k].normal_impulse, normal);
-        store(row.points[k].tangent_impulse, tangent);
+        store(constraint.points[k].normal_impulse, normal);
+        store(constraint.points[k].tangent_impulse, tangent);
     }
 }
 
-void prepare(WideRow& row, std::int32_t points)
+void prepare(WideContact& constraint, std::int32_t points)
 {
-    const F8 mass = load(row.inverse_mass_a) + load(row.inverse_mass_b);
-    const F8 ia = load(row.inverse_inertia_a);
-    const F8 ib = load(row.inverse_inertia_b);
+    const F8 mass = load(constraint.inverse_mass_a) + load(constraint.inverse_mass_b);
+    const F8 ia = load(constraint.inverse_inertia_a);
+    const F8 ib = load(constraint.inverse_inertia_b);
     for (int i = 0; i < points; ++i)
     {
-        WidePoint& p = row.points[i];
+        WidePoint& p = constraint.points[i];
         const F8 ta = load(p.along_a);
         const F8 tb = load(p.along_b);
         const F8 tangent_k = mass + ta * ta * ia + tb * tb * ib;
@@ -56,17 +56,17 @@ void prepare(WideRow& row, std::int32_t points)
         return;
     const auto k = [&](int i, int j)
     {
-        const WidePoint& p = row.points[i];
-        const WidePoint& q = row.points[j];
+        const WidePoint& p = constraint.points[i];
+        const WidePoint& q = constraint.points[j];
         return mass + load(p.across_a) * load(q.across_a) * ia + load(p.across_b) * load(q.across_b) * ib;
     };
     // Points nearly in one place share their load anyhow; solving for both would only divide noise.
     const F8 limit = 0.9995f * root(k(0, 0) * k(1, 1));
-    store(row.coupling, clamp(k(0, 1), -limit, limit));
+    store(constraint.coupling, clamp(k(0, 1), -limit, limit));
 }
 
 // All but a, b, contact and count, which say what goes there.
-void fill(WideRow& row, WideNotes& notes, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants)
+void fill(WideContact& constraint, WideContactNotes& notes, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants)
 {
     static_assert(offsetof(Contact, body_b) == offsetof(Contact, shape_a) + 12 &&
                   offsetof(Contact, friction) == offsetof(Contact, flags) + 4 && offsetof(Manifold, normal) == 0);
@@ -78,14 +78,14 @@ void fill(WideRow& row, WideNotes& notes, const Contact* contacts, const Contact
     store(notes.body_a, as_ints(body_a));
     store(notes.body_b, as_ints(body_b));
     gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->flags); }, flag_bits, friction, x, y);
-    store(row.friction, friction);
+    store(constraint.friction, friction);
     gather4([&](int i) { return reinterpret_cast<const char*>(&of_lane[i]->manifold.normal); }, nx, ny, x, y);
-    store(row.nx, nx);
-    store(row.ny, ny);
-    fill_masses(row, constants);
+    store(constraint.nx, nx);
+    store(constraint.ny, ny);
+    fill_masses(constraint, constants);
     for (int k = 0; k < notes.count; ++k)
-        fill_point(row.points[k], of_lane, k, nx, ny);
-    fill_impulses(row, notes, impulses);
+        fill_point(constraint.points[k], of_lane, k, nx, ny);
+    fill_impulses(constraint, notes, impulses);
     const I8 flags = as_ints(flag_bits);
     const unsigned filled = bits(load(notes.contact) >= I8{});
     store(notes.approach[0], all(0));
@@ -97,7 +97,7 @@ void fill(WideRow& row, WideNotes& notes, const Contact* contacts, const Contact
     notes.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);
     notes.nearest = lanes_with(flags, contact_flag::nearest);
     notes.followed = 0;
-    prepare(row, notes.count);
+    prepare(constraint, notes.count);
 }
 
 } // namespace fills

@@ -1,4 +1,4 @@
-// Manifolds that are followed where they stand, in the lanes of their rows; manifold_cache.cpp has the same for one at a time, and what is kept. Part of
+// Manifolds that are followed where they stand, in the lanes of their constraints; manifold_cache.cpp has the same for one at a time, and what is kept. Part of
 // kernels.inl.
 
 namespace follows {
@@ -29,7 +29,7 @@ struct Places
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
 
-    CAROM_INLINE Places(const WideNotes& notes, const FollowedScene& scene)
+    CAROM_INLINE Places(const WideContactNotes& notes, const FollowedScene& scene)
     {
         const int some = filled_lane(notes.contact);
         for (int i = 0; i < lane_count; ++i)
@@ -234,11 +234,11 @@ CAROM_INLINE void put(WidePoint& to, const Point& p, const Arrow& n, I8 filled)
 }
 
 // It bore a load when the last step ended.
-CAROM_INLINE I8 bears(const WideRow& row, int points)
+CAROM_INLINE I8 bears(const WideContact& constraint, int points)
 {
-    I8 loaded = load(row.points[0].normal_impulse) > all(0);
+    I8 loaded = load(constraint.points[0].normal_impulse) > all(0);
     if (points == 2)
-        loaded |= load(row.points[1].normal_impulse) > all(0);
+        loaded |= load(constraint.points[1].normal_impulse) > all(0);
     return loaded;
 }
 
@@ -337,7 +337,7 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
 }
 
 // Lanes by what has become of their contacts.
-CAROM_INLINE void tell(I8 loaded, const WideNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, FollowedRow& found)
+CAROM_INLINE void tell(I8 loaded, const WideContactNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, RefreshedContacts& found)
 {
     const I8 touching = ~lanes_of(notes.untold);
     const I8 near = now.separation <= select(touching, all(2 * scene.slop), all(scene.slop));
@@ -351,24 +351,24 @@ CAROM_INLINE void tell(I8 loaded, const WideNotes& notes, const Found& now, I8 f
 }
 
 template <int points>
-void refresh_constraint(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
+void refresh_contact(WideContact& constraint, const WideContactNotes& notes, const FollowedScene& scene, RefreshedContacts& found)
 {
     const Places places(notes, scene);
     const I8 filled = load(notes.contact) >= I8{};
     Found now = follow_points<points>(places, {notes.edge_of_b, notes.nearest}, scene);
     if (points == 1)
         now.holds &= are_alone(now, margins_of(with_all_lanes(notes.contact), scene), scene);
-    store(row.nx, select(filled, now.n.x, all(0)));
-    store(row.ny, select(filled, now.n.y, all(0)));
+    store(constraint.nx, select(filled, now.n.x, all(0)));
+    store(constraint.ny, select(filled, now.n.y, all(0)));
     for (int k = 0; k < points; ++k)
-        put(row.points[k], now.points[k], now.n, filled);
-    tell(bears(row, points), notes, now, filled, scene, found);
+        put(constraint.points[k], now.points[k], now.n, filled);
+    tell(bears(constraint, points), notes, now, filled, scene, found);
 }
 
-void follow(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found)
+void follow(WideContact& constraint, const WideContactNotes& notes, const FollowedScene& scene, RefreshedContacts& found)
 {
-    const auto follow_points_of = notes.count == 2 ? refresh_constraint<2> : refresh_constraint<1>;
-    follow_points_of(row, notes, scene, found);
+    const auto follow_points_of = notes.count == 2 ? refresh_contact<2> : refresh_contact<1>;
+    follow_points_of(constraint, notes, scene, found);
 }
 
 CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const FollowedScene& scene, std::uint32_t flag)
@@ -379,7 +379,7 @@ CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const Follo
     return lanes;
 }
 
-// The same for eight contacts with as many points each that are in no row now: into their manifolds.
+// The same for eight contacts with as many points each that are in no constraint now: into their manifolds.
 template <int points>
 void follow_eight(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found)
 {
@@ -440,8 +440,8 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
     return bits(margins_of(contacts, scene) + slack < room);
 }
 
-// Impulses of a point, side by side in a row, one after the other in a contact's.
-void take_impulses(const WideRow& row, WideNotes& notes, Contact* contacts, ContactImpulses* impulses)
+// Impulses of a point, side by side in a constraint, one after the other in a contact's.
+void take_impulses(const WideContact& constraint, WideContactNotes& notes, Contact* contacts, ContactImpulses* impulses)
 {
     static_assert(sizeof(PointImpulses) == 4 * sizeof(float) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&
                   offsetof(PointImpulses, total_normal) == 8);
@@ -449,7 +449,7 @@ void take_impulses(const WideRow& row, WideNotes& notes, Contact* contacts, Cont
     I8 loaded{};
     for (int k = 0; k < notes.count; ++k)
     {
-        const WidePoint& p = row.points[k];
+        const WidePoint& p = constraint.points[k];
         const F8 normal_impulse = load(p.normal_impulse);
         loaded |= normal_impulse > all(0);
         const auto at = [&](int i)

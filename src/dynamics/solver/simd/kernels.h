@@ -20,7 +20,7 @@ struct CachedManifold;
 struct MovingBlocks;
 struct StateConstants;
 
-/// Where the manifolds of rows that stay are followed.
+/// Where the manifolds of constraints that stay are followed.
 struct FollowedScene
 {
     const BodySim* sims;
@@ -34,8 +34,8 @@ struct FollowedScene
     float speculation;
 };
 
-/// What has become of a row's contacts; bits are lanes.
-struct FollowedRow
+/// What has become of a constraint's contacts; bits are lanes.
+struct RefreshedContacts
 {
     LaneFloats separation; ///< the least of the contact's points
     std::uint32_t unsure;  ///< to be looked at one by one; what else is told of them does not hold
@@ -88,16 +88,16 @@ struct OverlapSink
     void (*note)(const void* context, std::int32_t block, std::uint64_t boxes);
 };
 
-/// What is done eight at a time, to wide rows and joints, to states and contacts, compiled for one instruction set. Every set does the same, bit for bit.
+/// What is done eight at a time, to wide contact constraints and joints, to states and contacts, compiled for one instruction set. Every set does the same, bit for bit.
 struct WideKernels
 {
     const char* name;
-    /// A row from its contacts, their impulses, and the constants of their states, effective masses too. Of each lane `row` has a and b, `notes` the contact
+    /// A constraint from its contacts, their impulses, and the constants of their states, effective masses too. Of each lane `constraint` has a and b, `notes` the contact
     /// and how many points.
-    void (*fill)(WideRow& row, WideNotes& notes, const Contact* contacts, const ContactImpulses* impulses,
+    void (*fill)(WideContact& constraint, WideContactNotes& notes, const Contact* contacts, const ContactImpulses* impulses,
                  const StateConstants* constants);
     /// Effective masses anew, once lanes have been filled one by one.
-    void (*prepare)(WideRow& row, std::int32_t points);
+    void (*prepare)(WideContact& constraint, std::int32_t points);
     void (*warm_start)(const WideBin& bin, BodyState* states);
     /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
     void (*solve)(const WideBin& bin, BodyState* states, const WideSoftness& s);
@@ -116,15 +116,15 @@ struct WideKernels
     void (*relax_joints)(WideJoint* joints, std::int32_t count, BodyState* states, const JointSoftness& s);
     /// To the records: forces over the step dt, and what the next one is warm started with.
     void (*take_joint_impulses)(const WideJoint& joints, JointRecord* records, float dt);
-    /// Normal, arms and separations of a row whose contacts it held in the last step, at the poses that bodies have now.
-    void (*follow)(WideRow& row, const WideNotes& notes, const FollowedScene& scene, FollowedRow& found);
+    /// Normal, arms and separations of a constraint whose contacts it held in the last step, at the poses that bodies have now.
+    void (*follow)(WideContact& constraint, const WideContactNotes& notes, const FollowedScene& scene, RefreshedContacts& found);
     /// The manifolds of eight contacts that have as many points and are kept, likewise; of those that are not sure it is to be found by itself.
     void (*follow_contacts)(const LaneInts& contacts, int points, Contact* into, const FollowedScene& scene,
                             FollowedContacts& found);
     /// Of eight contacts that are kept and have no points, those that have come to no point for sure.
     std::uint32_t (*stay_apart)(const LaneInts& contacts, const FollowedScene& scene);
     /// Impulses of all lanes, and to their contacts whether they bear a load.
-    void (*take_impulses)(const WideRow& row, WideNotes& notes, Contact* contacts, ContactImpulses* impulses);
+    void (*take_impulses)(const WideContact& constraint, WideContactNotes& notes, Contact* contacts, ContactImpulses* impulses);
     /// Moves states that do not fly over a time h, eight by eight from the first on, as long as none of them turns fast. How many that were.
     std::int32_t (*move)(BodyState* states, const StateConstants* constants, std::int32_t count, float h);
     /// Paths of bodies that move freely, into their places, and their boxes: as sweep_body in sweep.cpp. False where it must decide, one by one.

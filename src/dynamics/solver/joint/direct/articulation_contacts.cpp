@@ -1,4 +1,4 @@
-// Contacts of figures: bodies that joints hold together are pushed as a whole. A contact that knew its own body alone would stop a foot and let the
+// Contacts of articulations: bodies that joints hold together are pushed as a whole. A contact that knew its own body alone would stop a foot and let the
 // joints push it on, turn after turn, as slowly as the foot is lighter than what it carries.
 //
 //   Y = -A^-1 J M^-1 E,   R = M^-1 (E + J^T Y)       answers of the joints, and of bodies, to unit impulses E on one body
@@ -6,8 +6,8 @@
 //
 // While contacts push, only the bodies that have contacts are kept up to date; the others and the joints get their shares at the end.
 //
-// A figure that is held by what does not give way has no such answer everywhere: a wall may contradict its joints, and these have to yield. There, and
-// between two bodies of one figure, contacts push their own bodies alone and joints and contacts take turns.
+// An articulation that is held by what does not give way has no such answer everywhere: a wall may contradict its joints, and these have to yield. There, and
+// between two bodies of one articulation, contacts push their own bodies alone and joints and contacts take turns.
 
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
@@ -31,71 +31,71 @@ float clamped_change(float& impulse, float change, float least, float most)
 
 } // namespace
 
-// --- figures ------------------------------------------------------------------------------------------------------------------------
+// --- articulations ------------------------------------------------------------------------------------------------------------------------
 
-void DirectSolve::find_figures()
+void DirectSolve::find_articulations()
 {
-    m_figures.clear();
-    m_figure_of.assign(m_nodes.size(), none);
+    m_articulations.clear();
+    m_articulation_of.assign(m_nodes.size(), none);
     for (std::size_t first = JointMatrix::ground + 1; first < m_nodes.size(); ++first)
     {
-        if (m_figure_of[first] != none)
+        if (m_articulation_of[first] != none)
             continue;
-        const int number = static_cast<int>(m_figures.size());
-        Figure& figure = m_figures.emplace_back();
-        m_figure_of[first] = number;
-        figure.nodes.assign(1, static_cast<int>(first));
+        const int number = static_cast<int>(m_articulations.size());
+        Articulation& articulation = m_articulations.emplace_back();
+        m_articulation_of[first] = number;
+        articulation.nodes.assign(1, static_cast<int>(first));
         for (bool grows = true; std::exchange(grows, false);)
         {
             for (const Item& item : m_items)
             {
                 if (item.a == JointMatrix::ground || item.b == JointMatrix::ground ||
-                    (m_figure_of[as_index(item.a)] == number) == (m_figure_of[as_index(item.b)] == number))
+                    (m_articulation_of[as_index(item.a)] == number) == (m_articulation_of[as_index(item.b)] == number))
                     continue;
-                const int added = m_figure_of[as_index(item.a)] == number ? item.b : item.a;
-                m_figure_of[as_index(added)] = number;
-                figure.nodes.push_back(added);
+                const int added = m_articulation_of[as_index(item.a)] == number ? item.b : item.a;
+                m_articulation_of[as_index(added)] = number;
+                articulation.nodes.push_back(added);
                 grows = true;
             }
         }
-        std::ranges::sort(figure.nodes);
+        std::ranges::sort(articulation.nodes);
         for (std::size_t i = 0; i < m_items.size(); ++i)
         {
             const Item& item = m_items[i];
-            if (m_figure_of[as_index(item.a)] != number && m_figure_of[as_index(item.b)] != number)
+            if (m_articulation_of[as_index(item.a)] != number && m_articulation_of[as_index(item.b)] != number)
                 continue;
-            figure.items.push_back(static_cast<int>(i));
+            articulation.items.push_back(static_cast<int>(i));
             const Edge& edge = m_edges[i];
             for (int r = 0; r < edge.held + (edge.has_axis ? 1 : 0); ++r)
-                figure.rows.push_back(item.first_row + r);
+                articulation.rows.push_back(item.first_row + r);
         }
-        std::ranges::sort(figure.rows);
+        std::ranges::sort(articulation.rows);
     }
 }
 
 void DirectSolve::find_anchors()
 {
-    m_has_free_figures = false;
-    for (Figure& figure : m_figures)
+    m_has_free_articulations = false;
+    for (Articulation& articulation : m_articulations)
     {
         const auto holds = [&](int i)
         { return m_items[as_index(i)].a == JointMatrix::ground || m_items[as_index(i)].b == JointMatrix::ground; };
-        figure.anchored = std::ranges::any_of(figure.items, holds) ||
-                          std::ranges::any_of(figure.nodes, [&](int n) { return is_locked(m_nodes[as_index(n)]); });
-        m_has_free_figures |= !figure.anchored;
+        articulation.anchored = std::ranges::any_of(articulation.items, holds) ||
+                                std::ranges::any_of(articulation.nodes, [&](int n) { return is_locked(m_nodes[as_index(n)]); });
+        m_has_free_articulations |= !articulation.anchored;
     }
 }
 
-// None where it belongs to no figure that may be pushed as a whole.
-int DirectSolve::free_figure_of(std::int32_t state) const
+// None where it belongs to no articulation that may be pushed as a whole.
+int DirectSolve::free_articulation_of(std::int32_t state) const
 {
     if (moving(state) == none)
         return none;
     const auto at = as_index(node_of(state));
     if (at >= m_nodes.size() || m_nodes[at].state != state)
         return none;
-    const int figure = m_figure_of[at];
-    return m_figures[as_index(figure)].anchored ? none : figure;
+    const int articulation = m_articulation_of[at];
+    return m_articulations[as_index(articulation)].anchored ? none : articulation;
 }
 
 // --- responses ----------------------------------------------------------------------------------------------------------------------
@@ -111,24 +111,24 @@ void DirectSolve::Response::add(const Triple& inverse_mass, const Triple& jacobi
 
 DirectSolve::Side DirectSolve::side_of(std::int32_t state)
 {
-    const int figure = free_figure_of(state);
-    if (figure == none)
+    const int articulation = free_articulation_of(state);
+    if (articulation == none)
         return {state};
     const int n = node_of(state);
     int& body = m_pushed_of[as_index(n)];
     if (body == none)
     {
         body = static_cast<int>(m_pushed.size());
-        std::vector<int>& others = m_figures[as_index(figure)].pushed;
-        m_pushed.push_back({.node = n, .figure = figure, .place = others.size()});
+        std::vector<int>& others = m_articulations[as_index(articulation)].pushed;
+        m_pushed.push_back({.node = n, .articulation = articulation, .place = others.size()});
         others.push_back(body);
     }
-    return {state, figure, body};
+    return {state, articulation, body};
 }
 
 void DirectSolve::find_responses(PushedBody& body)
 {
-    const Figure& whole = m_figures[as_index(body.figure)];
+    const Articulation& whole = m_articulations[as_index(body.articulation)];
     const Triple& mass = m_masses[as_index(body.node)];
     m_answer.resize(as_index(m_matrix.rows()));
     for (const int i : whole.items)
@@ -190,7 +190,7 @@ Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) cons
 // Its mass is 0 where joints leave no more than rounding of the bodies' own answer, as of a turn that another body's lock forbids.
 DirectSolve::PushedLine DirectSolve::pushed_line(const Contact& contact, const Triple& ja, const Triple& jb)
 {
-    const auto& [row, a, b] = contact;
+    const auto& [constraint, a, b] = contact;
     const double k = dot(ja, response(a, ja)) + dot(jb, response(b, jb));
     const double alone = dot(ja, response_alone(a, ja)) + dot(jb, response_alone(b, jb));
     return {a, b, ja, jb, k > least_answer * alone ? static_cast<float>(1 / k) : 0};
@@ -215,43 +215,44 @@ void DirectSolve::push_whole(const Side& side, const Triple& impulse)
     PushedBody& body = m_pushed[as_index(side.body)];
     body.given += impulse;
     const Response* response = &m_responses[body.first_response];
-    for (const int i : m_figures[as_index(side.figure)].pushed)
+    for (const int i : m_articulations[as_index(side.articulation)].pushed)
         change_velocity(m_view.states[node(m_pushed[as_index(i)].node).state], (response++)->to(impulse));
 }
 
 // --- passes -------------------------------------------------------------------------------------------------------------------------
 
-void DirectSolve::solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny)
+void DirectSolve::solve_contacts(std::span<ContactConstraint> constraints, std::span<ContactConstraint> late_constraints,
+                                 bool use_bias, float tiny)
 {
     constexpr int most_sweeps = 4;
     begin_pushes();
-    for (const std::span<ContactRow> some : {rows, late_rows})
+    for (const std::span<ContactConstraint> some : {constraints, late_constraints})
     {
-        for (ContactRow& row : some)
-            m_contacts.push_back({&row, side_of(row.a), side_of(row.b)});
+        for (ContactConstraint& constraint : some)
+            m_contacts.push_back({&constraint, side_of(constraint.a), side_of(constraint.b)});
     }
     for (int sweep = 0; sweep < most_sweeps; ++sweep)
     {
         m_largest_push = 0;
         for (const Contact& contact : m_contacts)
         {
-            if (contact.a.figure == contact.b.figure) // or in none
-                solve_rows(m_view, {contact.row, 1}, use_bias);
+            if (contact.a.articulation == contact.b.articulation) // or in none
+                solve_contact_constraints(m_view, {contact.constraint, 1}, use_bias);
             else
                 solve_contact(contact, use_bias);
         }
         if (m_largest_push < tiny)
             break;
     }
-    for (const Figure& figure : m_figures)
-        take_pushes(figure);
+    for (const Articulation& articulation : m_articulations)
+        take_pushes(articulation);
     take_answers();
 }
 
 void DirectSolve::begin_pushes()
 {
-    for (Figure& figure : m_figures)
-        figure.pushed.clear();
+    for (Articulation& articulation : m_articulations)
+        articulation.pushed.clear();
     m_contacts.clear();
     m_pushed.clear();
     m_pushed_of.assign(m_nodes.size(), none);
@@ -262,73 +263,74 @@ void DirectSolve::begin_pushes()
 
 void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
 {
-    ContactRow& row = *contact.row;
+    ContactConstraint& constraint = *contact.constraint;
     float load = 0;
-    for (int i = 0; i < row.count; ++i)
-        load += row.points[i].normal_impulse;
-    const auto line = [&](Vec2 d, const RowPoint& p)
+    for (int i = 0; i < constraint.count; ++i)
+        load += constraint.points[i].normal_impulse;
+    const auto line = [&](Vec2 d, const ConstraintPoint& p)
     { return pushed_line(contact, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))); };
-    if (row.rolling > 0 && (load > 0 || row.rolling_impulse != 0))
+    if (constraint.rolling > 0 && (load > 0 || constraint.rolling_impulse != 0))
     {
         const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
-        const float slip = m_view.states[row.b].angular_velocity - m_view.states[row.a].angular_velocity;
-        push_whole(turn, clamped_change(row.rolling_impulse, -turn.mass * slip, -row.rolling * load, row.rolling * load));
+        const float slip = m_view.states[constraint.b].angular_velocity - m_view.states[constraint.a].angular_velocity;
+        push_whole(turn, clamped_change(constraint.rolling_impulse, -turn.mass * slip, -constraint.rolling * load,
+                                        constraint.rolling * load));
     }
-    for (int i = 0; i < row.count; ++i)
+    for (int i = 0; i < constraint.count; ++i)
     {
-        RowPoint& p = row.points[i];
-        const NormalTarget target = normal_target(m_view, row, p, use_bias);
-        const float lacking = row_speed(m_view, row, p) + target.bias;
+        ConstraintPoint& p = constraint.points[i];
+        const NormalTarget target = normal_target(m_view, constraint, p, use_bias);
+        const float lacking = constraint_speed(m_view, constraint, p) + target.bias;
         if (p.normal_impulse == 0 && lacking >= 0)
             continue;
-        const PushedLine normal = line(row.n, p);
+        const PushedLine normal = line(constraint.n, p);
         const float change = -normal.mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
         push_whole(normal, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
     }
-    for (int i = 0; i < row.count; ++i)
+    for (int i = 0; i < constraint.count; ++i)
     {
-        RowPoint& p = row.points[i];
-        const float limit = row.friction * p.normal_impulse;
+        ConstraintPoint& p = constraint.points[i];
+        const float limit = constraint.friction * p.normal_impulse;
         if (limit == 0 && p.tangent_impulse == 0)
             continue;
-        const PushedLine along = line(perp(row.n), p);
-        push_whole(along, clamped_change(p.tangent_impulse, -along.mass * row_slip(m_view, row, p), -limit, limit));
+        const PushedLine along = line(perp(constraint.n), p);
+        push_whole(along, clamped_change(p.tangent_impulse, -along.mass * constraint_slip(m_view, constraint, p), -limit, limit));
     }
 }
 
 // The answers of the joints to all pushes, and the changes of bodies that no contact touches.
-void DirectSolve::take_pushes(const Figure& figure)
+void DirectSolve::take_pushes(const Articulation& articulation)
 {
     bool is_pushed = false;
-    for (const int p : figure.pushed)
+    for (const int p : articulation.pushed)
     {
         const PushedBody& body = m_pushed[as_index(p)];
         if (!body.responds)
             continue;
         is_pushed = true;
-        for (std::size_t i = 0; i < figure.rows.size(); ++i)
-            m_answered[as_index(figure.rows[i])] += dot(m_answers[body.first_answer + i], body.given);
+        for (std::size_t i = 0; i < articulation.rows.size(); ++i)
+            m_answered[as_index(articulation.rows[i])] += dot(m_answers[body.first_answer + i], body.given);
     }
     if (!is_pushed)
         return;
     m_before.clear();
-    for (const int n : figure.nodes)
+    for (const int n : articulation.nodes)
         m_before.push_back(std::exchange(node(n).change, {}));
-    for (const int p : figure.pushed)
+    for (const int p : articulation.pushed)
     {
         const PushedBody& body = m_pushed[as_index(p)];
         node(body.node).change += product(m_masses[as_index(body.node)], body.given);
     }
-    for (const int i : figure.items)
+    for (const int i : articulation.items)
     {
         const Item& item = m_items[as_index(i)];
         for (int r = 0; r < item.rows(); ++r)
             push(item, r, m_answered[as_index(item.first_row + r)]);
     }
-    for (std::size_t i = 0; i < figure.nodes.size(); ++i)
+    for (std::size_t i = 0; i < articulation.nodes.size(); ++i)
     {
-        Node& n = node(figure.nodes[i]);
-        if (m_pushed_of[as_index(figure.nodes[i])] == none)
+        Node& n = node(articulation.nodes[i]);
+        if (m_pushed_of[as_index(articulation.nodes[i])] == none)
             change_velocity(m_view.states[n.state], n.change);
         n.change += m_before[i];
     }

@@ -133,7 +133,7 @@ void DirectSolve::lay_out()
         item.a = edges[i].a;
         item.b = edges[i].b;
     }
-    find_figures();
+    find_articulations();
     m_jacobians.assign(m_items.size(), {});
     for (std::vector<double>* values : {&m_compliances, &m_wanted_compliances, &m_speeds, &m_impulses})
         values->assign(as_index(m_matrix.rows()), 0);

@@ -46,10 +46,11 @@ public:
     [[nodiscard]] bool yields() const { return m_yields; }
     void warm_start();
     void solve(bool use_bias);
-    /// Is there a figure that nothing holds? Its contacts are solved here, each with what the joints answer; see articulation_contacts.cpp.
-    [[nodiscard]] bool has_free_figures() const { return m_ready && m_has_free_figures; }
+    /// Is there an articulation that nothing holds? Its contacts are solved here, each with what the joints answer; see articulation_contacts.cpp.
+    [[nodiscard]] bool has_free_articulations() const { return m_ready && m_has_free_articulations; }
     /// Some sweeps over all contacts of the island, right after solve(); fewer once none changes a speed by more than `tiny`, m/s.
-    void solve_contacts(std::span<ContactRow> rows, std::span<ContactRow> late_rows, bool use_bias, float tiny);
+    void solve_contacts(std::span<ContactConstraint> constraints, std::span<ContactConstraint> late_constraints, bool use_bias,
+                        float tiny);
     /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
     void take_forbidden_speeds();
     /// Joints leave their stops at JointWork::bounce.
@@ -131,7 +132,7 @@ private:
     };
 
     /// Bodies that joints hold together.
-    struct Figure
+    struct Articulation
     {
         std::vector<int> nodes;
         std::vector<int> items;
@@ -152,29 +153,29 @@ private:
         void add(const Triple& inverse_mass, const Triple& jacobian, const Triple& answers);
     };
 
-    /// A body of a figure that has contacts.
+    /// A body of an articulation that has contacts.
     struct PushedBody
     {
         int node = 0;
-        int figure = 0;
-        std::size_t place = 0;          ///< among the figure's
+        int articulation = 0;
+        std::size_t place = 0;          ///< among the articulation's
         bool responds = false;          ///< responses and answers to unit impulses on it are known
-        std::size_t first_response = 0; ///< by the figure's pushed bodies
-        std::size_t first_answer = 0;   ///< of the joints, by the figure's rows
+        std::size_t first_response = 0; ///< by the articulation's pushed bodies
+        std::size_t first_answer = 0;   ///< of the joints, by the articulation's rows
         Triple given{};                 ///< impulse, by all contacts so far
     };
 
-    /// A body in a contact: as a part of its figure, or alone.
+    /// A body in a contact: as a part of its articulation, or alone.
     struct Side
     {
         std::int32_t state = none;
-        int figure = none;
+        int articulation = none;
         int body = none; ///< of those pushed
     };
 
     struct Contact
     {
-        ContactRow* row = nullptr;
+        ContactConstraint* constraint = nullptr;
         Side a;
         Side b;
     };
@@ -188,9 +189,9 @@ private:
         float mass = 0; ///< effective
     };
 
-    void find_figures();
+    void find_articulations();
     void find_anchors();
-    [[nodiscard]] int free_figure_of(std::int32_t state) const;
+    [[nodiscard]] int free_articulation_of(std::int32_t state) const;
     void find_responses(PushedBody& body);
     [[nodiscard]] Side side_of(std::int32_t state);
     [[nodiscard]] Triple response(const Side& side, const Triple& impulse);
@@ -200,7 +201,7 @@ private:
     void push_whole(const PushedLine& line, float impulse);
     void push_whole(const Side& side, const Triple& impulse);
     void solve_contact(const Contact& contact, bool use_bias);
-    void take_pushes(const Figure& figure);
+    void take_pushes(const Articulation& articulation);
     void take_answers();
 
     [[nodiscard]] bool find_edges();
@@ -279,9 +280,9 @@ private:
     std::vector<double> m_speeds; ///< or errors ahead per sub-step
     std::vector<double> m_impulses;
 
-    std::vector<Figure> m_figures;
-    std::vector<int> m_figure_of; ///< by node
-    bool m_has_free_figures = false;
+    std::vector<Articulation> m_articulations;
+    std::vector<int> m_articulation_of; ///< by node
+    bool m_has_free_articulations = false;
     std::vector<Contact> m_contacts;
     std::vector<PushedBody> m_pushed;
     std::vector<int> m_pushed_of; ///< by node
@@ -289,7 +290,7 @@ private:
     std::vector<Triple> m_answers;
     std::vector<Triple> m_answer;   ///< to unit impulses on one body, by row
     std::vector<double> m_answered; ///< to all contacts so far, by row
-    std::vector<Triple> m_before;   ///< changes of a figure
+    std::vector<Triple> m_before;   ///< changes of an articulation
     float m_largest_push = 0;       ///< change of a speed
 
     std::vector<Item> m_items;
