@@ -7,12 +7,14 @@
 #include "collision/time_of_impact.h"
 #include "core/blank_array.h"
 #include "core/union_find.h"
+#include "dynamics/continuous/flier.h"
 #include "dynamics/continuous/impact/reflect.h"
+#include "dynamics/solver/body_state.h"
 #include "dynamics/solver/contact/coloring.h"
+#include "dynamics/solver/contact/contact_constraint.h"
 #include "dynamics/solver/contact/wide_contacts.h"
 #include "dynamics/solver/joint/joint_rows.h"
 #include "dynamics/solver/joint/wide_joints.h"
-#include "dynamics/solver/rows.h"
 #include "dynamics/state/scene_state.h"
 
 #include <cstddef>

@@ -5,11 +5,11 @@
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
 #include "dynamics/continuous/flight.h"
+#include "dynamics/solver/body_state.h"
 #include "dynamics/solver/contact/partitions.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/island_constraints.h"
 #include "dynamics/solver/island_solver.h"
-#include "dynamics/solver/rows.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/turns.h"
 

@@ -2,7 +2,7 @@
 
 // All simulation state of a scene, in trivially copyable records without pointers: a snapshot is a copy of this struct.
 // A body is three records, by who reads them: BodyRecord (identity and lists), BodySim (what a step reads and writes once),
-// BodyState (the 32 bytes the solver touches in every pass, made anew each step).
+// BodyState (the 32 bytes the solver touches in every pass, made anew each step, in solver/body_state.h).
 
 #include "carom/scene.h"
 #include "collision/broad_phase.h"
@@ -93,33 +93,6 @@ struct WaitingForce
 
     friend constexpr bool operator==(const WaitingForce&, const WaitingForce&) = default;
 };
-
-namespace body_flag {
-inline constexpr std::uint16_t dynamic = 1;
-inline constexpr std::uint16_t flier = 2; ///< in flight: moved by flight, not by the solver
-inline constexpr std::uint16_t unbound =
-    4; ///< no forces but those that are even over a sub-step, and joints': it drifts along exact parabolas
-inline constexpr std::uint16_t at_lower = 8;   ///< a hinge limit blocks turning clockwise
-inline constexpr std::uint16_t at_upper = 16;  ///< a hinge limit blocks turning counter-clockwise
-inline constexpr std::uint16_t traced = 32;    ///< its path is recorded: it is near a trigger
-inline constexpr std::uint16_t unsound = 64;   ///< its force law gave what is no force: it is put aside after the step
-inline constexpr std::uint16_t stopped = 256;  ///< short of where the solver had it, by a wall on the way
-inline constexpr std::uint16_t pressed = 512;  ///< into a wall, by far more than contacts can bear: its way is checked
-inline constexpr std::uint16_t jointed = 1024; ///< holds on to a joint that does not stand in a lane
-inline constexpr std::uint16_t alone = 128;    ///< free, with nothing near that it could meet in this step
-} // namespace body_flag
-
-/// What every solver pass touches. Pose changes count from the start of the step.
-struct BodyState
-{
-    Vec2 velocity{};
-    float angular_velocity = 0;
-    std::uint16_t flags = 0;
-    std::int16_t turns = 0; ///< whole ones beside delta_rotation, see turns.h
-    Vec2 delta_position{};
-    Rotation delta_rotation{};
-};
-static_assert(sizeof(BodyState) == 32);
 
 /// What few shapes have.
 struct RareTraits

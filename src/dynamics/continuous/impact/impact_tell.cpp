@@ -4,7 +4,7 @@
 #include "core/index.h"
 #include "core/refuse.h"
 #include "dynamics/continuous/impact/impact_set.h"
-#include "dynamics/solver/rows.h"
+#include "dynamics/solver/effective_mass.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 

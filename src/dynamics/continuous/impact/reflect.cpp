@@ -1,6 +1,6 @@
 #include "dynamics/continuous/impact/reflect.h"
 
-#include "dynamics/solver/rows.h"
+#include "dynamics/solver/effective_mass.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "dynamics/solver/contact/prepare.h"
+#include "dynamics/solver/effective_mass.h"
 
 #include "dynamics/solver/joint/joint_solver.h"
 #include "dynamics/state/body_store.h"

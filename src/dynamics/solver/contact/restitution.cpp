@@ -2,6 +2,7 @@
 // found struck while relaxing.
 
 #include "dynamics/solver/contact/restitution.h"
+#include "dynamics/solver/effective_mass.h"
 
 #include "core/grow.h"
 #include "core/index.h"

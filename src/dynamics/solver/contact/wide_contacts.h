@@ -7,7 +7,7 @@
 // Points and normals are those of the start of the step; what turns with them is the separation.
 
 #include "core/lane_storage.h"
-#include "dynamics/solver/rows.h"
+#include "dynamics/solver/contact/contact_constraint.h"
 
 #include <cstdint>
 

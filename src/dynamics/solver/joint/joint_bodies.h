@@ -2,9 +2,9 @@
 
 // The two bodies of a joint in the solver: where they are, how fast they approach along a row, and what an impulse does to them.
 
+#include "dynamics/solver/body_state.h"
 #include "dynamics/solver/contact/contact_solver.h"
 #include "dynamics/solver/joint/joint_rows.h"
-#include "dynamics/solver/rows.h"
 #include "dynamics/state/scene_data.h"
 
 namespace carom::internal {

@@ -4,7 +4,8 @@
 // its own; joint_solver.cpp iterates over the rows of all kinds alike (and a direct solve over a tree of joints can read the same rows).
 
 #include "dynamics/solver/joint/joint_axis.h"
-#include "dynamics/solver/rows.h"
+#include "dynamics/solver/softness.h"
+#include "dynamics/state/scene_state.h"
 
 #include <array>
 #include <span>
@@ -34,6 +35,15 @@ struct JointRows
     void clear() { *this = {}; }
     [[nodiscard]] std::span<const JointRow> holds() const { return {held, static_cast<std::size_t>(held_count)}; }
     [[nodiscard]] bool has_axis() const { return acts.any(); }
+};
+
+/// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
+struct SpringKick
+{
+    float stretch = 0;
+    float speed = 0;
+    float acceleration = 0;
+    float straight = 0; ///< by the acceleration of a body that does not drift along a parabola, beside that
 };
 
 /// Where the joint's bodies are now, within the step.

@@ -4,7 +4,8 @@
 // limited, driven or sprung as well.
 
 #include "core/lane_storage.h"
-#include "dynamics/solver/rows.h"
+#include "dynamics/solver/body_state.h"
+#include "dynamics/solver/softness.h"
 
 #include <cstdint>
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// The constraints that the solver iterates over, made from contacts and joints once per step. Symbols: a, b the bodies; n the normal from a to b, t = perp(n);
-// r the lever arm; m the effective mass of a constraint, 1 / (J M^-1 J^T).
+// Bodies in flight, and the points at which they rest against something for a while.
 
 #include "carom/math.h"
 #include "dynamics/state/scene_state.h"
@@ -10,124 +9,6 @@
 #include <cstdint>
 
 namespace carom::internal {
-
-/// A constraint as a damped spring solved implicitly over h (the "soft constraint" of Catto, GDC 2011):
-/// impulse = -mass_scale m (v + bias_rate C) - impulse_scale accumulated.
-struct Softness
-{
-    float bias_rate = 0;
-    float mass_scale = 1;
-    float impulse_scale = 0;
-};
-
-[[nodiscard]] inline Softness make_softness(float hertz, float damping_ratio, float h)
-{
-    if (!(hertz > 0))
-        return {};
-    const float omega = 2 * pi * hertz;
-    const float a1 = 2 * damping_ratio + h * omega;
-    const float a2 = h * omega * a1;
-    const float a3 = 1 / (1 + a2);
-    return {omega / a1, a2 * a3, a3};
-}
-
-/// False where an inverse mass is the rounding of what its arms could give at most, squared arms times inverse inertia: nothing gives way.
-template <class Number>
-[[nodiscard]] bool exceeds_rounding(Number inverse_mass, Number by_arms)
-{
-    return inverse_mass > static_cast<Number>(1e-10) * by_arms;
-}
-
-/// Of a body, at another time than now; or how much they have changed.
-struct BodySpeeds
-{
-    Vec2 velocity{};
-    float angular_velocity = 0;
-    float padding = 0;
-};
-
-struct StateConstants
-{
-    Vec2 inverse_mass{};
-    float inverse_inertia = 0;
-    float angular_acceleration = 0;
-    Vec2 acceleration{};
-    float linear_decay = 1; ///< of the velocity over a sub-step
-    float angular_decay = 1;
-};
-
-/// A state whose body has a force law, and the accelerations that it has without.
-struct LawWork
-{
-    std::int32_t state = none;
-    float angular_acceleration = 0;
-    Vec2 acceleration{};
-};
-
-struct ConstraintPoint
-{
-    Vec2 ra{}; ///< lever arms of the Jacobian
-    Vec2 rb{};
-    Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
-    Vec2 rb0{};
-    float base = 0; ///< separation = base + n · (relative displacement of the anchors)
-    float predicted_bend =
-        0; ///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
-    float normal_impulse = 0;
-    float tangent_impulse = 0;
-    float normal_mass = 0;
-    float tangent_mass = 0;
-    float separation_before = 0; ///< at the start of the sub-step, in islands that are watched for their energy
-    float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear nothing yet
-    float total_impulse = 0;     ///< over the step
-    float total_tangent = 0;
-};
-
-struct ContactConstraint
-{
-    std::int32_t a = 0; ///< states
-    std::int32_t b = 0;
-    std::int32_t contact = none;
-    std::int32_t count = 0;
-    Vec2 n{};
-    float friction = 0;
-    float surface_speed = 0;
-    float coupling = 0; ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
-    float rolling = 0;  ///< torque limit over normal impulse, m
-    float rolling_impulse = 0;
-    float rolling_mass = 0;
-    float core = 0;    ///< half of what is inside a body, against what does not give way; 0 elsewhere
-    Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
-    Rotation turn_b{};
-    std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
-    std::uint8_t followed = 0;  ///< looked at anew when a body has turned
-    std::uint8_t hit = 0;       ///< its impact was reported
-    std::uint8_t pressed = 0;   ///< in this sub-step, before it was relaxed
-    Softness softness{};
-    ConstraintPoint points[2];
-};
-
-[[nodiscard]] inline bool bears_load(const ContactConstraint& constraint)
-{
-    return (constraint.count > 0 && constraint.points[0].normal_impulse > 0) ||
-           (constraint.count == 2 && constraint.points[1].normal_impulse > 0);
-}
-
-/// Of a body that has taken off; without points alone it may still come to have some.
-inline void drop(ContactConstraint& constraint) { constraint.count = constraint.refreshed = constraint.followed = 0; }
-[[nodiscard]] inline bool is_dropped(const ContactConstraint& constraint)
-{
-    return constraint.count == 0 && constraint.refreshed == 0 && constraint.followed == 0;
-}
-
-/// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
-struct SpringKick
-{
-    float stretch = 0;
-    float speed = 0;
-    float acceleration = 0;
-    float straight = 0; ///< by the acceleration of a body that does not drift along a parabola, beside that
-};
 
 /// A point at which two shapes rest against each other in flight, for what is left of the sub-step.
 struct Hold

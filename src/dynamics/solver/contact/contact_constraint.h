@@ -1,0 +1,69 @@
+#pragma once
+
+// A contact as the solver has it, made anew in each step. Symbols: a, b the bodies; n the normal from a to b, t = perp(n); r the lever arm; m the effective mass
+// along a direction, 1 / (J M^-1 J^T).
+
+#include "dynamics/solver/softness.h"
+#include "dynamics/state/scene_state.h"
+
+#include <cstdint>
+
+namespace carom::internal {
+
+struct ConstraintPoint
+{
+    Vec2 ra{}; ///< lever arms of the Jacobian
+    Vec2 rb{};
+    Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
+    Vec2 rb0{};
+    float base = 0; ///< separation = base + n · (relative displacement of the anchors)
+    float predicted_bend =
+        0; ///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
+    float normal_impulse = 0;
+    float tangent_impulse = 0;
+    float normal_mass = 0;
+    float tangent_mass = 0;
+    float separation_before = 0; ///< at the start of the sub-step, in islands that are watched for their energy
+    float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear nothing yet
+    float total_impulse = 0;     ///< over the step
+    float total_tangent = 0;
+};
+
+struct ContactConstraint
+{
+    std::int32_t a = 0; ///< states
+    std::int32_t b = 0;
+    std::int32_t contact = none;
+    std::int32_t count = 0;
+    Vec2 n{};
+    float friction = 0;
+    float surface_speed = 0;
+    float coupling = 0; ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
+    float rolling = 0;  ///< torque limit over normal impulse, m
+    float rolling_impulse = 0;
+    float rolling_mass = 0;
+    float core = 0;    ///< half of what is inside a body, against what does not give way; 0 elsewhere
+    Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
+    Rotation turn_b{};
+    std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
+    std::uint8_t followed = 0;  ///< looked at anew when a body has turned
+    std::uint8_t hit = 0;       ///< its impact was reported
+    std::uint8_t pressed = 0;   ///< in this sub-step, before it was relaxed
+    Softness softness{};
+    ConstraintPoint points[2];
+};
+
+[[nodiscard]] inline bool bears_load(const ContactConstraint& constraint)
+{
+    return (constraint.count > 0 && constraint.points[0].normal_impulse > 0) ||
+           (constraint.count == 2 && constraint.points[1].normal_impulse > 0);
+}
+
+/// Of a body that has taken off; without points alone it may still come to have some.
+inline void drop(ContactConstraint& constraint) { constraint.count = constraint.refreshed = constraint.followed = 0; }
+[[nodiscard]] inline bool is_dropped(const ContactConstraint& constraint)
+{
+    return constraint.count == 0 && constraint.refreshed == 0 && constraint.followed == 0;
+}
+
+} // namespace carom::internal
