@@ -95,7 +95,7 @@ bool is_sound(const BodyState& s, double x, double y)
 // size may have been led anywhere; and what is pressed into a wall creeps.
 bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 {
-    if (!ctx.scene.def.continuous || (s.flags & (body_flag::flier | body_flag::alone)) != 0)
+    if (!ctx.scene.def.continuous || (s.flags & (body_flag::flier | body_flag::free_fall)) != 0)
         return false;
     if ((s.flags & body_flag::pressed) != 0)
         return true;

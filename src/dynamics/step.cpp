@@ -71,11 +71,11 @@ void end_step(StepContext& ctx)
 
 } // namespace
 
-StepContext sliced(const StepContext& ctx, int slices)
+StepContext subdivided(const StepContext& ctx, int subdivisions)
 {
     StepContext s = ctx;
-    s.slices = slices;
-    s.substeps = ctx.substeps * slices;
+    s.subdivisions = subdivisions;
+    s.substeps = ctx.substeps * subdivisions;
     s.h = ctx.dt / static_cast<float>(s.substeps);
     set_softness(s);
     return s;

@@ -9,6 +9,7 @@
 #include "core/union_find.h"
 #include "dynamics/continuous/flier.h"
 #include "dynamics/continuous/impact/reflect.h"
+#include "dynamics/islands/policy.h"
 #include "dynamics/solver/body_state.h"
 #include "dynamics/solver/contact/coloring.h"
 #include "dynamics/solver/contact/contact_constraint.h"
@@ -66,14 +67,10 @@ struct Island
     std::int32_t joint_lane_count = 0;
     std::int32_t first_joint_bin = 0;
     std::int32_t joint_bin_count = 0; ///< two to a color
-    std::int32_t slices = 1;          ///< of each sub-step
-    bool alone = false;               ///< bodies with nothing near, each by itself: they fall
-    bool precise = false;             ///< few bodies: contacts of round shapes are looked at anew in every sub-step
-    bool heap = false;                ///< figures that are held softly, of several islands
-    bool wide = false;                ///< its contacts, and its hinges if there are many, go side by side
-    bool traced = false;              ///< paths of some of its bodies are recorded
-    bool direct = false;              ///< its joints are solved all at once
-    bool drifts = false;              ///< joints alone act within it: all bodies drift along parabolas
+    IslandPolicy policy;
+    bool traced = false;     ///< paths of some of its bodies are recorded
+    bool all_direct = false; ///< all of its joints are solved at once
+    bool drifts = false;     ///< joints alone act within it: all bodies drift along parabolas
 };
 
 /// What the update of a contact found that others must hear of.
@@ -156,8 +153,6 @@ struct WideCore
     float depth;         ///< to which it may go
 };
 
-inline constexpr int few_parts = 16; ///< of an island whose constraints stay in the cache that processors share
-inline constexpr int most_parts = plane_cells;
 inline constexpr int bins_to_a_part = 2 * color_limit;
 
 /// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
@@ -198,23 +193,6 @@ struct ContactPlace
 {
     std::uint32_t color; ///< counted over all islands
     std::int32_t contact;
-};
-
-/// What must be solved together, counted.
-struct IslandTally
-{
-    std::int32_t first = none; ///< place in awake_bodies of its first body
-    std::int32_t bodies = 0;
-    std::int32_t unloaded = 0; ///< that no contact loads; they fly unless they are a crowd
-    std::int32_t fliers = 0;
-    std::int32_t joints = 0;
-    std::int32_t contacts = 0;
-    std::int32_t bearing = 0; ///< of these, those that bore a load in the last step
-    float swing = 0;          ///< rad/s, of the joints' arms
-    std::int32_t damped = 0;  ///< of the joints, those that brake or damp what they hold
-    bool hangs = false;       ///< a joint holds to what does not move
-    std::int32_t slices = 1;  ///< of each sub-step
-    float longest_way = 0;    ///< m in this step, of its fliers that may meet something
 };
 
 /// What an island has in a cell of the plane.
@@ -477,7 +455,7 @@ struct Scratch
     std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
     std::vector<TreeLeaf> reaches;          ///< of these
     std::vector<SomeReaches> reaches_of_task;
-    std::vector<std::uint8_t> is_alone; ///< of what flies, by place in awake_bodies: nothing is near
+    std::vector<std::uint8_t> is_isolated; ///< of what flies, by place in awake_bodies: nothing is near
     BoxTree reach_tree;
     std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< islands that meet
@@ -573,15 +551,15 @@ struct StepContext
     float dt; ///< of the step
     float h;  ///< of a sub-step
     int substeps;
-    int slices = 1; ///< of each of the scene's sub-steps, in islands whose contacts turn fast
+    int subdivisions = 1; ///< of each of the scene's sub-steps, in islands whose contacts turn fast
     Softness contact_softness{};
     Softness static_softness{}; ///< against bodies of infinite mass: twice as stiff
     float joint_hertz = 0;
     float rest_speed = 0; ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
 };
 
-/// The same step with each sub-step cut into slices.
-[[nodiscard]] StepContext sliced(const StepContext& ctx, int slices);
+/// The same step with each sub-step subdivided.
+[[nodiscard]] StepContext subdivided(const StepContext& ctx, int subdivisions);
 
 /// How far any point of a body may move in this step, if nothing strikes it; 0 for what rests.
 [[nodiscard]] inline float motion_of(const StepContext& ctx, int body)

@@ -128,8 +128,8 @@ TEST(CoreUnionFind, WhatOthersHaveLinkedIsTakenOver)
             sets[part].link(links[i].first, links[i].second, false);
         sets[part].flatten();
     }
-    sets[0].gather_edges(sets[1]);
-    sets[0].gather_edges(sets[2]);
+    sets[0].join_all(sets[1]);
+    sets[0].join_all(sets[2]);
     EXPECT_EQ(roots(sets[0]), spread(links));
 }
 

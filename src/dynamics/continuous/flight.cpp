@@ -258,7 +258,7 @@ void raise_fast(StepContext& ctx, const Island& island, int k, IslandOutput& out
     for (Flier& f : span.fliers())
     {
         const BodyState& s = span.state_of(f.state);
-        const bool was_struck = island.precise || f.crowded || f.deflected;
+        const bool was_struck = island.policy.exact_impacts || f.crowded || f.deflected;
         if (f.landed && was_struck &&
             (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
             take_off_with_bats(span, f);
@@ -271,7 +271,8 @@ namespace {
 bool flies_freely(const StepContext& ctx, const Island& island)
 {
     const bool alike = island.flier_count == island.dynamic_count && island.constraint_count == 0 && island.wide_count == 0 &&
-                       island.joint_count == 0 && island.wide_joint_count == 0 && island.law_count == 0 && island.slices == 1;
+                       island.joint_count == 0 && island.wide_joint_count == 0 && island.law_count == 0 &&
+                       island.policy.subdivisions == 1;
     if (!alike || island.traced || ctx.scene.def.record_substeps)
         return false;
     const auto falls = [&](const Flier& f)
@@ -313,12 +314,12 @@ namespace {
 // Slices of a sub-step share what is given to it; where the first have spent all, each still has its part of as much again.
 void share_budget(const StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
-    const bool starts = k % ctx.slices == 0;
+    const bool starts = k % ctx.subdivisions == 0;
     const std::int64_t work = work_of_island + work_of_flier * island.flier_count;
     const std::int64_t looks = looks_of_island + looks_of_flier * island.flier_count;
-    const std::int64_t work_left = starts ? work : std::max(output.impact_work.left, work / ctx.slices);
+    const std::int64_t work_left = starts ? work : std::max(output.impact_work.left, work / ctx.subdivisions);
     output.impact_work = {.left = work_left, .whole = work_left};
-    output.looks_left = starts ? looks : std::max(output.looks_left, looks / ctx.slices);
+    output.looks_left = starts ? looks : std::max(output.looks_left, looks / ctx.subdivisions);
 }
 
 } // namespace

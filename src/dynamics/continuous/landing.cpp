@@ -161,8 +161,8 @@ void finish_flight(const FlightSpan& span, Flier& f)
         return;
     const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
     // Along what turns or moves, whose other sides come to meet it: a slice is short, the rest of the sub-step is not.
-    const bool goes_far =
-        f.carrier != none && f.carrier != held_by_world && span.ctx.slices * span.h * speed_over_carrier(span, f) > 0.5 * f.size;
+    const bool goes_far = f.carrier != none && f.carrier != held_by_world &&
+                          span.ctx.subdivisions * span.h * speed_over_carrier(span, f) > 0.5 * f.size;
     const bool is_beyond_constraints =
         f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || goes_far || is_wedged(span.holds_of(f));
     if (is_beyond_constraints || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))

@@ -18,7 +18,7 @@ namespace carom::internal {
 FlightSpan::FlightSpan(StepContext& context, const Island& u, int substep, IslandOutput& out)
     : ctx(context), state(context.state), scratch(context.scratch), island(u), output(out), k(substep),
       h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale)),
-      most_impacts(u.precise ? impact_limit : crowd_impact_limit)
+      most_impacts(u.policy.exact_impacts ? impact_limit : crowd_impact_limit)
 {}
 
 std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, island); }
@@ -322,7 +322,7 @@ CenterMotion center_of(const Flier& f)
 bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w)
 {
     const BodySim& sim = span.sim_of(f.body);
-    if (!span.island.precise)
+    if (!span.island.policy.exact_impacts)
     { // a crowd that falls together is no shot: what counts is what this step has done
         vx -= static_cast<double>(sim.velocity.x);
         vy -= static_cast<double>(sim.velocity.y);

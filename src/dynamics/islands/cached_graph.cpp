@@ -15,12 +15,10 @@ namespace carom::internal {
 
 namespace {
 
-// Large enough for everything in them to go by links alone.
+// Everything in it goes by edges alone.
 bool is_plain(const Island& island)
 {
-    const bool has_joints = island.joint_count > 0 || island.joint_lane_count > 0;
-    return island.dynamic_count > (has_joints ? IslandEnergy::most_bodies : precise_limit) && island.constraint_count == 0 &&
-           island.core_count == 0 && !island.heap && !island.alone;
+    return island.policy.caches_graph && island.constraint_count == 0 && island.core_count == 0;
 }
 
 } // namespace

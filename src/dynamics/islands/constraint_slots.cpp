@@ -24,10 +24,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int edges_to_a_part = 2048;      // of few
-constexpr int edges_to_a_huge_part = 8192; // their constraints stay in a cache from solving to relaxing
-constexpr std::size_t most_tasks = 64;     // of an island: each counts all of its bins
-constexpr std::uint16_t no_part = 65535;   // of what does not give way
+constexpr std::size_t most_tasks = 64;   // of an island: each counts all of its bins
+constexpr std::uint16_t no_part = 65535; // of what does not give way
 
 class ConstraintSlots
 {
@@ -41,7 +39,7 @@ public:
         m_island.first_impact_constraint = static_cast<std::int32_t>(m_scratch.impact_constraints.size());
         m_island.first_wide = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count;
         m_island.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
-        m_is_uniform = m_island.wide && is_uniform(m_ctx, m_island);
+        m_is_uniform = m_island.policy.wide_contacts && is_uniform(m_ctx, m_island);
         find_parts();
         name_copies();
         const std::span<SlotsOfTask> tasks = count_edges();
@@ -116,7 +114,7 @@ private:
     // As many constraints as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
     [[nodiscard]] std::int64_t work_of(int body) const
     {
-        return m_island.parts > few_parts ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
+        return are_many(m_island.parts) ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
     }
 
     // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
@@ -220,8 +218,8 @@ private:
     void count(ContactEdge& l, SlotsOfTask& some) const
     {
         const int color = l.color();
-        const bool in_lane =
-            m_island.wide && color != color_limit && l.has(edge_flag::plain) && (m_is_uniform || give_evenly(m_ctx, l));
+        const bool in_lane = m_island.policy.wide_contacts && color != color_limit && l.has(edge_flag::plain) &&
+                             (m_is_uniform || give_evenly(m_ctx, l));
         l.flags = static_cast<std::uint16_t>(l.flags | (in_lane ? edge_flag::in_lane : 0));
         l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
         ++some.place_for(l);
@@ -335,15 +333,6 @@ private:
     bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
 };
 
-// Whatever the number of threads: the order in which constraints are solved depends on it.
-int parts_of(const Island& island)
-{
-    const int few = std::min(island.edge_count / edges_to_a_part, few_parts);
-    const int many = std::min({island.edge_count / edges_to_a_huge_part, island.dynamic_count / bodies_to_a_cell, most_parts});
-    const int parts = std::max(few, many);
-    return island.wide && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
-}
-
 } // namespace
 
 void sort_edges(StepContext& ctx)
@@ -370,7 +359,7 @@ void place_constraints_of_small_islands(StepContext& ctx)
     scratch.bin_starts.clear();
     for (Island& island : scratch.islands)
     {
-        island.parts = parts_of(island);
+        island.parts = partitions_of(island.policy, island.dynamic_count, island.edge_count);
         if (island.parts == 0)
             ConstraintSlots(ctx, island).find();
     }

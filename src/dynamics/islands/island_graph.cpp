@@ -9,7 +9,6 @@
 #include "dynamics/islands/sort_by_island.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/solver/force_laws.h"
-#include "dynamics/solver/island_energy.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/task_sizes.h"
@@ -24,15 +23,11 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float slice_turn = 0.02f;  // rad
-constexpr float slice_swing = 0.25f; // rad, of a joint's arm
-constexpr int slice_limit = 32;
-constexpr int hinge_slice_limit = 64; // between bodies that move by themselves: what they err by is their own energy
+constexpr float most_turn_of_normal = 0.02f; // rad
+constexpr float most_swing = 0.25f;          // rad, of a joint's arm
 constexpr std::size_t fliers_per_task = 128;
 constexpr std::size_t reaches_per_task = 4; // blocks of eight
-constexpr float calm_swing = 0.1f;          // rad, in a step
-constexpr int enough_bodies = 256;          // in an island of heaps, or of bodies that are alone
-constexpr std::size_t enough_joints = 8;    // in a heap
+constexpr int enough_bodies = 256;          // in an island with soft joints, or of bodies that are isolated
 constexpr int most_sets = 4;                // that are linked side by side
 
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
@@ -60,7 +55,7 @@ public:
         { return part == 0 ? scratch.sets : scratch.more_sets[static_cast<std::size_t>(part) - 1]; };
         run_tasks(ctx.scene.def.tasks, parts, [&](int part) { gather_part(part, parts, sets_of(part)); });
         for (int part = 1; part < parts; ++part)
-            scratch.sets.gather_edges(sets_of(part));
+            scratch.sets.join_all(sets_of(part));
     }
 
     void gather_part(int part, int parts, UnionFind& sets)
@@ -94,7 +89,7 @@ public:
                           {
                               const std::int32_t place = scratch.flying[i];
                               std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
-                              if (tally_of(place).unloaded > precise_limit && !shoots(body_at(place)))
+                              if (is_crowd(tally_of(place).unloaded) && !shoots(body_at(place)))
                                   scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
                           });
         std::erase_if(scratch.flying,
@@ -119,10 +114,10 @@ public:
         return shoots;
     }
 
-    // Who bears matters to heaps.
+    // Who bears a load matters to soft joints.
     void count_contacts()
     {
-        if (scratch.joint_edges.size() < enough_joints)
+        if (!may_have_soft_joints(scratch.joint_edges.size()))
             return;
         for (const ContactEdge& l : scratch.links)
         {
@@ -143,15 +138,15 @@ public:
         return scratch.island_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
     }
 
-    // A contact whose normal turns with a bar or a bat, and a joint whose arm swings, are followed in slices of at most this turn.
-    void choose_slices()
+    // Sub-steps are subdivided so that normals that turn with a bar or a bat, and arms of joints, turn by little in each.
+    void find_subdivisions()
     {
         const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
                               std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
-                                          [](const IslandTally& t) { return t.bodies <= precise_limit; });
+                                          [](const IslandTally& t) { return follows_turning_contacts(t.bodies); });
         if (may_turn)
             for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
-                              [&](std::size_t place) { slice_at_contacts_of(static_cast<std::int32_t>(place)); });
+                              [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
         find_swings();
         for (std::size_t i = 0; i < scratch.joint_edges.size(); ++i)
         {
@@ -163,36 +158,37 @@ public:
             t.swing = std::max(t.swing, scratch.swings[i]);
         }
         for (IslandTally& t : scratch.tallies)
-            t.slices = std::max(t.slices, slices_for(t.swing, slice_swing, slice_limit));
+            t.subdivisions = std::max(t.subdivisions, subdivisions_for(t.swing, most_swing, most_subdivisions));
     }
 
-    [[nodiscard]] std::int32_t slices_for(float rate, float most_turn, int limit) const
+    [[nodiscard]] std::int32_t subdivisions_for(float rate, float most_turn, int limit) const
     {
         return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
     }
 
     // Of a small island.
-    void slice_at_contacts_of(std::int32_t place)
+    void follow_contacts_of(std::int32_t place)
     {
         const std::int32_t island = scratch.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
-        if (island == none || tally(island).bodies > precise_limit)
+        if (island == none || !follows_turning_contacts(tally(island).bodies))
             return;
         for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
         {
             const Contact& contact = state.contacts[edge >> 1];
             if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
-                slice_at_contact(contact, island);
+                follow_contact(contact, island);
         }
     }
 
     // Others may do so as well: the most that anyone wants.
-    void slice_at_contact(const Contact& contact, std::int32_t island)
+    void follow_contact(const Contact& contact, std::int32_t island)
     {
         const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
-        const std::int32_t wanted = slices_for(turn_rate(contact), slice_turn, both_move ? hinge_slice_limit : slice_limit);
-        const std::atomic_ref slices(tally(island).slices);
-        std::int32_t before = slices.load(std::memory_order_relaxed);
-        while (before < wanted && !slices.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
+        const std::int32_t wanted =
+            subdivisions_for(turn_rate(contact), most_turn_of_normal, both_move ? most_hinge_subdivisions : most_subdivisions);
+        const std::atomic_ref most(tally(island).subdivisions);
+        std::int32_t before = most.load(std::memory_order_relaxed);
+        while (before < wanted && !most.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
         {
         }
     }
@@ -205,32 +201,30 @@ public:
                           [&](std::size_t i)
                           {
                               const JointEdge& j = scratch.joint_edges[i];
-                              const bool small = tally(island_of_edge(j)).bodies <= IslandEnergy::most_bodies;
-                              scratch.swings[i] = small ? swing_rate(state.joints[j.joint]) : 0;
+                              const bool is_followed = follows_swinging_joints(tally(island_of_edge(j)).bodies);
+                              scratch.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
                           });
     }
 
-    // Heaps are solved side by side, several in an island: its lanes are fuller, and none sees the others. So are bodies that are alone, for they are many.
+    // Islands with soft joints are solved several at a time: lanes are fuller, and none sees the others. So are isolated bodies, for they are many.
     void form_islands()
     {
-        find_alone();
+        find_isolated();
         std::vector<std::int32_t>& island_of_group = scratch.order;
         island_of_group.clear();
         scratch.islands.clear();
-        Batch heaps;
-        Batch lone;
+        Batch soft;
+        Batch isolated;
         for (const IslandTally& t : scratch.tallies)
         {
-            const bool heap = is_heap(t);
-            const bool alone = t.bodies == 1 && t.fliers == 1 && scratch.is_alone[static_cast<std::size_t>(t.first)] != 0;
-            Batch* batch = heap ? &heaps : alone ? &lone : nullptr;
+            const bool is_isolated = t.bodies == 1 && scratch.is_isolated[static_cast<std::size_t>(t.first)] != 0;
+            const IslandPolicy policy = choose_policy(t, is_isolated, ctx.dt, ctx.scene.forced_policy);
+            Batch* batch = policy.soft_joints ? &soft : policy.free_fall ? &isolated : nullptr;
             if (batch == nullptr || batch->island == none || batch->bodies >= enough_bodies)
             {
                 append(scratch.islands, {});
                 Island& island = scratch.islands.back();
-                island.slices = heap ? 1 : t.slices;
-                island.heap = heap;
-                island.alone = alone;
+                island.policy = policy;
                 if (batch != nullptr)
                     *batch = {static_cast<std::int32_t>(scratch.islands.size()) - 1, 0};
             }
@@ -256,19 +250,19 @@ public:
     };
 
     // Of what flies.
-    void find_alone()
+    void find_isolated()
     {
-        set_size(scratch.is_alone, state.awake_bodies.size());
+        set_size(scratch.is_isolated, state.awake_bodies.size());
         for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
                               const std::int32_t place = scratch.flying[i];
-                              const bool alone = tally_of(place).bodies == 1 && is_alone(place);
-                              scratch.is_alone[static_cast<std::size_t>(place)] = alone ? 1 : 0;
+                              const bool isolated = tally_of(place).bodies == 1 && is_isolated(place);
+                              scratch.is_isolated[static_cast<std::size_t>(place)] = isolated ? 1 : 0;
                           });
     }
 
-    [[nodiscard]] bool is_alone(std::int32_t place) const
+    [[nodiscard]] bool is_isolated(std::int32_t place) const
     {
         const int body = body_at(place);
         const BodyRecord& record = state.bodies[body];
@@ -294,17 +288,6 @@ public:
         return true;
     }
 
-    // What joints hold exactly otherwise is held softly here, as in piles: where it lies on something, for four joints a contact bears a load; and where
-    // all joints brake or damp what they hold, and none of it turns fast near something that it may meet. None holds to what does not move.
-    [[nodiscard]] bool is_heap(const IslandTally& t) const
-    {
-        const bool calm = t.slices == 1;
-        const bool lies = 4 * t.bearing >= t.joints && calm;
-        const bool wearies = t.damped == t.joints && (t.contacts == 0 || (calm && ctx.dt * t.swing < calm_swing));
-        return static_cast<std::size_t>(t.joints) >= enough_joints && t.bodies <= IslandEnergy::most_bodies && !t.hangs &&
-               t.fliers == 0 && (lies || wearies);
-    }
-
     // How fast a joint's arms turn, in rad/s.
     [[nodiscard]] float swing_rate(const JointRecord& joint) const
     {
@@ -324,7 +307,7 @@ public:
     [[nodiscard]] float turn_rate(const Contact& contact) const
     {
         const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));
-        if (driven * ctx.h < 0.1f * slice_turn)
+        if (driven * ctx.h < 0.1f * most_turn_of_normal)
             return 0;
         const BodySim& a = state.sims[static_cast<std::size_t>(contact.body_a)];
         const BodySim& b = state.sims[static_cast<std::size_t>(contact.body_b)];
@@ -648,7 +631,7 @@ void build_island_graph(StepContext& ctx)
         graph.ground_crowds();
     }
     graph.count_contacts();
-    graph.choose_slices();
+    graph.find_subdivisions();
     graph.form_islands();
     graph.find_islands_of_edges();
     graph.sort_joints();

@@ -7,9 +7,6 @@
 
 namespace carom::internal {
 
-inline constexpr int precise_limit =
-    16; ///< bodies, as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
-
 /// When all links are known: fills Scratch::islands with how many states and joints each has, solved_bodies and solved_joints in their order, island_of_edge, and who flies.
 void build_island_graph(StepContext& ctx);
 

@@ -12,8 +12,6 @@
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/prepare_wide.h"
 #include "dynamics/solver/force_laws.h"
-#include "dynamics/solver/island_energy.h"
-#include "dynamics/solver/joint/direct/direct_solver.h"
 #include "dynamics/solver/joint/joint_solver.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/task_sizes.h"
@@ -29,13 +27,6 @@ namespace carom::internal {
 namespace {
 
 constexpr std::int32_t places_per_task = 512;
-
-// Are its contacts solved in lanes? Not what is looked at anew within the step, sliced, or watched for its energy.
-bool is_wide(const Island& island)
-{
-    return island.heap || (!island.precise && island.slices == 1 &&
-                           (island.joint_count == 0 || island.dynamic_count > IslandEnergy::most_bodies));
-}
 
 class IslandLayout
 {
@@ -179,7 +170,8 @@ private:
             const std::int32_t last = island + 1 != islands.end() ? std::min(end, first_of(*(island + 1))) : end;
             if (last <= i)
                 continue;
-            const StepContext island_ctx = island->slices > 1 ? sliced(m_ctx, island->slices) : m_ctx;
+            const StepContext island_ctx =
+                island->policy.subdivisions > 1 ? subdivided(m_ctx, island->policy.subdivisions) : m_ctx;
             for (; i < last; ++i)
                 visit(island_ctx, *island, i);
         }
@@ -191,8 +183,6 @@ private:
     {
         const std::int32_t first = island.first_state;
         island.first_state = add_state(none);
-        island.precise = island.dynamic_count <= precise_limit && !island.heap && !island.alone;
-        island.wide = is_wide(island);
         island.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
         for (std::int32_t i = first; i < first + island.dynamic_count; ++i)
         {
@@ -202,7 +192,7 @@ private:
             seed_flier(island, place);
         }
         island.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - island.first_flier;
-        m_ctx.report.flight_bodies += island.alone ? island.dynamic_count : 0;
+        m_ctx.report.flight_bodies += island.policy.free_fall ? island.dynamic_count : 0;
         copy_kinematic_bodies(island);
         island.state_count = static_cast<std::int32_t>(m_scratch.state_bodies.size()) - island.first_state;
     }
@@ -215,7 +205,7 @@ private:
 
     void seed_flier(const Island& island, std::int32_t place)
     {
-        if (island.alone)
+        if (island.policy.free_fall)
             return;
         const std::int32_t kind = m_scratch.flight[as_index(place)];
         const std::int32_t could = m_scratch.grounded[as_index(place)];
@@ -228,7 +218,7 @@ private:
                 forget_impulses(m_state.joints[kind]);
             m_scratch.flier_seeds.push_back({s, body, kind, false});
         }
-        else if (could != earthbound && (island.precise || may_take_off(place, could)))
+        else if (could != earthbound && (island.policy.exact_impacts || may_take_off(place, could)))
         {
             m_scratch.flier_seeds.push_back({s, body, could, true});
         }
@@ -259,7 +249,7 @@ private:
             return;
         for (std::int32_t i = island.first_flier; i < island.first_flier + island.flier_count; ++i)
             copy_those_near(island, m_scratch.flier_seeds[as_index(i)].body);
-        for (std::int32_t s = 1; island.precise && s <= island.dynamic_count; ++s)
+        for (std::int32_t s = 1; island.policy.recomputes_contacts && s <= island.dynamic_count; ++s)
             copy_those_near(island, m_scratch.state_bodies[as_index(island.first_state + s)]);
     }
 
@@ -308,9 +298,9 @@ private:
             return;
         }
         set_constants(island_ctx, body, c);
-        m_state.sims[as_index(body)].crowded = !island.precise && !island.alone;
-        if (island.alone)
-            s.flags |= body_flag::alone;
+        m_state.sims[as_index(body)].crowded = island.policy.caches_manifolds;
+        if (island.policy.free_fall)
+            s.flags |= body_flag::free_fall;
     }
 
     void add_flier(const StepContext& island_ctx, std::int32_t i)
@@ -345,8 +335,9 @@ private:
         const auto places = std::span(m_scratch.joint_places).subspan(as_index(island.first_joint), as_index(island.joint_count));
         const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
                                          { return sum + most_rows_of(m_state.joints[place.joint]); });
-        island.direct = island.joint_count > 0 && island.wide_joint_count == 0 && rows <= DirectSolve::most_rows;
-        island.drifts = island.direct && island.constraint_count == 0 && island.wide_count == 0;
+        island.all_direct =
+            island.joint_count > 0 && solves_all_joints_directly(island.policy, rows, island.wide_joint_count > 0);
+        island.drifts = island.all_direct && island.constraint_count == 0 && island.wide_count == 0;
         if (island.drifts)
             std::fill_n(m_scratch.bound_by_joint.begin() + island.first_state, island.state_count, 0);
     }
@@ -369,7 +360,7 @@ private:
     {
         const std::int32_t first = island.first_joint;
         const std::int32_t count = island.joint_count;
-        const bool wide = island.wide && (island.heap || count > DirectSolve::most_rows / 2);
+        const bool wide = island.policy.wide_joints;
         const bool uniform = wide && is_uniform(m_ctx, island);
         island.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
         island.first_wide_joint = m_groups;

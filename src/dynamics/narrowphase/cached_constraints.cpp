@@ -77,7 +77,7 @@ bool constraints_are_unchanged(const StepContext& ctx)
         ConstraintRefresh follower(ctx);
         WideContact* const constraints = ctx.scratch.wide_contacts.data() + island.wide_store;
         WideContactNotes* const all_notes = ctx.scratch.wide_notes.data() + island.wide_store;
-        const bool asks_ahead = !is_large(island); // a thread has much of a large one in its cache still
+        const bool asks_ahead = !is_shared(island); // a thread has much of a large one in its cache still
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
             WideContactNotes& notes = all_notes[g];
@@ -94,7 +94,7 @@ bool constraints_are_unchanged(const StepContext& ctx)
     };
     for (const Island& island : islands)
     {
-        if (is_large(island))
+        if (is_shared(island))
             WorkerTeam::run(
                 ctx.scene.def.tasks, [&](WorkerTeam& team)
                 { contact_bins(ctx.scratch, island).all(team, [&](int first, int last) { follow(island, first, last); }); });
@@ -102,7 +102,7 @@ bool constraints_are_unchanged(const StepContext& ctx)
     for_each_in_parts(ctx.scene.def.tasks, islands.size(), islands_per_task,
                       [&](std::size_t u)
                       {
-                          if (!is_large(islands[u]))
+                          if (!is_shared(islands[u]))
                               follow(islands[u], 0, islands[u].wide_count);
                       });
     return stay;

@@ -155,7 +155,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 
 void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
-    const StepContext island_ctx = island.slices > 1 ? sliced(ctx, island.slices) : ctx;
+    const StepContext island_ctx = island.policy.subdivisions > 1 ? subdivided(ctx, island.policy.subdivisions) : ctx;
     if (!ctx.scratch.cached_graph.constraints_are_unchanged)
         contact_bins(ctx.scratch, island).for_each(team, [&](int g) { fill_group(island_ctx, island, g); });
     for_each_place(team, island.first_constraint, island.constraint_count,

@@ -12,7 +12,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double rounding = 2e-6;  // of the energy, in the slices of a sub-step together
+constexpr double rounding = 2e-6;  // of the energy, over a whole sub-step
 constexpr double noise_way = 0.05; // of the slop, in a sub-step: what moves so far against the forces has gained nothing
 constexpr double rest_way = 0.004; // and what has no energy: it may not creep
 
@@ -89,7 +89,7 @@ void IslandEnergy::begin(const SolverView& view, const StepContext& ctx, std::sp
     m_joints = joints;
     m_slop = ctx.scene.tolerances.slop;
     m_rest_speed = ctx.rest_speed;
-    m_slices = island.slices;
+    m_subdivisions = island.policy.subdivisions;
     m_first = island.first_state + 1;
     m_count = std::min(island.dynamic_count, most_bodies);
     m_has_held_back = false;
@@ -440,7 +440,7 @@ void IslandEnergy::restore(bool exact)
         group.first += body(i).first;
         group.work += body(i).work;
         if (group.touches)
-            group.slop_work += as_double(m_slop) / m_slices * force_on(i);
+            group.slop_work += as_double(m_slop) / m_subdivisions * force_on(i);
         group.is_passive &= !decays(m_view.constants[i]) && !flies(i) && !(group.is_carried && group.is_anchored);
         group.is_passive &= !group.is_carried || (body(i).mass_x > 0 && body(i).mass_x == body(i).mass_y);
     }
@@ -514,7 +514,7 @@ void IslandEnergy::scale(int index, bool exact)
     const double work = group.of(group.work);
     const bool may_rise = group.may_lose && work < 0 && missing < 0;
     const bool may_stay = !(exact && !group.is_carried) &&
-                          missing >= -rounding / m_slices * std::fabs(group.of(group.first)) - noise_way * group.slop_work;
+                          missing >= -rounding / m_subdivisions * std::fabs(group.of(group.first)) - noise_way * group.slop_work;
     if (may_stay && !may_rise)
         return;
     Drift drift = drift_of(index);

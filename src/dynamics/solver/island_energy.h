@@ -16,7 +16,7 @@ namespace carom::internal {
 class IslandEnergy
 {
 public:
-    static constexpr int most_bodies = 64;
+    static constexpr int most_bodies = most_watched_bodies;
 
     /// Before the forces of a sub-step.
     void begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Island& island);
@@ -155,7 +155,7 @@ private:
     std::span<JointWork> m_joints;
     float m_slop = 0;
     float m_rest_speed = 0;
-    int m_slices = 1;
+    int m_subdivisions = 1;
     bool m_all_driven = false; ///< nothing to watch
     bool m_has_held_back = false;
     std::int32_t m_first = 0;

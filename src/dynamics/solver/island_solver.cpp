@@ -71,10 +71,8 @@ class IslandSolver
 {
 public:
     IslandSolver(const StepContext& ctx, const Island& island, IslandOutput& output, IslandEnergy& energy, WorkerTeam& team)
-        : m_ctx(island.slices > 1 ? sliced(ctx, island.slices) : ctx), m_scratch(ctx.scratch), m_island(island), m_output(output),
-          m_energy(energy), m_team(team),
-          m_watches_energy(island.precise ||
-                           (!island.heap && island.dynamic_count <= IslandEnergy::most_bodies && island.joint_count > 0)),
+        : m_ctx(island.policy.subdivisions > 1 ? subdivided(ctx, island.policy.subdivisions) : ctx), m_scratch(ctx.scratch),
+          m_island(island), m_output(output), m_energy(energy), m_team(team), m_watches_energy(island.policy.conserves_energy),
           m_view{ctx.scratch.states.data(), ctx.scratch.constants.data(), m_ctx.h, 1 / m_ctx.h, ctx.scene.tolerances.push_speed},
           m_constraints(constraints_of(ctx.scratch, island)),
           m_joints(std::span(ctx.scratch.joints)
@@ -98,8 +96,8 @@ public:
         add_constraints_beyond_seams();
         for (int k = 0; k < m_ctx.substeps; ++k)
             substep(k);
-        if (m_ctx.slices > 1)
-            scale_impulses(static_cast<float>(m_ctx.slices));
+        if (m_ctx.subdivisions > 1)
+            scale_impulses(static_cast<float>(m_ctx.subdivisions));
     }
 
 private:
@@ -143,7 +141,7 @@ private:
 
     void add_constraints_beyond_seams()
     {
-        if (!m_island.precise)
+        if (!m_island.policy.recomputes_contacts)
             return;
         const SceneState& state = m_ctx.state;
         for (std::int32_t s = m_island.first_state + 1; s <= m_island.first_state + m_island.dynamic_count; ++s)
@@ -205,7 +203,7 @@ private:
             close_gaps(*m_output.direct, m_view, m_ctx.state, m_joints);
         kick_springs_after(m_view, m_ctx.state, m_joints);
         walls().guard_cores();
-        if (m_island.precise && has_fliers())
+        if (m_island.policy.exact_impacts && has_fliers())
             relax(); // they must not meet what overlap is pushed out with
         fly(k);
         relax();
@@ -265,7 +263,7 @@ private:
     [[nodiscard]] bool goes_by_parts() const
     {
         return m_island.parts > 0 && m_joints.empty() && m_island.wide_joint_count == 0 && m_constraints.empty() &&
-               m_output.late_constraints.empty() && !m_island.traced && (m_island.parts > few_parts || !has_fliers());
+               m_output.late_constraints.empty() && !m_island.traced && (are_many(m_island.parts) || !has_fliers());
     }
 
     // Each part goes from solving through its new poses to relaxing at once, while its constraints are in the cache. What crosses from part to part is solved before
@@ -509,6 +507,7 @@ private:
     {
         if (!m_output.direct)
             m_output.direct = std::make_unique<DirectSolve>();
+        m_output.direct->set_most_rows(m_island.policy.direct_rows);
         return *m_output.direct;
     }
 
@@ -573,7 +572,7 @@ private:
     {
         const std::size_t contacts = m_constraints.size() + late_constraints().size();
         const bool alternate = is_direct() && contacts > 0 && m_island.wide_count == 0;
-        const bool settles = m_island.precise && contacts > 0 && contacts + m_joints.size() > 1;
+        const bool settles = m_island.policy.converges && contacts > 0 && contacts + m_joints.size() > 1;
         const int most = settles ? settle_turns : alternate ? turns : 1;
         for (int turn = 0; turn < most; ++turn)
         {
@@ -867,7 +866,7 @@ private:
         finish_joint_substep(m_view, m_ctx.state, m_joints);
         if (!m_joints.empty() && m_output.direct->yields())
             go_on_yielding();
-        if (m_ctx.scene.def.record_substeps && (k + 1) % m_ctx.slices == 0)
+        if (m_ctx.scene.def.record_substeps && (k + 1) % m_ctx.subdivisions == 0)
             record_poses(k);
     }
 
@@ -950,7 +949,7 @@ private:
     Partitions m_bins;
     Partitions m_joint_bins;
     const WideKernels& m_kernels = wide_kernels();
-    std::array<Velocity, 32> m_velocities{}; ///< before a turn, of precise islands
+    std::array<Velocity, most_converging_bodies> m_velocities{}; ///< before a pass
 };
 
 void IslandSolver::record_poses(int k)

@@ -77,7 +77,7 @@ void form_batches(Scratch& scratch)
     {
         Island& island = scratch.islands[i];
         island.wide_store = store;
-        if (is_large(island))
+        if (is_shared(island))
         {
             island.wide_store = large;
             large += island.wide_count;
@@ -97,7 +97,7 @@ void form_batches(Scratch& scratch)
     std::int32_t groups = store + large;
     for (Island& island : scratch.islands)
     {
-        island.wide_store += is_large(island) ? store : 0; // the large ones come behind
+        island.wide_store += is_shared(island) ? store : 0; // the large ones come behind
         if (scratch.cached_graph.constraints_apart)
         {
             island.wide_store = island.first_wide;
@@ -115,7 +115,7 @@ void solve_large(const StepContext& ctx, WorkerTeam& team)
     IslandEnergy energy;
     for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
     {
-        if (is_large(ctx.scratch.islands[u]))
+        if (is_shared(ctx.scratch.islands[u]))
             solve(ctx, u, energy, team);
     }
 }
@@ -129,9 +129,9 @@ void solve_batch(const StepContext& ctx, int batch)
     for (auto u = static_cast<std::size_t>(scratch.order[b]); u < static_cast<std::size_t>(scratch.order[b + 1]); ++u)
     {
         const Island& island = scratch.islands[u];
-        if (island.alone)
+        if (island.policy.free_fall)
             fall(ctx, island);
-        else if (!is_large(island))
+        else if (!is_shared(island))
             solve(ctx, u, energy, alone);
     }
 }
@@ -154,7 +154,7 @@ void solve_islands(StepContext& ctx)
     const TaskHooks& tasks = ctx.scene.def.tasks;
     const int batches = static_cast<int>(scratch.order.size()) - 1;
     const auto solve_some = [&](int batch) { solve_batch(ctx, batch); };
-    if (std::ranges::any_of(scratch.islands, is_large))
+    if (std::ranges::any_of(scratch.islands, is_shared))
         WorkerTeam::run(tasks, [&](WorkerTeam& team) { solve_large(ctx, team); }, batches, solve_some);
     else
         run_tasks(tasks, batches, solve_some);

@@ -89,8 +89,9 @@ struct SceneData
     std::vector<PendingImpact> pending_impacts;
     StepReport report{};
     Scratch scratch{};
-    int callback_count = 0; ///< shapes that have callbacks
-    int law_count = 0;      ///< bodies that have a force law
+    ForcedPolicy forced_policy{}; ///< by tests alone
+    int callback_count = 0;       ///< shapes that have callbacks
+    int law_count = 0;            ///< bodies that have a force law
     bool stepping = false;
     int frame_step = 0; ///< inside update(): which of its steps
 };

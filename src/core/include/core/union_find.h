@@ -46,7 +46,7 @@ public:
     }
 
     /// Whoever hangs together in `other`, which is as large; both have been flattened.
-    void gather_edges(const UnionFind& other)
+    void join_all(const UnionFind& other)
     {
         for (std::size_t i = 0; i + 1 < other.m_parents.size(); ++i)
         {

@@ -221,7 +221,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     note_deflected(m_span.scratch, m_span.output, m_span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
     if (m_renewed)
         return;
-    f.crowded |= !m_span.island.precise || f.impacts >= crowd_limit;
+    f.crowded |= !m_span.island.policy.exact_impacts || f.impacts >= crowd_limit;
     ++f.impacts;
     m_span.output.capped |= is_capped(m_span, f);
 }

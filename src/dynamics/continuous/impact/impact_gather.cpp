@@ -127,7 +127,7 @@ void ImpactSet::expand(int index)
     if (m.body == none || m.state == none)
         return;
     add_limits(index);
-    if (!m_span.island.precise)
+    if (!m_span.island.policy.exact_impacts)
         return; // crowds hit two by two
     if (m.flier == nullptr)
         add_joints(m.body);

@@ -123,15 +123,11 @@ private:
     bool m_backwards = false;
 };
 
-/// Hinges that are worth all threads: with fewer, waiting at the end of each colour costs more than a second thread gains.
-inline constexpr int worth_all_threads = 1536; // groups
-[[nodiscard]] inline bool is_large(const Island& island)
-{
-    return island.parts > 0 || island.wide_joint_count >= worth_all_threads;
-}
+/// All threads solve it together.
+[[nodiscard]] inline bool is_shared(const Island& island) { return is_worth_all_threads(island.parts, island.wide_joint_count); }
 
 /// Its constraints come from memory.
-[[nodiscard]] inline bool are_constraints_far(const Island& island) { return island.wide_count > most_near_constraints; }
+[[nodiscard]] inline bool are_constraints_far(const Island& island) { return is_beyond_caches(island.wide_count); }
 
 [[nodiscard]] inline Partitions contact_bins(const Scratch& scratch, const Island& island)
 {

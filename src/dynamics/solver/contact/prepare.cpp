@@ -182,8 +182,8 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         constraint.points[i].normal_impulse = impulses.normal;
         constraint.points[i].tangent_impulse = impulses.tangent;
     }
-    if (ctx.slices > 1)
-        scale_constraint(constraint, 1 / static_cast<float>(ctx.slices));
+    if (ctx.subdivisions > 1)
+        scale_constraint(constraint, 1 / static_cast<float>(ctx.subdivisions));
     if (contact.rolling_resistance > 0)
     {
         // The limit is a length: coefficient times the radius of what rolls.
@@ -192,7 +192,7 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);
         const float k = ca.inverse_inertia + cb.inverse_inertia;
         constraint.rolling = contact.rolling_resistance * radius;
-        constraint.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.slices);
+        constraint.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.subdivisions);
         constraint.rolling_mass = k > 0 ? 1 / k : 0;
     }
     return constraint;

@@ -58,15 +58,15 @@ void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constrai
 inline void follow_closely(const Contact& contact, const Island& island, ContactConstraint& constraint)
 {
     const bool round = (contact.flags & contact_flag::round) != 0;
-    constraint.refreshed = island.precise && round;
-    constraint.followed = island.precise && !round;
+    constraint.refreshed = island.policy.recomputes_contacts && round;
+    constraint.followed = island.policy.recomputes_contacts && !round;
 }
 
 /// A piece of a chain or an arc that has no point with a body now may have one before the step is over, as the body slides over a seam: in small
 /// islands such contacts have constraints without points, that are looked at anew.
 [[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Island& island)
 {
-    return island.precise && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
+    return island.policy.recomputes_contacts && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
 }
 
 /// All impulses of the last sub-step, for a sub-step of another length.

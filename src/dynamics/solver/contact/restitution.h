@@ -10,7 +10,7 @@ namespace carom::internal {
 
 struct BouncingIsland
 {
-    const StepContext& ctx; ///< of the island's slices
+    const StepContext& ctx; ///< of the island's subdivisions
     const Island& island;
     IslandOutput& output;
     const SolverView& view;

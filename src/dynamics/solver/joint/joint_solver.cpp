@@ -113,10 +113,10 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Join
     work.joint = place.joint;
     work.a = place.a;
     work.b = place.b;
-    if (ctx.slices > 1)
+    if (ctx.subdivisions > 1)
     {
         for (float& impulse : ctx.state.joints[place.joint].impulses)
-            impulse /= static_cast<float>(ctx.slices);
+            impulse /= static_cast<float>(ctx.subdivisions);
     }
     work.yields = joint.yields;
     const JointArms arms = joint_arms(ctx.state, joint);
@@ -132,7 +132,7 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Join
     if (joint.kind == JointType::Spring)
         fit_spring(view, ctx.state, work);
     else if (joint.hertz > 0)
-        fit_axis_spring(view, joint, island.direct, island.drifts, work);
+        fit_axis_spring(view, joint, island.all_direct, island.drifts, work);
     return work;
 }
 

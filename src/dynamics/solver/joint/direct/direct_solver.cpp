@@ -96,7 +96,7 @@ bool DirectSolve::find_edges()
         if ((held == 0 && !has_axis) || is_in_flight(m_view, work))
             continue;
         rows += held + (has_axis ? 1 : 0);
-        if (rows > most_rows)
+        if (rows > m_most_rows)
             return false;
         m_found.push_back({i, moving(work.a), moving(work.b), held, has_axis});
     }

@@ -26,8 +26,6 @@ inline void change_velocity(BodyState& s, const Triple& by)
 class DirectSolve
 {
 public:
-    static constexpr int most_rows = 128;
-
     enum class Masses
     {
         Loaded, ///< bodies that a load stretches count as harder to turn
@@ -40,6 +38,8 @@ public:
     void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints, Masses masses);
     /// Once a step: springs that share bodies swing faster together than each alone, and damp what a sub-step cannot follow.
     void fit_springs();
+    /// Joints with more rows are not solved here.
+    void set_most_rows(int rows) { m_most_rows = rows; }
     [[nodiscard]] bool is_ready() const { return m_ready; }
     /// A wall or others hold what they pull. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap is pushed out.
     void yield();
@@ -259,6 +259,7 @@ private:
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
     bool m_fits = false; ///< there is something to solve, and not too much
+    int m_most_rows = most_direct_rows;
     bool m_ready = false;
     bool m_may_contradict = false; ///< rows of loops, and of bodies that are locked
     Masses m_mass_kind = Masses::Own;

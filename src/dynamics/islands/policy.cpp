@@ -1,0 +1,107 @@
+// The thresholds by which islands are solved one way or another, and their reasons.
+
+#include "dynamics/islands/policy.h"
+
+#include "dynamics/state/scene_state.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int few_bodies =
+    16; // as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
+constexpr int enough_soft_joints = 8;
+constexpr float calm_swing = 0.1f; // rad, in a step
+constexpr int edges_to_a_part = 2048;
+constexpr int edges_to_a_huge_part = 8192; // their constraints stay in a cache from solving to relaxing
+constexpr int few_parts = 16;              // their constraints stay in the cache that processors share
+constexpr int most_parts = plane_cells;    // of the plane
+constexpr int joint_blocks_worth_threads =
+    1536; // with fewer, waiting at the end of each color costs more than a second thread gains
+constexpr int blocks_in_caches = 8'192;
+
+template <class Value>
+void force(Value& choice, const std::optional<Value>& forced)
+{
+    choice = forced.value_or(choice);
+}
+
+// Islands of jointed bodies that lie on something, where for four joints a contact bears a load; and those in which every joint brakes or damps what it holds, while
+// nothing in them turns fast near something that they may meet. None of their joints holds to what does not move.
+bool has_soft_joints(const IslandTally& t, float dt)
+{
+    const bool calm = t.subdivisions == 1;
+    const bool lies = 4 * t.bearing >= t.joints && calm;
+    const bool is_damped = t.damped == t.joints && (t.contacts == 0 || (calm && dt * t.swing < calm_swing));
+    return t.joints >= enough_soft_joints && t.bodies <= most_watched_bodies && !t.hangs && t.fliers == 0 && (lies || is_damped);
+}
+
+// Lanes have no room for manifolds that change within the step, for subdivided sub-steps, or for energies.
+bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
+{
+    return policy.soft_joints ||
+           (!policy.recomputes_contacts && policy.subdivisions == 1 && (t.joints == 0 || !policy.conserves_energy));
+}
+
+} // namespace
+
+bool is_crowd(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
+bool follows_turning_contacts(int bodies) { return bodies <= few_bodies; }
+bool follows_swinging_joints(int bodies) { return bodies <= most_watched_bodies; }
+bool may_have_soft_joints(std::size_t joints_of_scene) { return static_cast<int>(joints_of_scene) >= enough_soft_joints; }
+
+IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced)
+{
+    IslandPolicy policy;
+    policy.free_fall = is_isolated && island.bodies == 1 && island.fliers == 1 && forced.free_fall.value_or(true);
+    policy.soft_joints = forced.soft_joints.value_or(has_soft_joints(island, dt));
+    const bool few = island.bodies <= few_bodies && !policy.soft_joints && !policy.free_fall;
+    policy.recomputes_contacts = policy.converges = policy.exact_impacts = few;
+    policy.caches_manifolds = !few && !policy.free_fall;
+    policy.conserves_energy = few || (!policy.soft_joints && island.bodies <= most_watched_bodies && island.joints > 0);
+    policy.caches_graph =
+        island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints && !policy.free_fall;
+    policy.subdivisions = policy.soft_joints ? 1 : island.subdivisions;
+    force(policy.recomputes_contacts, forced.recomputes_contacts);
+    force(policy.converges, forced.converges);
+    force(policy.exact_impacts, forced.exact_impacts);
+    force(policy.conserves_energy, forced.conserves_energy);
+    force(policy.caches_manifolds, forced.caches_manifolds);
+    force(policy.subdivisions, forced.subdivisions);
+    policy.converges &= island.bodies <= most_converging_bodies;
+    policy.conserves_energy &= island.bodies <= most_watched_bodies;
+    policy.wide_contacts = may_be_wide(island, policy) && forced.wide_contacts.value_or(true);
+    policy.wide_joints =
+        policy.wide_contacts && forced.wide_joints.value_or(policy.soft_joints || island.joints > most_direct_rows / 2);
+    force(policy.direct_rows, forced.direct_rows);
+    force(policy.caches_graph, forced.caches_graph);
+    policy.caches_graph &= policy.wide_contacts;
+    return policy;
+}
+
+bool solves_all_joints_directly(const IslandPolicy& policy, int rows, bool some_in_lanes)
+{
+    return !some_in_lanes && rows <= policy.direct_rows;
+}
+
+int partitions_of(const IslandPolicy& policy, int bodies, int edges)
+{
+    const int few = std::min(edges / edges_to_a_part, few_parts);
+    const int many = std::min({edges / edges_to_a_huge_part, bodies / bodies_to_a_cell, most_parts});
+    const int parts = std::max(few, many);
+    return policy.wide_contacts && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
+}
+
+bool are_many(int partitions) { return partitions > few_parts; }
+
+bool is_worth_all_threads(int partitions, int wide_joint_blocks)
+{
+    return partitions > 0 || wide_joint_blocks >= joint_blocks_worth_threads;
+}
+
+bool is_beyond_caches(int blocks) { return blocks > blocks_in_caches; }
+
+} // namespace carom::internal
