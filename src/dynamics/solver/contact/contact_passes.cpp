@@ -1,0 +1,168 @@
+#include "dynamics/solver/contact/contact_passes.h"
+
+#include "core/index.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int passes_of_deep_overlaps = 7;
+
+} // namespace
+
+ContactPasses::ContactPasses(SolvedIsland& work)
+    : m_work(work), m_wide(work.scratch.wide_contacts.data() + work.island.wide_store),
+      m_notes(work.scratch.wide_notes.data() + work.island.wide_store),
+      m_struck(work.scratch.struck.data() + work.island.wide_store),
+      m_softness{
+          work.ctx.h,         work.view.inverse_h, work.view.push_speed, work.ctx.contact_softness, work.ctx.static_softness,
+          work.ctx.rest_speed},
+      m_partitions(contact_bins(work.scratch, work.island)),
+      m_notes_bodies(work.island.wide_count > 0 && work.island.joint_count == 0 && work.island.wide_joint_count == 0)
+{}
+
+// Where points and normals keep through the step, a body may be given at once what it would be given constraint by constraint.
+WarmStart ContactPasses::begin_substep(int k)
+{
+    const bool disturbed = std::exchange(m_work.output.disturbed, false);
+    m_starts_by_body = m_notes_bodies && k > 0 && !disturbed;
+    return m_starts_by_body ? WarmStart::ByBody : m_notes_bodies ? WarmStart::NotesBodies : WarmStart::ByConstraint;
+}
+
+void ContactPasses::warm_start()
+{
+    if (m_starts_by_body)
+        return;
+    m_partitions.by_color(m_work.team,
+                          [&](int first, int last) { m_kernels.warm_start(lanes(first, last), m_work.view.states); });
+    internal::warm_start(m_work.view, m_work.constraints);
+    internal::warm_start(m_work.view, m_work.late_constraints());
+}
+
+void ContactPasses::solve_wide(bool use_bias, bool is_last)
+{
+    m_softness.share = is_last ? 1 : 0;
+    m_partitions.by_color(m_work.team,
+                          [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
+}
+
+void ContactPasses::solve_others(bool use_bias)
+{
+    solve_contact_constraints(m_work.view, m_work.constraints, use_bias);
+    solve_contact_constraints(m_work.view, m_work.late_constraints(), use_bias);
+}
+
+void ContactPasses::solve_by_partition()
+{
+    const Island& island = m_work.island;
+    const auto solve = [this](int first, int last) { solve_lanes(first, last); };
+    const auto relax = [this](int first, int last) { relax_lanes(first, last); };
+    integrate_positions(m_work, island.first_state + 1 + island.dynamic_count,
+                        island.first_state + island.state_count); // kinematic
+    const auto parts = std::span(m_work.scratch.parts).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
+    const Walls walls = this->walls();
+    m_partitions.crossing(m_work.team, solve);
+    m_partitions.in_parts(m_work.team,
+                          [&](int part)
+                          {
+                              const auto states = std::ranges::equal_range(parts, static_cast<std::uint16_t>(part));
+                              const auto first = static_cast<int>(states.begin() - parts.begin()) + island.first_state + 1;
+                              m_partitions.of_part(part, solve);
+                              integrate_positions(m_work, first, first + static_cast<int>(states.size()));
+                              m_partitions.of_part(part, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
+                              m_partitions.of_part(part, relax);
+                          });
+    m_partitions.crossing(m_work.team, relax);
+}
+
+void ContactPasses::relax_struck()
+{
+    std::vector<std::int32_t>& parts = m_work.output.struck_states;
+    if (parts.empty() && m_work.late_constraints().empty())
+        return;
+    std::ranges::transform(parts, parts.begin(), [&](std::int32_t state) { return m_work.scratch.parts[as_index(state)]; });
+    std::erase_if(parts, [&](std::int32_t part) { return part >= m_work.island.parts; }); // of bodies of infinite mass
+    std::ranges::sort(parts);
+    parts.erase(std::ranges::unique(parts).begin(), parts.end());
+    const auto relax = [this](int first, int last) { relax_again(first, last); };
+    m_partitions.crossing(m_work.team, relax);
+    m_work.team.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_partitions.of_part(parts[as_index(i)], relax); });
+    solve_contact_constraints(m_work.view, m_work.late_constraints(), false);
+}
+
+void ContactPasses::relax_again(int first, int last)
+{
+    take_from_sums(first, last);
+    relax_lanes(first, last);
+}
+
+void ContactPasses::take_from_sums(int first, int last) const
+{
+    for (int g = first; g < last; ++g)
+    {
+        for (WidePoint& p : std::span(m_wide[g].points).first(as_index(m_notes[g].count)))
+        {
+            for (int i = 0; i < lane_count; ++i)
+            {
+                p.total_impulse.v[i] -= m_softness.share * p.normal_impulse.v[i];
+                p.total_tangent.v[i] -= m_softness.share * p.tangent_impulse.v[i];
+            }
+        }
+    }
+}
+
+// Blocks of one bin.
+WideBin ContactPasses::lanes(int first, int last) const
+{
+    return {m_wide + first, m_notes + first, last - first, are_constraints_far(m_work.island)};
+}
+
+void ContactPasses::solve_lanes(int first, int last) const
+{
+    m_kernels.solve(lanes(first, last), m_work.view.states, m_softness);
+}
+
+void ContactPasses::relax_lanes(int first, int last)
+{
+    const float least =
+        m_kernels.relax(lanes(first, last), m_work.view.states, m_softness, m_work.scratch.speeds.data(), m_struck + first);
+    if (least < deep())
+        std::atomic_ref(m_is_deep).store(1, std::memory_order_relaxed);
+}
+
+// The speeds at which many bodies are pushed out of each other add up, and one pass takes out little of it: they would fly apart. In islands that are cut into
+// partitions it would cost too much.
+void ContactPasses::relax_deep_overlaps()
+{
+    if (std::exchange(m_is_deep, 0) == 0 || m_work.island.parts > 0)
+        return;
+    for (int i = 0; i < passes_of_deep_overlaps; ++i)
+    {
+        m_partitions.by_color(m_work.team, [this](int first, int last) { relax_again(first, last); });
+        solve_others(false);
+    }
+    m_is_deep = 0;
+}
+
+// From here on overlap is pushed out as fast as allowed. No load presses anything so far into another.
+float ContactPasses::deep() const { return -m_work.view.push_speed / m_softness.contact.bias_rate; }
+
+Walls ContactPasses::walls() const
+{
+    const Island& island = m_work.island;
+    const auto cores = std::span(m_work.scratch.cores).subspan(as_index(island.first_core), as_index(island.core_count));
+    return {m_work.view,
+            {m_work.constraints,
+             m_work.late_constraints(),
+             m_work.output.pulled_constraints,
+             {m_wide, as_index(island.wide_count)},
+             cores}};
+}
+
+} // namespace carom::internal

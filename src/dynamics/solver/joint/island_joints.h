@@ -1,0 +1,54 @@
+#pragma once
+
+// The joints of an island over a step: hinges that stand in lanes, and the others, which are solved all at once where they are few.
+
+#include "dynamics/solver/contact/partitions.h"
+#include "dynamics/solver/joint/direct/direct_solver.h"
+#include "dynamics/solver/simd/kernels.h"
+#include "dynamics/solver/solved_island.h"
+
+namespace carom::internal {
+
+class IslandJoints
+{
+public:
+    explicit IslandJoints(SolvedIsland& work);
+
+    /// Once a step: where joints are, what others than the solver have done to them since the last step, and which contacts they pull at.
+    void begin_step();
+    /// At the present poses; so is prepare_direct.
+    void place();
+    void prepare_direct(DirectSolve::Masses masses);
+
+    /// Speeds towards limits, before a sub-step's forces.
+    void note_limit_approach();
+    void kick_springs_before();
+    void kick_springs_after();
+    void warm_start();
+    /// One pass. is_last: as in ContactPasses::solve_wide.
+    void solve(bool use_bias, bool is_last);
+    void bounce_off_limits(bool contacts_have_bounced);
+    void finish_substep();
+    /// Where a body turns so fast within the sub-step that no straight path ends in the right place.
+    void close_gaps();
+
+    /// The joints outside of lanes are solved all at once.
+    [[nodiscard]] bool are_direct() const { return !m_work.joints.empty() && direct().is_ready(); }
+    [[nodiscard]] DirectSolve& direct() const { return *m_work.output.direct; }
+
+private:
+    void take_forbidden_speeds();
+    void find_pulled_constraints();
+    void add_pulled_constraint(int index, int body, std::int32_t own);
+    void note_moved();
+    void go_on_yielding();
+    void forget_pull();
+
+    SolvedIsland& m_work;
+    WideJoint* m_wide;
+    JointSoftness m_softness;
+    Partitions m_bins;
+    const WideKernels& m_kernels = wide_kernels();
+};
+
+} // namespace carom::internal
