@@ -56,14 +56,17 @@ bool may_have_soft_joints(std::size_t joints_of_scene) { return static_cast<int>
 IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced)
 {
     IslandPolicy policy;
+    policy.subdivisions = island.subdivisions;
     policy.free_fall = is_isolated && island.bodies == 1 && island.fliers == 1 && forced.free_fall.value_or(true);
+    if (policy.free_fall)
+        return policy; // there may be thousands
     policy.soft_joints = forced.soft_joints.value_or(has_soft_joints(island, dt));
-    const bool few = island.bodies <= few_bodies && !policy.soft_joints && !policy.free_fall;
+    const bool few = island.bodies <= few_bodies && !policy.soft_joints;
     policy.recomputes_contacts = policy.converges = policy.exact_impacts = few;
-    policy.caches_manifolds = !few && !policy.free_fall;
+    policy.caches_manifolds = !few;
     policy.conserves_energy = few || (!policy.soft_joints && island.bodies <= most_watched_bodies && island.joints > 0);
     policy.caches_graph =
-        island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints && !policy.free_fall;
+        island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints;
     policy.subdivisions = policy.soft_joints ? 1 : island.subdivisions;
     force(policy.recomputes_contacts, forced.recomputes_contacts);
     force(policy.converges, forced.converges);
