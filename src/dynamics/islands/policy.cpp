@@ -65,8 +65,7 @@ IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt
     policy.recomputes_contacts = policy.converges = policy.exact_impacts = few;
     policy.caches_manifolds = !few;
     policy.conserves_energy = few || (!policy.soft_joints && island.bodies <= most_watched_bodies && island.joints > 0);
-    policy.caches_graph =
-        island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints;
+    policy.caches_graph = island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints;
     policy.subdivisions = policy.soft_joints ? 1 : island.subdivisions;
     force(policy.recomputes_contacts, forced.recomputes_contacts);
     force(policy.converges, forced.converges);

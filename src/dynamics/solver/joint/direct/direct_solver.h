@@ -259,6 +259,8 @@ private:
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
     bool m_fits = false; ///< there is something to solve, and not too much
+    static constexpr double loop_compliance = 1e-3; ///< of a row's weight
+
     int m_most_rows = most_direct_rows;
     bool m_ready = false;
     bool m_may_contradict = false; ///< rows of loops, and of bodies that are locked

@@ -1,0 +1,290 @@
+// The impulses of a Newton step. Axes are solved with the pieces of their laws that they seem to be on, until each is on the one that its law has at the rate and impulse found: an
+// active-set method.
+
+#include "dynamics/solver/joint/direct/direct_solver.h"
+
+#include "core/as_double.h"
+#include "core/index.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int rounds_of_all = 8; // of the active set; then axes change one at a time, which ends
+constexpr int most_rounds = 64;
+constexpr double yielding_compliance = 1; // of a row's weight
+constexpr double same_rate = 1e-6;
+constexpr double least_share = 1e-3; // of a spring's compliance, where its row is softer than the spring
+
+} // namespace
+
+void DirectSolve::find_impulses(Stage stage)
+{
+    begin_axes(stage);
+    for (int round = 0;; ++round)
+    {
+        solve_pieces();
+        if (!take_next_pieces(round < rounds_of_all))
+            return;
+        if (round == most_rounds)
+            break;
+    }
+    give_up_on_pieces();
+    solve_pieces();
+}
+
+void DirectSolve::begin_axes(Stage stage)
+{
+    m_compliance = !m_may_contradict ? 0 : stage == Stage::Ahead ? loop_compliance * m_softening : loop_compliance;
+    m_leak = stage == Stage::Ahead ? m_compliance : 0;
+    if (m_yields && stage != Stage::Held)
+        m_compliance = m_leak = std::max(m_compliance, yielding_compliance);
+    m_axes.clear();
+    for (std::size_t i = 0; i < m_items.size(); ++i)
+    {
+        const Item& item = m_items[i];
+        const JointRows& rows = item.work->rows;
+        if (!rows.has_axis())
+            continue;
+        Axis& axis = m_axes.emplace_back();
+        axis.item = i;
+        axis.row = item.first_row + item.held;
+        axis.restore = axis_impulses(*item.record);
+        if (stage == Stage::Held)
+            continue;
+        if (stage == Stage::Now)
+            axis.law = rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
+        else
+            axis.law = acts_ahead(rows, stage).law_ahead(item.work->spring, m_view.h);
+        for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
+        { // the softness of the row is part of a spring's own
+            const double own = m_spring_softening * spring->compliance;
+            spring->compliance = std::max(own - softness(axis), least_share * own);
+        }
+        axis.before = axis.law.scope.sum(axis.restore);
+        const double k = as_double(rows.axis_inverse_mass);
+        axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] + (softness(axis) - k) * axis.before, k);
+    }
+}
+
+// With every axis on its piece.
+void DirectSolve::solve_pieces()
+{
+    std::ranges::fill(m_wanted_compliances, 0);
+    for (const Axis& axis : m_axes)
+    {
+        if (!axis.piece.keeps_rate())
+            m_wanted_compliances[as_index(axis.row)] =
+                axis.piece.spring.is_there() ? axis.piece.spring.compliance : JointMatrix::off;
+    }
+    if (m_factored_with != m_compliance || m_wanted_compliances != m_compliances)
+    {
+        m_compliances.swap(m_wanted_compliances);
+        m_matrix.factor(m_compliances, m_compliance);
+        m_factored_with = m_compliance;
+    }
+    give_known_impulses();
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            const int row = item.first_row + r;
+            m_impulses[as_index(row)] =
+                -(m_speeds[as_index(row)] + change_along(item, r)) - m_leak * m_matrix.weight(row) * as_double(item.impulse(r));
+        }
+    }
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        const double speed = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        const double leak = softness(axis) * axis.before;
+        double& wanted = m_impulses[as_index(axis.row)];
+        const SpringLine& spring = axis.piece.spring;
+        if (axis.piece.keeps_rate())
+            wanted = axis.piece.rate - speed - leak;
+        else if (spring.is_there())
+            wanted = spring.rest - speed - leak - spring.compliance * (axis.before - axis.piece.constant);
+        else
+            wanted = 0;
+    }
+    m_matrix.solve(m_impulses);
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            push(item, r, m_impulses[as_index(item.first_row + r)]);
+    }
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        if (m_compliances[as_index(axis.row)] == JointMatrix::off)
+            m_impulses[as_index(axis.row)] = axis.piece.constant - axis.before;
+        else
+            push(item, item.held, m_impulses[as_index(axis.row)]);
+    }
+}
+
+// Of axes that do not depend on the rate.
+void DirectSolve::give_known_impulses()
+{
+    for (Node& n : m_nodes)
+        n.change = {};
+    for (const Axis& axis : m_axes)
+    {
+        if (m_compliances[as_index(axis.row)] == JointMatrix::off)
+            push(m_items[axis.item], m_items[axis.item].held, axis.piece.constant - axis.before);
+    }
+}
+
+// The rate at which an axis' law gives its impulse: the row itself gives way in proportion to that impulse.
+double DirectSolve::rate_of_law(const Axis& axis) const
+{
+    const Item& item = m_items[axis.item];
+    const double given_way =
+        m_matrix.weight(axis.row) * m_compliance * m_impulses[as_index(axis.row)] + softness(axis) * axis.before;
+    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_way;
+}
+
+// False where all are where they should be.
+bool DirectSolve::take_next_pieces(bool all)
+{
+    bool changed = false;
+    for (Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        const double k = as_double(item.work->rows.axis_inverse_mass);
+        const double impulse = m_impulses[as_index(axis.row)];
+        const double rate = rate_of_law(axis);
+        const AxisPiece next = axis.law.solve(rate - k * (axis.before + impulse), k);
+        if (std::fabs(next.rate - rate) <= same_rate * std::max(1.0, std::fabs(rate)))
+            continue;
+        axis.piece = axis.law.neighbour(axis.piece, next);
+        changed = true;
+        if (!all)
+            return true;
+    }
+    return changed;
+}
+
+// Each goes on giving what it gives: nothing comes from that but what held rows take.
+void DirectSolve::give_up_on_pieces()
+{
+    for (Axis& axis : m_axes)
+    {
+        axis.law.scope = {};
+        axis.piece = {};
+        axis.piece.constant = axis.before;
+    }
+}
+
+void DirectSolve::push(const Item& item, int row, double impulse)
+{
+    const JointJacobian& j = m_jacobians[static_cast<std::size_t>(&item - m_items.data())];
+    if (item.a != JointMatrix::ground)
+        node(item.a).change += impulse * product(m_masses[as_index(item.a)], j.a[row]);
+    if (item.b != JointMatrix::ground)
+        node(item.b).change += impulse * product(m_masses[as_index(item.b)], j.b[row]);
+}
+
+double DirectSolve::change_along(const Item& item, int row) const
+{
+    const JointJacobian& j = m_jacobians[static_cast<std::size_t>(&item - m_items.data())];
+    return dot(j.a[row], node(item.a).change) + dot(j.b[row], node(item.b).change);
+}
+
+void DirectSolve::take_velocities(double sign)
+{
+    for (const Node& n : m_nodes)
+    {
+        if (n.state == none)
+            continue;
+        change_velocity(m_view.states[n.state], sign * n.change);
+    }
+}
+
+void DirectSolve::take_impulses()
+{
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            item.impulse(r) += static_cast<float>(m_impulses[as_index(item.first_row + r)]);
+    }
+    for (const Axis& axis : m_axes)
+    {
+        const Item& item = m_items[axis.item];
+        const double rate = rate_of_law(axis);
+        const AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate);
+        set_axis_impulses(*item.record, axis.law.scope.merge(axis.restore, now));
+    }
+}
+
+void DirectSolve::take_back()
+{
+    take_velocities(-1);
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            item.impulse(r) -= static_cast<float>(m_impulses[as_index(item.first_row + r)]);
+    }
+    for (const Axis& axis : m_axes)
+        set_axis_impulses(*m_items[axis.item].record, axis.restore);
+}
+
+// The speeds are noted: what has been given up to here is in them.
+void DirectSolve::go_on_from_here()
+{
+    for (Node& n : m_nodes)
+        n.change = {};
+    std::ranges::fill(m_impulses, 0.0);
+    for (Axis& axis : m_axes)
+    {
+        axis.restore = axis_impulses(*m_items[axis.item].record);
+        axis.before = axis.law.scope.sum(axis.restore);
+    }
+}
+
+void DirectSolve::report_as_blow()
+{
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.rows(); ++r)
+            m_joints[item.joint].add(item.row(r), static_cast<float>(m_impulses[as_index(item.first_row + r)]));
+    }
+}
+
+void DirectSolve::warm_start()
+{
+    for (Node& n : m_nodes)
+        n.change = {};
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            push(item, r, as_double(item.impulse(r)));
+        if (item.work->rows.has_axis())
+            push(item, item.held, as_double(axis_impulse(*item.record)));
+    }
+    take_velocities();
+}
+
+void DirectSolve::start_anew()
+{
+    for (Node& n : m_nodes)
+        n.change = {};
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+            push(item, r, -as_double(std::exchange(item.impulse(r), 0.0f)));
+        if (item.work->rows.has_axis())
+        {
+            push(item, item.held, -as_double(axis_impulse(*item.record)));
+            set_axis_impulses(*item.record, {});
+        }
+    }
+    take_velocities();
+}
+
+} // namespace carom::internal

@@ -1,0 +1,246 @@
+// What the direct solver's equations are made of: who is connected with whom, where the joints are, and how heavy bodies count.
+
+#include "dynamics/solver/joint/direct/direct_solver.h"
+
+#include "core/as_double.h"
+#include "core/index.h"
+#include "dynamics/state/scene_data.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float most_stretch = 1; // (omega h)²
+
+// 0 and -0 differ.
+bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
+
+} // namespace
+
+// --- who is connected with whom -----------------------------------------------------------------------------------------------------
+
+// It keeps through the step, but where a body takes off or lands.
+bool DirectSolve::find_edges()
+{
+    m_found.clear();
+    int rows = 0;
+    for (std::size_t i = 0; i < m_joints.size(); ++i)
+    {
+        const JointWork& work = m_joints[i];
+        const int held = work.rows.held_count;
+        const bool has_axis = work.rows.has_axis();
+        if ((held == 0 && !has_axis) || is_in_flight(m_view, work))
+            continue;
+        rows += held + (has_axis ? 1 : 0);
+        if (rows > m_most_rows)
+            return false;
+        m_found.push_back({i, moving(work.a), moving(work.b), held, has_axis});
+    }
+    if (m_found != m_edges)
+        lay_out();
+    return true;
+}
+
+void DirectSolve::lay_out()
+{
+    m_edges = m_found;
+    m_is_new = true;
+    std::vector<std::int32_t> states{none}; // the ground
+    for (const Edge& e : m_edges)
+        states.insert(states.end(), {e.a, e.b});
+    std::ranges::sort(states);
+    states.erase(std::ranges::unique(states).begin(), states.end());
+    m_nodes.clear();
+    for (const std::int32_t state : states)
+        m_nodes.push_back({.state = state});
+    m_masses.assign(m_nodes.size(), {});
+
+    std::vector<JointMatrix::Edge> edges;
+    for (const Edge& e : m_edges)
+        edges.push_back({node_of(e.a), node_of(e.b), e.held + (e.has_axis ? 1 : 0)});
+    m_matrix.lay_out(edges, static_cast<int>(m_nodes.size()));
+    m_items.clear();
+    for (std::size_t i = 0; i < m_edges.size(); ++i)
+    {
+        Item& item = m_items.emplace_back();
+        item.joint = m_edges[i].joint;
+        item.held = m_edges[i].held;
+        item.first_row = m_matrix.first_row(i);
+        item.a = edges[i].a;
+        item.b = edges[i].b;
+    }
+    find_articulations();
+    m_jacobians.assign(m_items.size(), {});
+    for (std::vector<double>* values : {&m_compliances, &m_wanted_compliances, &m_speeds, &m_impulses})
+        values->assign(as_index(m_matrix.rows()), 0);
+}
+
+std::int32_t DirectSolve::moving(std::int32_t state) const
+{
+    return (m_view.states[state].flags & body_flag::dynamic) != 0 ? state : none;
+}
+
+int DirectSolve::node_of(std::int32_t state) const
+{
+    return static_cast<int>(std::ranges::lower_bound(m_nodes, state, {}, &Node::state) - m_nodes.begin());
+}
+
+// --- where they are -----------------------------------------------------------------------------------------------------------------
+
+// False where nothing has changed: a sub-step often begins as the last one has ended.
+bool DirectSolve::place()
+{
+    for (Node& n : m_nodes)
+        n.stretch = 0;
+    bool changed = std::exchange(m_is_new, false);
+    m_may_contradict = m_matrix.has_loops() || std::ranges::any_of(m_nodes, [&](const Node& n) { return is_locked(n); });
+    float longest = 0;
+    for (std::size_t i = 0; i < m_items.size(); ++i)
+    {
+        Item& item = m_items[i];
+        item.work = &m_joints[item.joint];
+        item.record = &m_state->joints[item.work->joint];
+        const JointPose& pose = item.work->pose;
+        longest = std::max({longest, dot(pose.ra, pose.ra), dot(pose.rb, pose.rb), dot(pose.gap, pose.gap)});
+        note_stretch(item);
+        if (item.take_lines())
+        {
+            fill_jacobian(item, m_jacobians[i]);
+            changed = true;
+        }
+    }
+    m_longest_arm = std::sqrt(longest);
+    find_anchors();
+    double stretch = 1;
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
+        stretch = std::max(stretch, as_double(m_nodes[i].stretch));
+    m_softening = stretch * stretch * stretch;
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
+    {
+        const Triple old = std::exchange(m_masses[i], inverse_mass(m_nodes[i]));
+        changed |= m_masses[i] != old;
+    }
+    return changed;
+}
+
+// How far the rows have given way, per impulse that they bear.
+double DirectSolve::present_compliance() const
+{
+    double rate = 0;
+    double impulse = 0;
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            const double weight = m_matrix.weight(item.first_row + r);
+            rate = std::max(rate, weight > 0 ? std::fabs(as_double(m_view.inverse_h * item.row(r).error)) / weight : 0);
+            impulse = std::max(impulse, std::fabs(as_double(item.impulse(r))));
+        }
+    }
+    return impulse > 0 ? rate / impulse : 0;
+}
+
+// True where they are others than before, to the last bit.
+bool DirectSolve::Item::take_lines()
+{
+    bool changed = false;
+    for (int r = 0; r < rows(); ++r)
+    {
+        const JointRow& now = row(r);
+        Line& line = lines[r];
+        changed |= !is_same(now.d.x, line.d.x) || !is_same(now.d.y, line.d.y) || !is_same(now.arm_a, line.arm_a) ||
+                   !is_same(now.arm_b, line.arm_b);
+        line = {now.d, now.arm_a, now.arm_b};
+    }
+    return changed;
+}
+
+void DirectSolve::fill_jacobian(const Item& item, JointJacobian& jacobian) const
+{
+    for (int r = 0; r < item.rows(); ++r)
+    {
+        const Line& line = item.lines[r];
+        jacobian.a[r] = as_triple(-line.d, -line.arm_a);
+        jacobian.b[r] = as_triple(line.d, line.arm_b);
+    }
+    const JointPose& pose = item.work->pose;
+    jacobian.arm_a = as_double(dot(pose.ra, pose.ra));
+    jacobian.arm_b = as_double(dot(pose.rb, pose.rb));
+}
+
+void DirectSolve::note_stretch(const Item& item)
+{
+    const JointWork& work = *item.work;
+    Vec2 pull{}; // on b, over a sub-step
+    for (const JointRow& row : work.rows.holds())
+        pull += item.record->impulses[row.slot] * row.d;
+    if (work.rows.has_axis())
+        pull += axis_impulse(*item.record) * work.rows.axis.d;
+    node(item.a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, work.pose.ra);
+    node(item.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
+}
+
+// True where the body cannot move along x or along y.
+bool DirectSolve::is_locked(const Node& node) const
+{
+    return node.state != none &&
+           (m_view.constants[node.state].inverse_mass.x == 0 || m_view.constants[node.state].inverse_mass.y == 0);
+}
+
+Triple DirectSolve::inverse_mass(const Node& node) const
+{
+    const StateConstants& c = m_view.constants[node.state];
+    const bool counts_as_harder =
+        m_mass_kind == Masses::Loaded && !m_may_contradict && node.stretch > most_stretch; // loops give way instead
+    const float share = counts_as_harder ? most_stretch / node.stretch : 1;
+    return as_triple(c.inverse_mass, share * c.inverse_inertia);
+}
+
+// No oscillation of a chain is faster than the two bodies of its stiffest joint would swing against fixed neighbours.
+void DirectSolve::fit_springs()
+{
+    if (!m_ready)
+        return;
+    for (Node& n : m_nodes)
+    {
+        n.sprung = 0;
+        n.springs = 0;
+    }
+    for (const Item& item : m_items)
+    {
+        if (!item.is_sprung())
+            continue;
+        const JointRow& axis = item.work->rows.axis;
+        const float stiffness = item.work->spring.stiffness;
+        add_spring(node(item.a), stiffness, axis.d, axis.arm_a);
+        add_spring(node(item.b), stiffness, axis.d, axis.arm_b);
+    }
+    for (const Item& item : m_items)
+    {
+        if (!item.is_sprung())
+            continue;
+        JointWork& work = m_joints[item.joint];
+        const Node& a = node(item.a);
+        const Node& b = node(item.b);
+        const float alone = work.spring.stiffness * work.rows.axis_inverse_mass;
+        const float rate = a.springs > 1 || b.springs > 1 ? std::max(alone, a.sprung + b.sprung) : alone;
+        work.spring.theta = std::max(work.spring.theta, least_theta(m_view.h * std::sqrt(rate)));
+    }
+}
+
+void DirectSolve::add_spring(Node& node, float stiffness, Vec2 d, float arm) const
+{
+    if (node.state == none)
+        return;
+    const StateConstants& c = m_view.constants[node.state];
+    node.sprung += stiffness * (c.inverse_mass.x * d.x * d.x + c.inverse_mass.y * d.y * d.y + c.inverse_inertia * arm * arm);
+    ++node.springs;
+}
+
+} // namespace carom::internal
