@@ -2,7 +2,7 @@
 
 #include "core/clock.h"
 #include "core/rounding.h"
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/body_store.h"
 #include "scene/access.h"

@@ -2,7 +2,7 @@
 
 #include "carom/scene.h"
 #include "core/rounding.h"
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/turns.h"
 #include "scene/access.h"

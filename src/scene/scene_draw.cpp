@@ -1,8 +1,8 @@
 // Debug draw: the scene as primitives, for the user's DebugDraw.
 
 #include "carom/scene.h"
-#include "dynamics/islands/wake.h"
 #include "dynamics/narrowphase/manifold_cache.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "geometry/bounds.h"
 #include "scene/access.h"

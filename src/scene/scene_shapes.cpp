@@ -1,8 +1,9 @@
 // Shapes: making, changing, destroying.
 
 #include "carom/scene.h"
-#include "dynamics/islands/wake.h"
+#include "core/rounding.h"
 #include "dynamics/sensors/fields.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "geometry/limits.h"
 #include "geometry/surface.h"

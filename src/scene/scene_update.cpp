@@ -1,7 +1,7 @@
 // A frame: fixed steps as its time asks for them, the events of all of them, and forces that act for its time.
 
 #include "core/grow.h"
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "scene/access.h"

@@ -5,7 +5,7 @@
 #include "core/task_pool.h"
 #include "dynamics/broadphase/half_space_box.h"
 #include "dynamics/continuous/body_path.h"
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/solver/simd/kernels.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"

@@ -2,10 +2,10 @@
 // (island_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (cached_graph.cpp), and so do constraints (cached_constraints.cpp)
 // and hinges (WideKernels::follow_joints).
 
-#include "dynamics/islands/cached_graph.h"
 #include "dynamics/islands/island_graph.h"
-#include "dynamics/islands/island_layout.h"
 #include "dynamics/islands/joint_edges.h"
+#include "dynamics/islands/layout/cached_graph.h"
+#include "dynamics/islands/layout/island_layout.h"
 #include "dynamics/narrowphase/cached_constraints.h"
 #include "dynamics/stages.h"
 

@@ -5,8 +5,11 @@
 
 #include "core/grow.h"
 #include "core/task_pool.h"
+#include "dynamics/islands/flight_meetings.h"
 #include "dynamics/islands/joint_edges.h"
-#include "dynamics/islands/sort_by_island.h"
+#include "dynamics/islands/layout/sort_by_island.h"
+#include "dynamics/islands/subdivisions.h"
+#include "dynamics/islands/tallies.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/solver/force_laws.h"
 #include "dynamics/state/body_store.h"
@@ -23,12 +26,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float most_turn_of_normal = 0.02f; // rad
-constexpr float most_swing = 0.25f;          // rad, of a joint's arm
-constexpr std::size_t fliers_per_task = 128;
-constexpr std::size_t reaches_per_task = 4; // blocks of eight
-constexpr int enough_bodies = 256;          // in an island with soft joints, or of bodies that are isolated
-constexpr int most_sets = 4;                // that are linked side by side
+constexpr int enough_bodies = 256; // in an island with soft joints, or of bodies that are isolated
+constexpr int most_sets = 4;       // that are linked side by side
 
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
@@ -83,19 +82,19 @@ public:
     void ground_crowds()
     {
         for (const std::int32_t place : scratch.flying)
-            ++tally_of(place).unloaded;
+            ++tally_of(scratch, place).unloaded;
         for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
                               const std::int32_t place = scratch.flying[i];
                               std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
-                              if (is_crowd(tally_of(place).unloaded) && !shoots(body_at(place)))
+                              if (is_crowd(tally_of(scratch, place).unloaded) && !shoots(body_at(place)))
                                   scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
                           });
         std::erase_if(scratch.flying,
                       [&](std::int32_t place) { return scratch.flight[static_cast<std::size_t>(place)] == earthbound; });
         for (const std::int32_t place : scratch.flying)
-            ++tally_of(place).fliers;
+            ++tally_of(scratch, place).fliers;
     }
 
     // Goes half its size or more in a sub-step, also as its neighbours see it.
@@ -123,89 +122,13 @@ public:
         {
             if (!l.has(edge_flag::solved))
                 continue;
-            IslandTally& t = tally(island_of_edge(l));
+            IslandTally& t = tally(scratch, island_of_edge(scratch, l));
             ++t.contacts;
             t.bearing += l.has(edge_flag::bears) ? 1 : 0;
         }
     }
 
-    [[nodiscard]] IslandTally& tally(std::int32_t island) { return scratch.tallies[static_cast<std::size_t>(island)]; }
-    [[nodiscard]] IslandTally& tally_of(std::int32_t place) { return tally(scratch.island_of[static_cast<std::size_t>(place)]); }
     [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
-    template <class AnyEdge>
-    [[nodiscard]] std::int32_t island_of_edge(const AnyEdge& l) const
-    {
-        return scratch.island_of[static_cast<std::size_t>(l.a >= 0 ? l.a : l.b)];
-    }
-
-    // Sub-steps are subdivided so that normals that turn with a bar or a bat, and arms of joints, turn by little in each.
-    void find_subdivisions()
-    {
-        const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
-                              std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
-                                          [](const IslandTally& t) { return follows_turning_contacts(t.bodies); });
-        if (may_turn)
-            for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
-                              [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
-        find_swings();
-        for (std::size_t i = 0; i < scratch.joint_edges.size(); ++i)
-        {
-            const JointEdge& j = scratch.joint_edges[i];
-            IslandTally& t = tally(island_of_edge(j));
-            ++t.joints;
-            t.hangs |= j.a < 0 || j.b < 0;
-            t.damped += j.damped ? 1 : 0;
-            t.swing = std::max(t.swing, scratch.swings[i]);
-        }
-        for (IslandTally& t : scratch.tallies)
-            t.subdivisions = std::max(t.subdivisions, subdivisions_for(t.swing, most_swing, most_subdivisions));
-    }
-
-    [[nodiscard]] std::int32_t subdivisions_for(float rate, float most_turn, int limit) const
-    {
-        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
-    }
-
-    // Of a small island.
-    void follow_contacts_of(std::int32_t place)
-    {
-        const std::int32_t island = scratch.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
-        if (island == none || !follows_turning_contacts(tally(island).bodies))
-            return;
-        for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-        {
-            const Contact& contact = state.contacts[edge >> 1];
-            if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
-                follow_contact(contact, island);
-        }
-    }
-
-    // Others may do so as well: the most that anyone wants.
-    void follow_contact(const Contact& contact, std::int32_t island)
-    {
-        const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
-        const std::int32_t wanted =
-            subdivisions_for(turn_rate(contact), most_turn_of_normal, both_move ? most_hinge_subdivisions : most_subdivisions);
-        const std::atomic_ref most(tally(island).subdivisions);
-        std::int32_t before = most.load(std::memory_order_relaxed);
-        while (before < wanted && !most.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
-        {
-        }
-    }
-
-    // Of joints in small islands, on all threads.
-    void find_swings()
-    {
-        set_size(scratch.swings, scratch.joint_edges.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_edges.size(), joints_per_task,
-                          [&](std::size_t i)
-                          {
-                              const JointEdge& j = scratch.joint_edges[i];
-                              const bool is_followed = follows_swinging_joints(tally(island_of_edge(j)).bodies);
-                              scratch.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
-                          });
-    }
-
     // Islands with soft joints are solved several at a time: lanes are fuller, and none sees the others. So are isolated bodies, for they are many.
     void form_islands()
     {
@@ -257,7 +180,7 @@ public:
                           [&](std::size_t i)
                           {
                               const std::int32_t place = scratch.flying[i];
-                              const bool isolated = tally_of(place).bodies == 1 && is_isolated(place);
+                              const bool isolated = tally_of(scratch, place).bodies == 1 && is_isolated(place);
                               scratch.is_isolated[static_cast<std::size_t>(place)] = isolated ? 1 : 0;
                           });
     }
@@ -288,190 +211,6 @@ public:
         return true;
     }
 
-    // How fast a joint's arms turn, in rad/s.
-    [[nodiscard]] float swing_rate(const JointRecord& joint) const
-    {
-        if (joint.kind == JointType::Spring)
-            return 0;
-        const auto spin = [&](int body, Vec2 anchor)
-        {
-            const bool turns = body != none && (anchor != state.sims[static_cast<std::size_t>(body)].local_center ||
-                                                joint.kind == JointType::Prismatic);
-            return turns ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
-        };
-        return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
-    }
-
-    // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
-    // is followed exactly in flight.
-    [[nodiscard]] float turn_rate(const Contact& contact) const
-    {
-        const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));
-        if (driven * ctx.h < 0.1f * most_turn_of_normal)
-            return 0;
-        const BodySim& a = state.sims[static_cast<std::size_t>(contact.body_a)];
-        const BodySim& b = state.sims[static_cast<std::size_t>(contact.body_b)];
-        const Vec2 arm = b.center - a.center;
-        const Vec2 slide = b.velocity - a.velocity - cross(a.angular_velocity, arm);
-        const float radius = std::max(state.shapes[contact.shape_a].leaf.r0, state.shapes[contact.shape_b].leaf.r0);
-        return driven + ((contact.flags & contact_flag::round) != 0 && radius > 0 ? length(slide) / radius : 0);
-    }
-
-    [[nodiscard]] float driven_spin(int body) const
-    {
-        const bool driven =
-            state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
-        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
-                      : 0;
-    }
-
-    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same island, or the
-    // two would meet in different times. True where islands have become one.
-    bool join_deflected()
-    {
-        find_deflected();
-        scratch.may_be_struck = scratch.is_deflected;
-        if (scratch.reaches.empty())
-            return false;
-        scratch.reach_tree.build(ctx.scene.def.tasks, scratch.reaches);
-        using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
-        const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
-        const std::span<Meetings> parts =
-            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings_of_task,
-                          [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
-        scratch.sets.reset(scratch.tallies.size());
-        bool linked = false;
-        for (const Meetings& some : parts)
-        {
-            for (const auto& [island, other] : some)
-                linked |= scratch.sets.link(island, other, false);
-        }
-        return linked;
-    }
-
-    // What flies and may be deflected by what it meets on its way; where it may come then, and whose boxes keep their way.
-    void find_deflected()
-    {
-        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
-        find_fastest();
-        const std::span<SomeReaches> parts =
-            find_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
-                          [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
-        scratch.reaches.clear();
-        std::vector<std::int32_t>& shapes = scratch.order;
-        shapes.clear();
-        for (const SomeReaches& some : parts)
-        {
-            append_all(scratch.reaches, some.reaches);
-            append_all(shapes, some.shapes);
-        }
-        if (!shapes.empty())
-            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
-    }
-
-    // A struck body may leave as fast as the one that strikes it comes. So each island notes the longest way of its fliers that may still meet something.
-    void find_fastest()
-    {
-        for (IslandTally& t : scratch.tallies)
-            t.longest_way = 0;
-        set_size(scratch.may_meet, state.awake_bodies.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
-                          [&](std::size_t i)
-                          {
-                              const std::int32_t place = scratch.flying[i];
-                              if (!flies_far(place))
-                                  return;
-                              const bool meets = may_meet(place);
-                              scratch.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
-                              if (!meets)
-                                  return;
-                              const float way = scratch.motion[static_cast<std::size_t>(place)];
-                              const std::atomic_ref longest(tally_of(place).longest_way);
-                              float before = longest.load(std::memory_order_relaxed);
-                              while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
-                              {
-                              }
-                          });
-    }
-
-    void find_reaches(std::size_t first, std::size_t last, SomeReaches& some) const
-    {
-        some.reaches.clear();
-        some.shapes.clear();
-        for (std::size_t i = first; i < last; ++i)
-        {
-            const std::int32_t item = scratch.flying[i];
-            const auto place = static_cast<std::size_t>(item);
-            const float way = scratch.tallies[static_cast<std::size_t>(scratch.island_of[place])].longest_way;
-            if (way == 0 || !(flies_far(item) ? scratch.may_meet[place] != 0 : may_meet(item)))
-                continue;
-            scratch.is_deflected[place] = 1;
-            const int body = body_at(item);
-            const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-            const double r = static_cast<double>(way) + static_cast<double>(sim.extent);
-            const Position c = sim.center;
-            some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
-            for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });
-        }
-    }
-
-    [[nodiscard]] bool flies_far(std::int32_t place) const
-    {
-        return scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
-    }
-
-    [[nodiscard]] bool may_meet(std::int32_t place) const
-    {
-        const auto deflects = [&](int edge)
-        { return is_solved(state.contacts[edge >> 1]) && !stays_apart(ctx, state.contacts[edge >> 1]); };
-        int edge = state.bodies[body_at(place)].first_contact;
-        while (edge != none && !deflects(edge))
-            edge = state.contacts[edge >> 1].next[edge & 1];
-        return edge != none;
-    }
-
-    // Islands that meet; notes what else may be struck.
-    void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
-    {
-        const BoxTree& tree = scratch.reach_tree;
-        meetings.clear();
-        const auto note = [&](std::int32_t place, std::int32_t other)
-        {
-            const std::pair islands(scratch.island_of[static_cast<std::size_t>(place)],
-                                    scratch.island_of[static_cast<std::size_t>(other)]);
-            const bool is_known = !meetings.empty() && meetings.back() == islands;
-            if (islands.second != none && islands.first != islands.second && !is_known) // kinematic bodies have none
-                meetings.push_back(islands);
-        };
-        for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
-        {
-            const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
-            state.broad_phase.for_each_overlap(
-                tree, k, lanes, Layer::Moving, scratch.keeps_its_way,
-                [&](std::int32_t place, int shape)
-                {
-                    const std::size_t other = place_of_shape(shape);
-                    std::atomic_ref(scratch.may_be_struck[other]).store(1, std::memory_order_relaxed);
-                    if (scratch.is_deflected[other] == 0) // what no tree holds yet is not chosen
-                        note(place, static_cast<std::int32_t>(other));
-                });
-            // of two that are both deflected the first finds the second
-            tree.for_each_overlap(
-                k, lanes, tree, [&](int other) { return other < k ? 0 : BoxTree::all_lanes; },
-                [&](int own, int other)
-                {
-                    if (own < other)
-                        note(tree.item(own), tree.item(other));
-                });
-        }
-    }
-
-    // In awake_bodies.
-    [[nodiscard]] std::size_t place_of_shape(int shape) const
-    {
-        return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
-    }
-
     // What must be solved together, in the order of its first body; every dynamic body gets its island, and is counted there. Who is first is not asked by a
     // branch: it would be guessed wrong.
     void number_islands()
@@ -493,10 +232,10 @@ public:
         scratch.tallies.clear();
         set_size(scratch.tallies, static_cast<std::size_t>(count));
         for (std::int32_t island = 0; island < count; ++island)
-            tally(island).first = firsts[static_cast<std::size_t>(island)];
+            tally(scratch, island).first = firsts[static_cast<std::size_t>(island)];
         for_each_run(
             0, n, [&](std::size_t i) { return scratch.island_of[i]; },
-            [&](const IslandRun& run) { tally(run.island).bodies += run.count; });
+            [&](const IslandRun& run) { tally(scratch, run.island).bodies += run.count; });
     }
 
     // After islands have become one: those that are left keep their order.
@@ -511,9 +250,9 @@ public:
             const auto before = static_cast<std::size_t>(scratch.sets.before(u));
             numbers[u] = before == u ? count++ : numbers[before];
             if (before == u)
-                tally(numbers[u]) = old;
+                tally(scratch, numbers[u]) = old;
             else
-                tally(numbers[u]).bodies += old.bodies;
+                tally(scratch, numbers[u]).bodies += old.bodies;
         }
         scratch.tallies.resize(static_cast<std::size_t>(count));
         for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
@@ -564,7 +303,7 @@ public:
     {
         sort_by_island(
             ctx.scene.def.tasks, scratch, scratch.joint_edges, scratch.solved_joints, joints_per_task,
-            [&](std::size_t i) { return island_of_edge(scratch.joint_edges[i]); },
+            [&](std::size_t i) { return island_of_edge(scratch, scratch.joint_edges[i]); },
             [](Island& island, int first, int count)
             {
                 island.first_joint = first;
@@ -606,7 +345,7 @@ private:
     [[nodiscard]] std::int32_t island_of_constraint(const ContactEdge& l) const
     {
         if (gets_constraint(l))
-            return island_of_edge(l);
+            return island_of_edge(scratch, l);
         if (l.has(edge_flag::solved))
             leave_constraint(state, l.contact);
         return none;
@@ -625,13 +364,13 @@ void build_island_graph(StepContext& ctx)
     graph.join_islands();
     run_both(ctx.scene.def.tasks, [&] { graph.number_islands(); }, [&] { graph.sort_by_cell(); });
     graph.ground_crowds();
-    while (graph.join_deflected())
+    while (join_deflected(ctx))
     {
         graph.renumber_islands();
         graph.ground_crowds();
     }
     graph.count_contacts();
-    graph.find_subdivisions();
+    find_subdivisions(ctx);
     graph.form_islands();
     graph.find_islands_of_edges();
     graph.sort_joints();

@@ -6,7 +6,7 @@
 #include "core/grow.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
-#include "dynamics/islands/cached_graph.h"
+#include "dynamics/islands/layout/cached_graph.h"
 #include "dynamics/solver/contact/prepare_wide.h"
 #include "dynamics/solver/joint/joint_bodies.h"
 #include "dynamics/solver/joint/joint_solver.h"

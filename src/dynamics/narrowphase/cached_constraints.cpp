@@ -7,7 +7,7 @@
 #include "core/index.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
-#include "dynamics/islands/cached_graph.h"
+#include "dynamics/islands/layout/cached_graph.h"
 #include "dynamics/narrowphase/constraint_refresh.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/narrowphase/manifold_cache.h"

@@ -5,12 +5,12 @@
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "dynamics/islands/contact_edges.h"
-#include "dynamics/islands/wake.h"
 #include "dynamics/narrowphase/cached_constraints.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/narrowphase/flush_pair.h"
 #include "dynamics/narrowphase/manifold_cache.h"
 #include "dynamics/narrowphase/material.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"
 

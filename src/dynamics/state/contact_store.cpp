@@ -1,8 +1,8 @@
 #include "dynamics/state/contact_store.h"
 
 #include "collision/manifold.h"
-#include "dynamics/islands/wake.h"
 #include "dynamics/narrowphase/material.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/solver/contact/coloring.h"
 
 namespace carom::internal {

@@ -1,6 +1,6 @@
 #include "dynamics/state/quarantine.h"
 
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 

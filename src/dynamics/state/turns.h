@@ -3,6 +3,7 @@
 // Whole turns of bodies, so that a hinge's angle grows beyond pi. A rotation has an angle from -pi to pi; the turns beside it are counted wherever a body
 // turns, in the sub-steps and when the step is committed.
 
+#include "dynamics/solver/body_state.h"
 #include "dynamics/state/scene_state.h"
 
 #include <cmath>

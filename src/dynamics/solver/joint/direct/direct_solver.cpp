@@ -43,7 +43,7 @@ constexpr double most_pull = 0.25; // in arms, or rad: rows that may contradict 
 constexpr double most_contradiction = 0.5; // likewise: where they are off by more and stay so, they yield
 constexpr int newton_steps = 2;
 constexpr int most_newton_steps = 6;
-constexpr double converged = 1e-6;       // in arms, or rad: rows that loops hold twice share out what is left
+constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
 constexpr double most_softening = 400;
 
 Triple velocity(const BodyState& s) { return as_triple(s.velocity, s.angular_velocity); }

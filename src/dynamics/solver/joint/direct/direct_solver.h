@@ -258,7 +258,7 @@ private:
     SceneState* m_state = nullptr;
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
-    bool m_fits = false; ///< there is something to solve, and not too much
+    bool m_fits = false;                            ///< there is something to solve, and not too much
     static constexpr double loop_compliance = 1e-3; ///< of a row's weight
 
     int m_most_rows = most_direct_rows;

@@ -2,14 +2,14 @@
 // step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Links are counted by tasks, each its own, and
 // then put where the counts of all say.
 
-#include "dynamics/islands/constraint_slots.h"
+#include "dynamics/islands/layout/constraint_slots.h"
 
 #include "core/grow.h"
 #include "core/index.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
-#include "dynamics/islands/island_layout.h"
-#include "dynamics/islands/sort_by_island.h"
+#include "dynamics/islands/layout/island_layout.h"
+#include "dynamics/islands/layout/sort_by_island.h"
 #include "dynamics/solver/contact/coloring.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/state/scene_data.h"

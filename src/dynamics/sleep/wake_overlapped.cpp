@@ -3,9 +3,9 @@
 
 #include "collision/manifold.h"
 #include "dynamics/broadphase/half_space_box.h"
-#include "dynamics/islands/wake.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/sensors/fields.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"
 

@@ -1,13 +1,13 @@
 // Everything that an island needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its constraints (constraint_slots.cpp), its joints.
 // States are filled here, on all threads; constraints and joints in island_constraints.cpp, just before the island is solved.
 
-#include "dynamics/islands/island_layout.h"
+#include "dynamics/islands/layout/island_layout.h"
 
 #include "core/grow.h"
 #include "core/index.h"
 #include "core/task_pool.h"
-#include "dynamics/islands/constraint_slots.h"
 #include "dynamics/islands/island_graph.h"
+#include "dynamics/islands/layout/constraint_slots.h"
 #include "dynamics/solver/contact/partitions.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/prepare_wide.h"

@@ -1,4 +1,4 @@
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 
 #include "dynamics/narrowphase/manifold_cache.h"
 #include "dynamics/solver/contact/coloring.h"

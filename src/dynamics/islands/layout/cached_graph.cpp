@@ -2,7 +2,7 @@
 // heaps and flight, which depend on speeds as well, are for small islands. Where all of these are what they were, so is the plan of the last step. It is
 // compared, not assumed: whatever a user has changed shows there.
 
-#include "dynamics/islands/cached_graph.h"
+#include "dynamics/islands/layout/cached_graph.h"
 
 #include "core/grow.h"
 #include "dynamics/islands/island_graph.h"

@@ -4,7 +4,7 @@
 #include "core/nonzero.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
-#include "dynamics/islands/wake.h"
+#include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"

@@ -1,0 +1,190 @@
+// Who may meet in flight beyond the paths that pairs were found with: what is deflected by an impact may go anywhere within its reach.
+
+#include "dynamics/islands/flight_meetings.h"
+
+#include "core/grow.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/tallies.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/state/scene_data.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr std::size_t reaches_per_task = 4; // blocks of eight
+
+class FlightMeetings
+{
+public:
+    explicit FlightMeetings(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+
+    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same island, or the
+    // two would meet in different times. True where islands have become one.
+    bool join_deflected()
+    {
+        find_deflected();
+        scratch.may_be_struck = scratch.is_deflected;
+        if (scratch.reaches.empty())
+            return false;
+        scratch.reach_tree.build(ctx.scene.def.tasks, scratch.reaches);
+        using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
+        const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
+        const std::span<Meetings> parts =
+            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings_of_task,
+                          [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
+        scratch.sets.reset(scratch.tallies.size());
+        bool linked = false;
+        for (const Meetings& some : parts)
+        {
+            for (const auto& [island, other] : some)
+                linked |= scratch.sets.link(island, other, false);
+        }
+        return linked;
+    }
+
+private:
+    // What flies and may be deflected by what it meets on its way; where it may come then, and whose boxes keep their way.
+    void find_deflected()
+    {
+        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
+        find_fastest();
+        const std::span<SomeReaches> parts =
+            find_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
+                          [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
+        scratch.reaches.clear();
+        std::vector<std::int32_t>& shapes = scratch.order;
+        shapes.clear();
+        for (const SomeReaches& some : parts)
+        {
+            append_all(scratch.reaches, some.reaches);
+            append_all(shapes, some.shapes);
+        }
+        if (!shapes.empty())
+            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
+    }
+
+    // A struck body may leave as fast as the one that strikes it comes. So each island notes the longest way of its fliers that may still meet something.
+    void find_fastest()
+    {
+        for (IslandTally& t : scratch.tallies)
+            t.longest_way = 0;
+        set_size(scratch.may_meet, state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+                          [&](std::size_t i)
+                          {
+                              const std::int32_t place = scratch.flying[i];
+                              if (!flies_far(place))
+                                  return;
+                              const bool meets = may_meet(place);
+                              scratch.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
+                              if (!meets)
+                                  return;
+                              const float way = scratch.motion[static_cast<std::size_t>(place)];
+                              const std::atomic_ref longest(tally_of(scratch, place).longest_way);
+                              float before = longest.load(std::memory_order_relaxed);
+                              while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
+                              {
+                              }
+                          });
+    }
+
+    void find_reaches(std::size_t first, std::size_t last, SomeReaches& some) const
+    {
+        some.reaches.clear();
+        some.shapes.clear();
+        for (std::size_t i = first; i < last; ++i)
+        {
+            const std::int32_t item = scratch.flying[i];
+            const auto place = static_cast<std::size_t>(item);
+            const float way = scratch.tallies[static_cast<std::size_t>(scratch.island_of[place])].longest_way;
+            if (way == 0 || !(flies_far(item) ? scratch.may_meet[place] != 0 : may_meet(item)))
+                continue;
+            scratch.is_deflected[place] = 1;
+            const int body = body_at(item);
+            const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+            const double r = static_cast<double>(way) + static_cast<double>(sim.extent);
+            const Position c = sim.center;
+            some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
+            for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });
+        }
+    }
+
+    [[nodiscard]] bool flies_far(std::int32_t place) const
+    {
+        return scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
+    }
+
+    [[nodiscard]] bool may_meet(std::int32_t place) const
+    {
+        const auto deflects = [&](int edge)
+        { return is_solved(state.contacts[edge >> 1]) && !stays_apart(ctx, state.contacts[edge >> 1]); };
+        int edge = state.bodies[body_at(place)].first_contact;
+        while (edge != none && !deflects(edge))
+            edge = state.contacts[edge >> 1].next[edge & 1];
+        return edge != none;
+    }
+
+    // Islands that meet; notes what else may be struck.
+    void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
+    {
+        const BoxTree& tree = scratch.reach_tree;
+        meetings.clear();
+        const auto note = [&](std::int32_t place, std::int32_t other)
+        {
+            const std::pair islands(scratch.island_of[static_cast<std::size_t>(place)],
+                                    scratch.island_of[static_cast<std::size_t>(other)]);
+            const bool is_known = !meetings.empty() && meetings.back() == islands;
+            if (islands.second != none && islands.first != islands.second && !is_known) // kinematic bodies have none
+                meetings.push_back(islands);
+        };
+        for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
+        {
+            const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
+            state.broad_phase.for_each_overlap(
+                tree, k, lanes, Layer::Moving, scratch.keeps_its_way,
+                [&](std::int32_t place, int shape)
+                {
+                    const std::size_t other = place_of_shape(shape);
+                    std::atomic_ref(scratch.may_be_struck[other]).store(1, std::memory_order_relaxed);
+                    if (scratch.is_deflected[other] == 0) // what no tree holds yet is not chosen
+                        note(place, static_cast<std::int32_t>(other));
+                });
+            // of two that are both deflected the first finds the second
+            tree.for_each_overlap(
+                k, lanes, tree, [&](int other) { return other < k ? 0 : BoxTree::all_lanes; },
+                [&](int own, int other)
+                {
+                    if (own < other)
+                        note(tree.item(own), tree.item(other));
+                });
+        }
+    }
+
+    // In awake_bodies.
+    [[nodiscard]] std::size_t place_of_shape(int shape) const
+    {
+        return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);
+    }
+
+    [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
+
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+};
+
+} // namespace
+
+bool join_deflected(StepContext& ctx) { return FlightMeetings(ctx).join_deflected(); }
+
+} // namespace carom::internal

@@ -1,0 +1,148 @@
+// Into how many parts the sub-steps of an island are subdivided, for what turns in it.
+
+#include "dynamics/islands/subdivisions.h"
+
+#include "core/grow.h"
+#include "core/task_pool.h"
+#include "dynamics/islands/joint_edges.h"
+#include "dynamics/islands/tallies.h"
+#include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/solver/force_laws.h"
+#include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
+#include "dynamics/task_sizes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr float most_turn_of_normal = 0.02f; // rad
+constexpr float most_swing = 0.25f;          // rad, of a joint's arm
+
+class Subdivisions
+{
+public:
+    explicit Subdivisions(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
+
+    // Sub-steps are subdivided so that normals that turn with a bar or a bat, and arms of joints, turn by little in each.
+    void find_subdivisions()
+    {
+        const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
+                              std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
+                                          [](const IslandTally& t) { return follows_turning_contacts(t.bodies); });
+        if (may_turn)
+            for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
+                              [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
+        find_swings();
+        for (std::size_t i = 0; i < scratch.joint_edges.size(); ++i)
+        {
+            const JointEdge& j = scratch.joint_edges[i];
+            IslandTally& t = tally(scratch, island_of_edge(scratch, j));
+            ++t.joints;
+            t.hangs |= j.a < 0 || j.b < 0;
+            t.damped += j.damped ? 1 : 0;
+            t.swing = std::max(t.swing, scratch.swings[i]);
+        }
+        for (IslandTally& t : scratch.tallies)
+            t.subdivisions = std::max(t.subdivisions, subdivisions_for(t.swing, most_swing, most_subdivisions));
+    }
+
+private:
+    [[nodiscard]] std::int32_t subdivisions_for(float rate, float most_turn, int limit) const
+    {
+        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
+    }
+
+    // Of a small island.
+    void follow_contacts_of(std::int32_t place)
+    {
+        const std::int32_t island = scratch.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
+        if (island == none || !follows_turning_contacts(tally(scratch, island).bodies))
+            return;
+        for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        {
+            const Contact& contact = state.contacts[edge >> 1];
+            if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
+                follow_contact(contact, island);
+        }
+    }
+
+    // Others may do so as well: the most that anyone wants.
+    void follow_contact(const Contact& contact, std::int32_t island)
+    {
+        const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
+        const std::int32_t wanted =
+            subdivisions_for(turn_rate(contact), most_turn_of_normal, both_move ? most_hinge_subdivisions : most_subdivisions);
+        const std::atomic_ref most(tally(scratch, island).subdivisions);
+        std::int32_t before = most.load(std::memory_order_relaxed);
+        while (before < wanted && !most.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
+        {
+        }
+    }
+
+    // Of joints in small islands, on all threads.
+    void find_swings()
+    {
+        set_size(scratch.swings, scratch.joint_edges.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_edges.size(), joints_per_task,
+                          [&](std::size_t i)
+                          {
+                              const JointEdge& j = scratch.joint_edges[i];
+                              const bool is_followed = follows_swinging_joints(tally(scratch, island_of_edge(scratch, j)).bodies);
+                              scratch.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
+                          });
+    }
+
+    // How fast a joint's arms turn, in rad/s.
+    [[nodiscard]] float swing_rate(const JointRecord& joint) const
+    {
+        if (joint.kind == JointType::Spring)
+            return 0;
+        const auto spin = [&](int body, Vec2 anchor)
+        {
+            const bool turns = body != none && (anchor != state.sims[static_cast<std::size_t>(body)].local_center ||
+                                                joint.kind == JointType::Prismatic);
+            return turns ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
+        };
+        return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
+    }
+
+    // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
+    // is followed exactly in flight.
+    [[nodiscard]] float turn_rate(const Contact& contact) const
+    {
+        const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));
+        if (driven * ctx.h < 0.1f * most_turn_of_normal)
+            return 0;
+        const BodySim& a = state.sims[static_cast<std::size_t>(contact.body_a)];
+        const BodySim& b = state.sims[static_cast<std::size_t>(contact.body_b)];
+        const Vec2 arm = b.center - a.center;
+        const Vec2 slide = b.velocity - a.velocity - cross(a.angular_velocity, arm);
+        const float radius = std::max(state.shapes[contact.shape_a].leaf.r0, state.shapes[contact.shape_b].leaf.r0);
+        return driven + ((contact.flags & contact_flag::round) != 0 && radius > 0 ? length(slide) / radius : 0);
+    }
+
+    [[nodiscard]] float driven_spin(int body) const
+    {
+        const bool driven =
+            state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
+        return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
+                      : 0;
+    }
+
+    [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
+
+    StepContext& ctx;
+    SceneState& state;
+    Scratch& scratch;
+};
+
+} // namespace
+
+void find_subdivisions(StepContext& ctx) { Subdivisions(ctx).find_subdivisions(); }
+
+} // namespace carom::internal
