@@ -8,6 +8,7 @@
 #include "dynamics/continuous/motion.h"
 #include "dynamics/continuous/safety_sweep.h"
 #include "dynamics/narrowphase/contact_update.h"
+#include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/solver/force_laws.h"
 #include "dynamics/solver/island_constraints.h"
@@ -197,45 +198,6 @@ void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
     sim.angular_velocity += sim.inverse_inertia * cross(d.arm, d.impulse);
 }
 
-constexpr std::size_t touches_per_task = 64;
-
-// Of one that has touched within the step: when it ends it neither bears a load nor touches.
-bool has_bounced(const StepContext& ctx, const Contact& contact)
-{
-    if ((contact.flags & contact_flag::loaded) != 0)
-        return false;
-    const Manifold m = world_manifold(ctx.state, contact, pose_at_start(ctx.state, contact.body_a),
-                                      pose_at_start(ctx.state, contact.body_b), 2 * ctx.scene.tolerances.slop);
-    return m.count == 0;
-}
-
-// On all threads; by places in the list.
-std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const RawTouch> begins)
-{
-    const SceneState& state = ctx.state;
-    std::vector<std::uint8_t>& bounced = ctx.scratch.bounced;
-    set_size(bounced, begins.size());
-    for_each_in_parts(ctx.scene.def.tasks, begins.size(), touches_per_task, [&](std::size_t i)
-                      { bounced[i] = begins[i].contact != none && has_bounced(ctx, state.contacts[begins[i].contact]) ? 1 : 0; });
-    return bounced;
-}
-
-// A bounce within the step: touching at neither end, it begins and ends in it.
-void end_bounces(StepContext& ctx, const IslandOutput& output)
-{
-    const std::span<const std::uint8_t> bounced = find_bounces(ctx, output.begins);
-    for (std::size_t i = 0; i < bounced.size(); ++i)
-    {
-        const RawTouch& touch = output.begins[i];
-        if (touch.contact == none)
-            append(ctx.scene.events.ends, event_between<ContactEndEvent>(ctx.state, touch.shape_a, touch.shape_b, touch.time));
-        if (bounced[i] == 0)
-            continue;
-        end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
-        leave_lane(ctx.state, touch.contact); // which takes it for told
-    }
-}
-
 constexpr std::size_t worth_lending = 1024;
 
 // Sorted later on. Where there are many one island has nearly all of them, and lends its array until the next step.
@@ -257,18 +219,7 @@ void merge_output(StepContext& ctx, const IslandOutput& output)
     const SceneState& state = ctx.state;
     for (const ContactConstraint& constraint : output.late_constraints)
         commit_constraint(ctx.state, constraint);
-    for (const RawTouch& t : output.begins)
-    {
-        ctx.state.graph_dirty = true;
-        if (t.contact != none)
-        { // of several pieces of a chain the first speaks for all
-            const bool known = touches_elsewhere(state, t.contact);
-            ctx.state.contacts[t.contact].flags &= ~contact_flag::begun;
-            if (known)
-                continue;
-        }
-        append(ctx.scene.events.begins, event_between<ContactBeginEvent>(state, t.shape_a, t.shape_b, t.point, t.normal, t.time));
-    }
+    report_begins(ctx, output);
     for (const DeferredImpulse& d : output.deferred)
         apply_deferred(ctx, d);
     for (const std::int32_t shape : output.kicked_shapes)

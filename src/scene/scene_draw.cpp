@@ -71,7 +71,7 @@ public:
     {
         for (int i = 0; i < m_state.contacts.capacity(); ++i)
         {
-            if (!m_state.contacts.is_live(i) || (m_state.contacts[i].flags & contact_flag::touching) == 0 ||
+            if (!m_state.contacts.is_live(i) || !touches(m_state.contacts[i]) ||
                 (m_state.contacts[i].flags & contact_flag::trigger) != 0)
                 continue;
             const Contact& contact = m_state.contacts[i];

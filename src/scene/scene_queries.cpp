@@ -278,7 +278,7 @@ ContactInfo describe(const SceneState& state, int index)
     info.shape_b = shape_id(state, contact.shape_b);
     info.normal = manifold.normal;
     info.point_count = manifold.count;
-    info.touching = (contact.flags & contact_flag::touching) != 0;
+    info.touching = touches(contact);
     info.color = contact.color;
     const Position center = state.sims[static_cast<std::size_t>(contact.body_a)].center;
     for (int i = 0; i < manifold.count; ++i)
@@ -312,11 +312,11 @@ std::vector<ContactInfo> ConstBody::contacts() const
     if (!check_live(*m_data, "Body::contacts", "body", m_id))
         return list;
     const SceneState& state = m_data->state;
-    for (int edge = state.bodies[slot_of(m_id)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    for (const int index : contacts_of(state, slot_of(m_id)))
     {
-        const Contact& contact = state.contacts[edge >> 1];
-        if (is_listed(contact) && (contact.flags & contact_flag::touching) != 0)
-            list.push_back(describe(state, edge >> 1));
+        const Contact& contact = state.contacts[index];
+        if (is_listed(contact) && touches(contact))
+            list.push_back(describe(state, index));
     }
     return list;
 }

@@ -312,7 +312,7 @@ std::vector<ShapeId> Scene::inside(ShapeId id) const
     for (const std::int32_t index : state.trigger_contacts)
     {
         const Contact& contact = state.contacts[index];
-        if ((contact.flags & contact_flag::touching) != 0 && state.shapes[contact.shape_a].owner == slot_of(id))
+        if (touches(contact) && state.shapes[contact.shape_a].owner == slot_of(id))
             visitors.push_back(shape_id(state, contact.shape_b));
     }
     std::sort(visitors.begin(), visitors.end());

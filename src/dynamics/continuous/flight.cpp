@@ -73,11 +73,11 @@ void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::spa
     const int body = span.scratch.state_bodies[static_cast<std::size_t>(struck)];
     const SceneState& state = span.state;
     const auto has_one_shape = [&](int b) { return state.bodies[b].first_shape == state.bodies[b].last_shape; };
-    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    for (const int index : contacts_of(state, body))
     {
-        Flier* f = span.flier_at(span.state_in_island(other_body(state.contacts[edge >> 1], body)));
+        Flier* f = span.flier_at(span.state_in_island(other_body(state.contacts[index], body)));
         if (f != nullptr && std::ranges::find(changed, f->state) == changed.end())
-            has_one_shape(body) && has_one_shape(f->body) ? reconsider(span, *f, struck, edge >> 1) : find_next_event(span, *f);
+            has_one_shape(body) && has_one_shape(f->body) ? reconsider(span, *f, struck, index) : find_next_event(span, *f);
     }
 }
 

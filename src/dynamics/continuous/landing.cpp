@@ -44,11 +44,11 @@ public:
         const float turn = std::fabs(s.angular_velocity) * m_span.sim_of(m_flier.body).extent;
         const float margin = m_span.ctx.scene.tolerances.speculation + (length(s.velocity) + turn) * m_span.ctx.dt;
         const SceneState& state = m_span.state;
-        for (int edge = state.bodies[m_flier.body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        for (const int index : contacts_of(state, m_flier.body))
         {
-            const Contact& contact = state.contacts[edge >> 1];
+            const Contact& contact = state.contacts[index];
             if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) == 0)
-                add_constraint(edge >> 1, margin);
+                add_constraint(index, margin);
         }
     }
 

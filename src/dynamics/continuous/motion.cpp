@@ -390,9 +390,9 @@ void take_off(const FlightSpan& span, Flier& f, double time)
     };
     drop_constraints(constraints_of(span.scratch, span.island));
     drop_constraints(span.output.late_constraints);
-    for (int edge = span.state.bodies[f.body].first_contact; edge != none; edge = span.state.contacts[edge >> 1].next[edge & 1])
+    for (const int index : contacts_of(span.state, f.body))
     {
-        if (Contact& contact = span.state.contacts[edge >> 1]; contact.wide != none)
+        if (Contact& contact = span.state.contacts[index]; contact.wide != none)
             drop_lane(span.ctx, contact, span.island.first_state);
     }
     if (f.joint != none)

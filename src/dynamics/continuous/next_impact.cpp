@@ -45,12 +45,8 @@ public:
     void run()
     {
         consider_limits();
-        for (int edge = m_span.state.bodies[m_flier.body].first_contact; edge != none;)
-        {
-            const int index = edge >> 1;
-            edge = m_span.state.contacts[index].next[edge & 1];
+        for (const int index : contacts_of(m_span.state, m_flier.body))
             offer_contact(index);
-        }
         if (m_flier.deflected)
             look_beyond_boxes();
         look_at_deflected();

@@ -162,7 +162,7 @@ std::vector<TriggerEvent> inside_events(const SceneData& scene)
     for (const std::int32_t index : state.trigger_contacts)
     {
         const Contact& c = state.contacts[index];
-        if ((c.flags & contact_flag::touching) != 0 && (listens(c.shape_a) || listens(c.shape_b)))
+        if (touches(c) && (listens(c.shape_a) || listens(c.shape_b)))
             events.push_back(event_between<TriggerEvent>(state, c.shape_a, c.shape_b));
     }
     std::vector<EventKey> keys;

@@ -3,6 +3,7 @@
 
 #include "dynamics/islands/contact_edges.h"
 
+#include "core/compiler.h"
 #include "core/grow.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
@@ -39,12 +40,12 @@ public:
     {}
 
     // Links it where it takes part in the step. Whom it loads does not fly.
-    void visit(std::int32_t index)
+    CAROM_INLINE void visit(std::int32_t index)
     {
         Contact& contact = m_contacts[index];
         m_lane_marks[index] = LaneMark::None;
         contact.wide = none;
-        const bool touching = (contact.flags & contact_flag::touching) != 0;
+        const bool touching = touches(contact);
         const bool solved = is_solved(contact);
         if (!solved)
             leave_constraint(m_ctx.state, index);

@@ -126,12 +126,12 @@ private:
 
     [[nodiscard]] bool may_meet(std::int32_t place) const
     {
-        const auto deflects = [&](int edge)
-        { return is_solved(state.contacts[edge >> 1]) && !stays_apart(ctx, state.contacts[edge >> 1]); };
-        int edge = state.bodies[body_at(place)].first_contact;
-        while (edge != none && !deflects(edge))
-            edge = state.contacts[edge >> 1].next[edge & 1];
-        return edge != none;
+        for (const int index : contacts_of(state, body_at(place)))
+        {
+            if (is_solved(state.contacts[index]) && !stays_apart(ctx, state.contacts[index]))
+                return true;
+        }
+        return false;
     }
 
     // Islands that meet; notes what else may be struck.

@@ -77,7 +77,7 @@ public:
         sets.flatten();
     }
 
-    // In a crowd only what shoots through it flies: the others' contacts are speculative, and a contact more or less does not decide their
+    // In a crowd only fast movers fly: the others' contacts are speculative, and a contact more or less does not decide their
     // way.
     void ground_crowds()
     {
@@ -88,7 +88,7 @@ public:
                           {
                               const std::int32_t place = scratch.flying[i];
                               std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
-                              if (is_crowd(tally_of(scratch, place).unloaded) && !shoots(body_at(place)))
+                              if (is_crowd(tally_of(scratch, place).unloaded) && !is_fast_mover(body_at(place)))
                                   scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
                           });
         std::erase_if(scratch.flying,
@@ -98,19 +98,21 @@ public:
     }
 
     // Goes half its size or more in a sub-step, also as its neighbours see it.
-    [[nodiscard]] bool shoots(int body) const
+    [[nodiscard]] bool is_fast_mover(int body) const
     {
         const float limit = 0.5f * state.sims[static_cast<std::size_t>(body)].size / ctx.h;
         const Vec2 v = state.sims[static_cast<std::size_t>(body)].velocity;
-        bool shoots = length(v) > limit;
-        for (int edge = state.bodies[body].first_contact; shoots && edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        if (length(v) <= limit)
+            return false;
+        for (const int index : contacts_of(state, body))
         {
-            const Contact& contact = state.contacts[edge >> 1];
+            const Contact& contact = state.contacts[index];
             const int other = other_body(contact, body);
-            shoots = !gets_constraints(state, contact) || state.bodies[other].type != BodyType::Dynamic ||
-                     length(v - state.sims[static_cast<std::size_t>(other)].velocity) > limit;
+            if (gets_constraints(state, contact) && state.bodies[other].type == BodyType::Dynamic &&
+                length(v - state.sims[static_cast<std::size_t>(other)].velocity) <= limit)
+                return false;
         }
-        return shoots;
+        return true;
     }
 
     // Who bears a load matters to soft joints.
@@ -189,7 +191,7 @@ public:
     {
         const int body = body_at(place);
         const BodyRecord& record = state.bodies[body];
-        return scratch.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none && meets_nothing(record) &&
+        return scratch.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none && meets_nothing(body) &&
                is_free_of_loads(body) && !ctx.scene.def.record_substeps;
     }
 
@@ -200,11 +202,11 @@ public:
     }
 
     // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
-    [[nodiscard]] bool meets_nothing(const BodyRecord& record) const
+    [[nodiscard]] bool meets_nothing(int body) const
     {
-        for (int edge = record.first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        for (const int index : contacts_of(state, body))
         {
-            const Contact& contact = state.contacts[edge >> 1];
+            const Contact& contact = state.contacts[index];
             if (contact.manifold.count > 0 || !tells_apart(contact) || (contact.flags & contact_flag::trigger) != 0)
                 return false;
         }

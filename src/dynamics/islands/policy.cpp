@@ -11,8 +11,6 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int few_bodies =
-    16; // as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
 constexpr int enough_soft_joints = 8;
 constexpr float calm_swing = 0.1f; // rad, in a step
 constexpr int edges_to_a_part = 2048;
@@ -48,9 +46,6 @@ bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
 
 } // namespace
 
-bool is_crowd(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
-bool follows_turning_contacts(int bodies) { return bodies <= few_bodies; }
-bool follows_swinging_joints(int bodies) { return bodies <= most_watched_bodies; }
 bool may_have_soft_joints(std::size_t joints_of_scene) { return static_cast<int>(joints_of_scene) >= enough_soft_joints; }
 
 IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced)

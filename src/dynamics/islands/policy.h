@@ -9,6 +9,8 @@
 
 namespace carom::internal {
 
+inline constexpr int few_bodies =
+    16; ///< as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
 inline constexpr int most_watched_bodies = 64;     ///< whose energy is watched: IslandEnergy has room for so many
 inline constexpr int most_converging_bodies = 32;  ///< IslandSolver has room for the speeds of so many
 inline constexpr int most_direct_rows = 128;       ///< beyond, DirectSolve takes longer than soft rows
@@ -69,11 +71,11 @@ struct ForcedPolicy
 };
 
 /// In a crowd only fast movers fly: the contacts of the others are speculative, and one more or less does not decide their path.
-[[nodiscard]] bool is_crowd(int unloaded_bodies);
+[[nodiscard]] inline bool is_crowd(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
 
 /// Do contacts, and do joints, whose normals and arms turn subdivide the sub-steps of an island of so many bodies?
-[[nodiscard]] bool follows_turning_contacts(int bodies);
-[[nodiscard]] bool follows_swinging_joints(int bodies);
+[[nodiscard]] inline bool follows_turning_contacts(int bodies) { return bodies <= few_bodies; }
+[[nodiscard]] inline bool follows_swinging_joints(int bodies) { return bodies <= most_watched_bodies; }
 
 /// With fewer joints in the scene none is soft.
 [[nodiscard]] bool may_have_soft_joints(std::size_t joints_of_scene);

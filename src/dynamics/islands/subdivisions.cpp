@@ -63,9 +63,9 @@ private:
         const std::int32_t island = scratch.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
         if (island == none || !follows_turning_contacts(tally(scratch, island).bodies))
             return;
-        for (int edge = state.bodies[body_at(place)].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+        for (const int index : contacts_of(state, body_at(place)))
         {
-            const Contact& contact = state.contacts[edge >> 1];
+            const Contact& contact = state.contacts[index];
             if ((contact.flags & contact_flag::trigger) == 0 && is_solved(contact))
                 follow_contact(contact, island);
         }

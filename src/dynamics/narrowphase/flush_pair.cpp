@@ -81,10 +81,9 @@ private:
     // All that the visitor meets: the list of a wall is long.
     void find_by(int visitor_body) const
     {
-        for (int edge = m_state.bodies[visitor_body].first_contact; edge != none;)
+        for (const int index : contacts_of(m_state, visitor_body))
         {
-            const Contact& contact = m_state.contacts[edge >> 1];
-            edge = contact.next[edge & 1];
+            const Contact& contact = m_state.contacts[index];
             if (contact.shape_a == m_visitor)
                 look_at(contact.shape_b);
             else if (contact.shape_b == m_visitor)

@@ -10,6 +10,7 @@
 #include "dynamics/narrowphase/flush_pair.h"
 #include "dynamics/narrowphase/manifold_cache.h"
 #include "dynamics/narrowphase/material.h"
+#include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"
@@ -88,7 +89,7 @@ void update_passing(const StepContext& ctx, Contact& contact)
         contact.manifold.count > 0 && lets_pass(ctx.scene, contact.shape_a, contact.shape_b, contact.manifold.normal);
     if (least > slop)
         contact.flags = behind ? contact.flags | contact_flag::passing : contact.flags & ~contact_flag::passing;
-    else if ((contact.flags & contact_flag::touching) == 0 && (behind || least < -4 * slop))
+    else if (!touches(contact) && (behind || least < -4 * slop))
         contact.flags |= contact_flag::passing;
 }
 
@@ -123,7 +124,7 @@ bool should_touch(const StepContext& ctx, const Contact& contact)
     if ((contact.flags & contact_flag::passing) != 0)
         return false;
     // Twice the distance to part: contacts at the edge do not flicker.
-    const float limit = (contact.flags & contact_flag::touching) != 0 ? 2 * ctx.scene.tolerances.slop : ctx.scene.tolerances.slop;
+    const float limit = touches(contact) ? 2 * ctx.scene.tolerances.slop : ctx.scene.tolerances.slop;
     return least_separation(contact.manifold) <= limit;
 }
 
@@ -164,23 +165,15 @@ void inherit_load(StepContext& ctx, int index)
                      });
 }
 
-ContactBeginEvent begin_event(const SceneState& state, const Contact& contact)
+// With the load that a neighboring piece bore, and awake.
+void begin_loaded_touch(StepContext& ctx, int index)
 {
-    const Position point = state.sims[static_cast<std::size_t>(contact.body_a)].center + contact.manifold.points[0].anchor_a;
-    return event_of<ContactBeginEvent>(state, contact, point, contact.manifold.normal);
-}
-
-void begin_touch(StepContext& ctx, int index)
-{
-    SceneState& state = ctx.state;
-    Contact& contact = state.contacts[index];
-    contact.flags |= contact_flag::touching;
-    state.graph_dirty = true;
+    Contact& contact = ctx.state.contacts[index];
+    note_begin(contact);
     inherit_load(ctx, index);
     wake_body(ctx.scene, contact.body_a);
     wake_body(ctx.scene, contact.body_b);
-    if (!touches_elsewhere(state, index))
-        append(ctx.scene.events.begins, begin_event(state, contact));
+    begin_touch(ctx.scene, index);
 }
 
 // As wake_body for one that is awake. Threads may do so side by side.
@@ -207,7 +200,7 @@ void wake_both(StepContext& ctx, int index)
 
 TouchChange change_of(const StepContext& ctx, const Contact& contact)
 {
-    const bool touching = (contact.flags & contact_flag::touching) != 0;
+    const bool touching = touches(contact);
     const bool should = should_touch(ctx, contact);
     if (should != touching)
         return touching ? TouchChange::Ends : TouchChange::Begins;
@@ -295,14 +288,14 @@ private:
         }
         else if (what == TouchChange::Begins)
         {
-            contact.flags |= contact_flag::touching;
+            note_begin(contact);
             keep_awake(m_ctx, contact.body_a);
             keep_awake(m_ctx, contact.body_b);
             append(m_some.begins, index);
         }
         else if (what == TouchChange::Ends)
         {
-            contact.flags &= ~contact_flag::touching;
+            note_end(contact);
             append(m_some.ends, index);
         }
     }
@@ -425,20 +418,15 @@ private:
     const WideKernels& m_kernels = wide_kernels();
 };
 
-// Of all tasks in their order, each written by some thread.
-template <class Event, class MakeEvent>
-void report_all(StepContext& ctx, std::span<const ContactChanges> parts, std::vector<std::int32_t> ContactChanges::* which,
-                std::vector<Event>& events, const MakeEvent& make_event)
+// Of all tasks, in their order.
+std::span<const std::int32_t> gather(StepContext& ctx, std::span<const ContactChanges> parts,
+                                     std::vector<std::int32_t> ContactChanges::* which)
 {
     std::vector<std::int32_t>& contacts = ctx.scratch.order;
     contacts.clear();
     for (const ContactChanges& some : parts)
         append_all(contacts, some.*which);
-    const std::size_t first = events.size();
-    set_size(events, first + contacts.size());
-    for_each_in_parts(ctx.scene.def.tasks, contacts.size(), contacts_at_once,
-                      [&](std::size_t i) { events[first + i] = make_event(ctx.state, ctx.state.contacts[contacts[i]]); });
-    ctx.state.graph_dirty |= !contacts.empty();
+    return contacts;
 }
 
 } // namespace
@@ -473,15 +461,14 @@ void update_contacts(StepContext& ctx)
         append_all(ctx.scratch.left_loads, some.left_loads);
     }
     std::ranges::sort(ctx.scratch.left_loads);
-    report_all(ctx, parts, &ContactChanges::begins, ctx.scene.events.begins, begin_event);
-    report_all(ctx, parts, &ContactChanges::ends, ctx.scene.events.ends,
-               [](const SceneState& s, const Contact& contact) { return event_of<ContactEndEvent>(s, contact, 0.0f); });
+    report_noted_begins(ctx, gather(ctx, parts, &ContactChanges::begins));
+    report_noted_ends(ctx, gather(ctx, parts, &ContactChanges::ends));
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
     // touched over the next is never let go.
     for (const ContactChange& n : changes)
     {
         if (n.what == TouchChange::Begins)
-            begin_touch(ctx, n.contact);
+            begin_loaded_touch(ctx, n.contact);
         else if (n.what == TouchChange::MayHit)
             wake_both(ctx, n.contact);
     }

@@ -57,10 +57,10 @@ private:
         // The body without the chain has the shorter list.
         const int body = m_state.shapes[m_state.shapes[pair.trigger].has_leaf ? pair.trigger : pair.visitor].body;
         int count = 0;
-        for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+        for (const int index : contacts_of(m_state, body))
         {
-            const Contact& contact = m_state.contacts[edge >> 1];
-            count += (contact.flags & contact_flag::touching) != 0 && m_state.shapes[contact.shape_a].owner == pair.trigger &&
+            const Contact& contact = m_state.contacts[index];
+            count += touches(contact) && m_state.shapes[contact.shape_a].owner == pair.trigger &&
                      m_state.shapes[contact.shape_b].owner == pair.visitor;
         }
         return count;

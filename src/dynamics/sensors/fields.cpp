@@ -26,8 +26,7 @@ void apply_fields(StepContext& ctx)
         const Contact& contact = state.contacts[index];
         const ShapeRecord& trigger = state.shapes[contact.shape_a];
         const BodyRecord& visitor = state.bodies[contact.body_b];
-        if (trigger.rare_traits != none && (contact.flags & contact_flag::touching) != 0 && visitor.type == BodyType::Dynamic &&
-            visitor.awake_index != none)
+        if (trigger.rare_traits != none && touches(contact) && visitor.type == BodyType::Dynamic && visitor.awake_index != none)
             act(rare_traits_of(state, trigger).field, ctx.dt, state.sims[static_cast<std::size_t>(contact.body_b)]);
     }
 }

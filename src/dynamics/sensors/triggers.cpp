@@ -9,6 +9,7 @@
 #include "collision/time_of_impact.h"
 #include "dynamics/broadphase/half_space_box.h"
 #include "dynamics/continuous/body_path.h"
+#include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sensors/crossings.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
@@ -43,7 +44,7 @@ class TriggerUpdate
 public:
     TriggerUpdate(StepContext& ctx, int contact)
         : m_ctx(ctx), m_state(ctx.state), m_index(contact), m_contact(ctx.state.contacts[contact]), m_a(ctx, m_contact.body_a),
-          m_b(ctx, m_contact.body_b), m_dt(static_cast<double>(ctx.dt)), m_inside((m_contact.flags & contact_flag::touching) != 0)
+          m_b(ctx, m_contact.body_b), m_dt(static_cast<double>(ctx.dt)), m_inside(touches(m_contact))
     {}
 
     void run()
@@ -207,7 +208,7 @@ private:
     void cross(double time)
     {
         m_inside = !m_inside;
-        m_contact.flags ^= contact_flag::touching;
+        internal::cross(m_contact);
         m_ctx.scratch.crossings.push_back({m_index, m_state.shapes[m_contact.shape_a].owner,
                                            m_state.shapes[m_contact.shape_b].owner,
                                            static_cast<std::int32_t>(m_ctx.scratch.crossings.size()), time, m_inside});
@@ -266,7 +267,7 @@ void update_triggers(StepContext& ctx)
         if (!needs_update(ctx, contact))
             continue;
         TriggerUpdate(ctx, index).run();
-        if ((contact.flags & contact_flag::touching) == 0 && !boxes_meet(state, contact.shape_a, contact.shape_b))
+        if (!touches(contact) && !boxes_meet(state, contact.shape_a, contact.shape_b))
             destroy_contact(ctx.scene, index, ctx.scene.events, ctx.dt);
     }
     report_crossings(ctx);

@@ -199,7 +199,7 @@ private:
                               if (i + prefetch_distance < m_state.awake_contacts.size())
                                   prefetch_line(&m_state.contacts[m_state.awake_contacts[i + prefetch_distance]]);
                               const Contact& contact = m_state.contacts[m_state.awake_contacts[i]];
-                              if ((contact.flags & contact_flag::touching) != 0)
+                              if (touches(contact))
                                   link(contact.body_a, contact.body_b);
                           });
     }

@@ -38,9 +38,9 @@ void for_each_neighbour(const SceneState& state, int body, Visit&& visit)
         if (other != none && state.bodies[other].type == BodyType::Dynamic && state.bodies[other].enabled)
             visit(other);
     };
-    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
+    for (const int index : contacts_of(state, body))
     {
-        const Contact& contact = state.contacts[edge >> 1];
+        const Contact& contact = state.contacts[index];
         if ((contact.flags & (contact_flag::touching | contact_flag::trigger)) == contact_flag::touching)
             look_at(other_body(contact, body));
     }

@@ -2,6 +2,7 @@
 
 #include "collision/manifold.h"
 #include "dynamics/narrowphase/material.h"
+#include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/solver/contact/coloring.h"
 
@@ -230,49 +231,6 @@ void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pai
     }
 }
 
-bool touches_elsewhere(const SceneState& state, int index)
-{
-    const Contact& contact = state.contacts[index];
-    if ((contact.flags & contact_flag::piece) == 0)
-        return false;
-    const int owner_a = state.shapes[contact.shape_a].owner;
-    const int owner_b = state.shapes[contact.shape_b].owner;
-    // Lines come before what touches them in the table, arcs after it.
-    const auto is_same = [&](const Contact& other)
-    {
-        const int a = state.shapes[other.shape_a].owner;
-        const int b = state.shapes[other.shape_b].owner;
-        return (a == owner_a && b == owner_b) || (a == owner_b && b == owner_a);
-    };
-    // The body without the chain has the shorter list.
-    const int body = owner_a == contact.shape_a ? contact.body_a : contact.body_b;
-    for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-    {
-        const Contact& other = state.contacts[edge >> 1];
-        if ((edge >> 1) != index && (other.flags & (contact_flag::touching | contact_flag::begun)) == contact_flag::touching &&
-            is_same(other))
-            return true;
-    }
-    return false;
-}
-
-void end_touch(SceneData& scene, int index, Events& events, float time)
-{
-    const SceneState& state = scene.state;
-    Contact& contact = scene.state.contacts[index];
-    if ((contact.flags & contact_flag::touching) == 0)
-        return;
-    contact.flags &= ~contact_flag::touching;
-    if ((contact.flags & contact_flag::trigger) == 0)
-        scene.state.graph_dirty = true;
-    if (touches_elsewhere(state, index))
-        return;
-    if ((contact.flags & contact_flag::trigger) != 0)
-        append(events.exits, event_between<TriggerEvent>(state, contact.shape_a, contact.shape_b, time));
-    else
-        append(events.ends, event_between<ContactEndEvent>(state, contact.shape_a, contact.shape_b, time));
-}
-
 void leave_pair(SceneState& state, int index)
 {
     const Contact& contact = state.contacts[index];
@@ -303,7 +261,7 @@ namespace {
 void destroy_and_wake(SceneData& scene, int index, int body)
 {
     const Contact contact = scene.state.contacts[index];
-    const bool leaned = (contact.flags & contact_flag::touching) != 0 && (contact.flags & contact_flag::trigger) == 0;
+    const bool leaned = touches(contact) && (contact.flags & contact_flag::trigger) == 0;
     destroy_contact(scene, index, scene.pending, 0);
     if (leaned)
         wake_body(scene, other_body(contact, body));

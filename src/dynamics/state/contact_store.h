@@ -5,6 +5,7 @@
 #include "dynamics/state/scene_data.h"
 
 #include <cstddef>
+#include <iterator>
 
 namespace carom::internal {
 
@@ -63,6 +64,38 @@ void follow_again(SceneState& state, int contact);
 
 [[nodiscard]] inline int edge_contact(int edge) { return edge >> 1; }
 
+/// The contacts of a body, by index, while none of them comes or goes.
+class ContactsOf
+{
+public:
+    class Iterator
+    {
+    public:
+        Iterator(const SceneState& state, int edge) : m_state(state), m_edge(edge) {}
+        [[nodiscard]] int operator*() const { return edge_contact(m_edge); }
+        [[nodiscard]] bool operator==(std::default_sentinel_t) const { return m_edge == none; }
+        Iterator& operator++()
+        {
+            m_edge = m_state.contacts[edge_contact(m_edge)].next[m_edge & 1];
+            return *this;
+        }
+
+    private:
+        const SceneState& m_state;
+        int m_edge;
+    };
+
+    ContactsOf(const SceneState& state, int body) : m_state(state), m_first(state.bodies[body].first_contact) {}
+    [[nodiscard]] Iterator begin() const { return {m_state, m_first}; }
+    [[nodiscard]] static std::default_sentinel_t end() { return {}; }
+
+private:
+    const SceneState& m_state;
+    int m_first;
+};
+
+[[nodiscard]] inline ContactsOf contacts_of(const SceneState& state, int body) { return {state, body}; }
+
 /// Calls visit(contact index) for every contact of the body; the contact visited may be destroyed meanwhile.
 template <class Visit>
 void for_each_contact(SceneState& state, int body, Visit&& visit)
@@ -92,11 +125,6 @@ inline void forget_impulses(SceneState& state, int contact)
 {
     return joint.body_a == body ? joint.body_b : joint.body_a;
 }
-
-/// Pieces of a chain are one shape to the user: does another contact of the same two public shapes touch (or, of a trigger, hold inside)?
-[[nodiscard]] bool touches_elsewhere(const SceneState& state, int contact);
-
-void end_touch(SceneData& scene, int contact, Events& events, float time);
 
 /// Public ids of slots.
 [[nodiscard]] BodyId body_id(const SceneState& state, int slot);

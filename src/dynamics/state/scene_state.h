@@ -201,6 +201,9 @@ struct alignas(64) Contact
 };
 static_assert(sizeof(Contact) == 128);
 
+/// Or, of a trigger, its visitor is inside.
+[[nodiscard]] inline bool touches(const Contact& contact) { return (contact.flags & contact_flag::touching) != 0; }
+
 /// An edge of one body, and two corners of the other that it faces, from their centers of mass and in their axes.
 struct CachedEdge
 {

@@ -43,11 +43,11 @@ void ImpactSet::look_again(Hold h)
 
 std::int32_t ImpactSet::contact_between(std::int32_t own, std::int32_t other) const
 {
-    for (int edge = m_state.bodies[m_first.body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+    for (const int index : contacts_of(m_state, m_first.body))
     {
-        const Contact& c = m_state.contacts[edge >> 1];
+        const Contact& c = m_state.contacts[index];
         if ((c.shape_a == own && c.shape_b == other) || (c.shape_b == own && c.shape_a == other))
-            return edge >> 1;
+            return index;
     }
     return none;
 }
@@ -131,13 +131,13 @@ void ImpactSet::expand(int index)
         return; // crowds hit two by two
     if (m.flier == nullptr)
         add_joints(m.body);
-    for (int edge = m_state.bodies[m.body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+    for (const int other_index : contacts_of(m_state, m.body))
     {
-        const Contact& contact = m_state.contacts[edge >> 1];
-        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0 || is_known(edge >> 1))
+        const Contact& contact = m_state.contacts[other_index];
+        if ((contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0 || is_known(other_index))
             continue;
         const bool is_a = contact.body_a == m.body;
-        add_touches(index, is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, edge >> 1);
+        add_touches(index, is_a ? contact.shape_a : contact.shape_b, is_a ? contact.shape_b : contact.shape_a, other_index);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "core/index.h"
 #include "core/refuse.h"
 #include "dynamics/continuous/impact/impact_set.h"
+#include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/solver/effective_mass.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
@@ -97,18 +98,17 @@ void ImpactSet::report_touch(std::size_t i)
     if (row.kind != ImpactRow::Kind::Contact || row.last_blow < 0)
         return;
     sum_impulse(row);
-    if (s.contact != none && (m_state.contacts[s.contact].flags & contact_flag::touching) != 0)
+    if (s.contact != none && touches(m_state.contacts[s.contact]))
         return;
     const bool is_a = own_is_a(s);
     const auto sign = static_cast<float>(is_a ? -1 : 1);
-    append(m_span.output.begins, {s.contact,
-                                  is_a ? s.own : s.other,
-                                  is_a ? s.other : s.own,
-                                  {m_origin.x + s.touch.x, m_origin.y + s.touch.y},
-                                  sign * Vec2{static_cast<float>(row.nx), static_cast<float>(row.ny)},
-                                  static_cast<float>(m_span.time_of_step(m_time))});
-    if (s.contact != none)
-        m_state.contacts[s.contact].flags |= contact_flag::touching | contact_flag::begun;
+    begin_touch_within_step(m_state, m_span.output,
+                            {s.contact,
+                             is_a ? s.own : s.other,
+                             is_a ? s.other : s.own,
+                             {m_origin.x + s.touch.x, m_origin.y + s.touch.y},
+                             sign * Vec2{static_cast<float>(row.nx), static_cast<float>(row.ny)},
+                             static_cast<float>(m_span.time_of_step(m_time))});
 }
 
 // For the force that a hinge reads back.

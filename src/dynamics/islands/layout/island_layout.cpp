@@ -255,9 +255,9 @@ private:
 
     void copy_those_near(const Island& island, int body)
     {
-        for (int edge = m_state.bodies[body].first_contact; edge != none; edge = m_state.contacts[edge >> 1].next[edge & 1])
+        for (const int index : contacts_of(m_state, body))
         {
-            const int other = other_body(m_state.contacts[edge >> 1], body);
+            const int other = other_body(m_state.contacts[index], body);
             if (m_state.bodies[other].type == BodyType::Kinematic)
                 static_cast<void>(state_for(island, other));
         }

@@ -98,7 +98,7 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact&
         p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
     }
     ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
-    if ((contact.flags & contact_flag::touching) == 0)
+    if (!touches(contact))
         notes.untold |= 1u << i;
     if (is_cached(contact))
         notes.kept |= 1u << i;

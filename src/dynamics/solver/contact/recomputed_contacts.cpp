@@ -55,8 +55,8 @@ void RecomputedContacts::add_constraints_beyond_seams()
         if ((m_work.view.states[s].flags & body_flag::flier) != 0)
             continue;
         const int body = m_work.scratch.state_bodies[static_cast<std::size_t>(s)];
-        for (int edge = state.bodies[body].first_contact; edge != none; edge = state.contacts[edge >> 1].next[edge & 1])
-            add_constraint_beyond_seam(edge >> 1, body, s);
+        for (const int index : contacts_of(state, body))
+            add_constraint_beyond_seam(index, body, s);
     }
 }
 
@@ -216,17 +216,16 @@ RecomputedContacts::Facing RecomputedContacts::facing(const ContactConstraint& c
     const bool chain_is_a = state.shapes[contact.shape_a].owner != contact.shape_a;
     const int piece = chain_is_a ? contact.shape_a : contact.shape_b;
     const int visitor = chain_is_a ? contact.shape_b : contact.shape_a;
-    for (int edge = state.bodies[state.shapes[visitor].body].first_contact; edge != none;
-         edge = state.contacts[edge >> 1].next[edge & 1])
+    for (const int index : contacts_of(state, state.shapes[visitor].body))
     {
-        const Contact& other = state.contacts[edge >> 1];
+        const Contact& other = state.contacts[index];
         const int other_piece = chain_is_a ? other.shape_a : other.shape_b;
         if ((chain_is_a ? other.shape_b : other.shape_a) != visitor ||
             state.shapes[other_piece].owner != state.shapes[piece].owner)
             continue;
-        const Manifold m = manifold_of(edge >> 1, constraint, ahead);
+        const Manifold m = manifold_of(index, constraint, ahead);
         if (m.count == 1 && (best.manifold.count != 1 || m.points[0].separation < best.manifold.points[0].separation))
-            best = {edge >> 1, m};
+            best = {index, m};
     }
     return best;
 }

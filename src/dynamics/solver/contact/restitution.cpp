@@ -10,6 +10,7 @@
 #include "core/prefetch.h"
 #include "core/refuse.h"
 #include "dynamics/narrowphase/material.h"
+#include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/solver/contact/partitions.h"
 #include "dynamics/solver/contact/prepare_wide.h"
 #include "dynamics/state/contact_store.h"
@@ -202,8 +203,7 @@ private:
         }
         if (load <= 0)
             return;
-        const bool first_touch = (m_ctx.state.contacts[constraint.contact].flags & contact_flag::touching) == 0;
-        if (first_touch)
+        if (!touches(m_ctx.state.contacts[constraint.contact]))
             begin_touch(constraint, k, m_output);
         if (approach > m_ctx.rest_speed)
             resolve_impact(constraint, approach, k, m_output);
@@ -376,10 +376,11 @@ private:
 
     void begin_touch(const ContactConstraint& constraint, int k, ImpactReport& told) const
     {
-        Contact& contact = m_ctx.state.contacts[constraint.contact];
-        contact.flags |= contact_flag::touching | contact_flag::begun;
-        append(told.begins, {constraint.contact, contact.shape_a, contact.shape_b,
-                             place_on_a(constraint, constraint.points[0].ra), constraint.n, m_ctx.h * static_cast<float>(k + 1)});
+        const Contact& contact = m_ctx.state.contacts[constraint.contact];
+        begin_touch_within_step(m_ctx.state, told,
+                                {constraint.contact, contact.shape_a, contact.shape_b,
+                                 place_on_a(constraint, constraint.points[0].ra), constraint.n,
+                                 m_ctx.h * static_cast<float>(k + 1)});
     }
 
     const StepContext& m_ctx;
