@@ -111,7 +111,7 @@ bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 // What is stopped at a wall has not gone the rest of its way: forces have done no work on it.
 float without_work(const StepContext& ctx, const BodyState& s, std::int32_t index, double dx, double dy)
 {
-    const Vec2 a = ctx.scratch.constants[static_cast<std::size_t>(index)].acceleration;
+    const Vec2 a = ctx.scratch.solver.constants[static_cast<std::size_t>(index)].acceleration;
     const double twice_work = 2 * (static_cast<double>(a.x) * dx + static_cast<double>(a.y) * dy);
     const auto square = static_cast<double>(dot(s.velocity, s.velocity));
     return twice_work > 0 && square > 0 ? static_cast<float>(std::sqrt(std::max(1 - twice_work / square, 0.0))) : 1;
@@ -120,17 +120,17 @@ float without_work(const StepContext& ctx, const BodyState& s, std::int32_t inde
 // Writes to its own body alone.
 void commit_state(const StepContext& ctx, std::int32_t index)
 {
-    BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
-    const int body = ctx.scratch.state_bodies[static_cast<std::size_t>(index)];
+    BodyState& s = ctx.scratch.solver.states[static_cast<std::size_t>(index)];
+    const int body = ctx.scratch.solver.state_bodies[static_cast<std::size_t>(index)];
     if (body == none || (s.flags & body_flag::dynamic) == 0)
         return;
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     double x = s.delta_position.x;
     double y = s.delta_position.y;
     bool crowded = false;
-    if (const std::int32_t f = ctx.scratch.flier_of_state[static_cast<std::size_t>(index)]; f != none)
+    if (const std::int32_t f = ctx.scratch.flight.flier_of_state[static_cast<std::size_t>(index)]; f != none)
     {
-        const Flier& flier = ctx.scratch.fliers[static_cast<std::size_t>(f)];
+        const Flier& flier = ctx.scratch.flight.fliers[static_cast<std::size_t>(f)];
         crowded = flier.crowded;
         const CenterMotion center = center_of(flier); // the path itself, in double
         x = flier.landed ? x : center.x;
@@ -180,8 +180,8 @@ void commit_hinge(StepContext& ctx, const Flier& flier)
 void forget_errors_of_stopped(StepContext& ctx)
 {
     const auto is_stopped = [&](std::int32_t state)
-    { return (ctx.scratch.states[static_cast<std::size_t>(state)].flags & body_flag::stopped) != 0; };
-    for (const JointWork& work : ctx.scratch.joints)
+    { return (ctx.scratch.solver.states[static_cast<std::size_t>(state)].flags & body_flag::stopped) != 0; };
+    for (const JointWork& work : ctx.scratch.solver.joints)
         ctx.state.joints[work.joint].knows_errors = !is_stopped(work.a) && !is_stopped(work.b);
 }
 
@@ -204,11 +204,11 @@ constexpr std::size_t worth_lending = 1024;
 void take_impacts(StepContext& ctx, std::size_t u)
 {
     std::vector<ImpactEvent>& all = ctx.scene.events.impacts;
-    std::vector<ImpactEvent>& own = ctx.scratch.outputs[u].impacts;
+    std::vector<ImpactEvent>& own = ctx.scratch.solver.outputs[u].impacts;
     if (own.size() > std::max(all.size(), worth_lending))
     {
         std::swap(own, all);
-        ctx.scratch.impacts_lender = u;
+        ctx.scratch.solver.impacts_lender = u;
     }
     append_all(all, own);
     own.clear();
@@ -242,38 +242,38 @@ void commit(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     scratch.unsound.clear();
-    if (scratch.has_kinematic)
+    if (scratch.graph.has_kinematic)
         commit_kinematic_bodies(ctx);
     forget_surroundings(ctx);
     std::atomic<bool> any_unsound{false};
     std::atomic<bool> any_stopped{false};
-    for_each_in_parts(ctx.scene.def.tasks, scratch.state_of.size(), bodies_per_task,
+    for_each_in_parts(ctx.scene.def.tasks, scratch.solver.state_of.size(), bodies_per_task,
                       [&](std::size_t place)
                       {
-                          const std::int32_t i = scratch.state_of[place];
+                          const std::int32_t i = scratch.solver.state_of[place];
                           if (i == none)
                               return;
                           commit_state(ctx, i);
-                          const std::uint32_t flags = scratch.states[static_cast<std::size_t>(i)].flags;
+                          const std::uint32_t flags = scratch.solver.states[static_cast<std::size_t>(i)].flags;
                           if ((flags & body_flag::unsound) != 0)
                               raise(any_unsound);
                           if ((flags & body_flag::stopped) != 0)
                               raise(any_stopped);
                       });
-    for (std::size_t i = 0; any_unsound && i < scratch.states.size(); ++i)
+    for (std::size_t i = 0; any_unsound && i < scratch.solver.states.size(); ++i)
     {
-        if ((scratch.states[i].flags & body_flag::unsound) != 0)
-            scratch.unsound.push_back(scratch.state_bodies[i]);
+        if ((scratch.solver.states[i].flags & body_flag::unsound) != 0)
+            scratch.unsound.push_back(scratch.solver.state_bodies[i]);
     }
     if (any_stopped)
         forget_errors_of_stopped(ctx);
-    for (const Flier& flier : scratch.fliers)
+    for (const Flier& flier : scratch.flight.fliers)
         commit_hinge(ctx, flier);
     note_pending_impacts(ctx);
-    for (std::size_t u = 0; u < scratch.islands.size(); ++u)
+    for (std::size_t u = 0; u < scratch.solver.islands.size(); ++u)
     {
         take_impacts(ctx, u);
-        merge_output(ctx, scratch.outputs[u]);
+        merge_output(ctx, scratch.solver.outputs[u]);
     }
     update_triggers(ctx);
     for (const std::int32_t body : scratch.unsound)

@@ -65,10 +65,10 @@ void note_forces(StepContext& ctx)
     if (!is_short(ctx))
         return;
     Scratch& scratch = ctx.scratch;
-    scratch.impulses_before = ctx.state.impulses;
-    scratch.joint_impulses_before.resize(static_cast<std::size_t>(ctx.state.joints.capacity()));
+    scratch.uneven.impulses_before = ctx.state.impulses;
+    scratch.uneven.joint_impulses_before.resize(static_cast<std::size_t>(ctx.state.joints.capacity()));
     for_each_joint(ctx.state, [&](int i, const auto& impulses)
-                   { std::ranges::copy(impulses, scratch.joint_impulses_before[static_cast<std::size_t>(i)].begin()); });
+                   { std::ranges::copy(impulses, scratch.uneven.joint_impulses_before[static_cast<std::size_t>(i)].begin()); });
 }
 
 void average_forces(StepContext& ctx)
@@ -78,11 +78,11 @@ void average_forces(StepContext& ctx)
     SceneState& state = ctx.state;
     const float share = ctx.h / state.longest_substep;
     const auto average = [share](float before, float& now) { now = before + share * (now - before); };
-    for (std::size_t i = 0; i < std::min(state.impulses.size(), ctx.scratch.impulses_before.size()); ++i)
+    for (std::size_t i = 0; i < std::min(state.impulses.size(), ctx.scratch.uneven.impulses_before.size()); ++i)
     {
         for (int k = 0; k < 2; ++k)
         {
-            const PointImpulses& before = ctx.scratch.impulses_before[i].points[k];
+            const PointImpulses& before = ctx.scratch.uneven.impulses_before[i].points[k];
             PointImpulses& now = state.impulses[i].points[k];
             average(before.normal, now.normal);
             average(before.tangent, now.tangent);
@@ -91,7 +91,7 @@ void average_forces(StepContext& ctx)
     for_each_joint(state,
                    [&](int i, auto& impulses)
                    {
-                       const auto& before = ctx.scratch.joint_impulses_before[static_cast<std::size_t>(i)];
+                       const auto& before = ctx.scratch.uneven.joint_impulses_before[static_cast<std::size_t>(i)];
                        for (std::size_t k = 0; k < before.size(); ++k)
                            average(before[k], impulses[k]);
                    });

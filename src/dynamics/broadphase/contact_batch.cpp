@@ -33,8 +33,8 @@ constexpr std::size_t contacts_per_fill = 128;
 } // namespace
 
 ContactBatch::ContactBatch(StepContext& ctx)
-    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.made_contacts), m_destroyed(ctx.scratch.destroyed_contacts),
-      m_keeps_order(ctx.state.awake_contacts.size() > most_near_pairs)
+    : m_scene(ctx.scene), m_state(ctx.state), m_made(ctx.scratch.broad.made_contacts),
+      m_destroyed(ctx.scratch.broad.destroyed_contacts), m_keeps_order(ctx.state.awake_contacts.size() > most_near_pairs)
 {
     m_made.clear();
     m_destroyed.clear();

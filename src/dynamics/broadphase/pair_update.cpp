@@ -151,7 +151,8 @@ class PairUpdates
 {
 public:
     explicit PairUpdates(StepContext& ctx)
-        : m_ctx(ctx), m_state(ctx.state), m_batch(ctx), m_of_triggers(ctx.scratch.pairs_of_triggers), m_going(ctx.scratch.order)
+        : m_ctx(ctx), m_state(ctx.state), m_batch(ctx), m_of_triggers(ctx.scratch.broad.pairs_of_triggers),
+          m_going(ctx.scratch.order)
     {
         m_of_triggers.clear();
         m_going.clear();
@@ -241,7 +242,7 @@ void follow_pairs(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     const std::span<std::vector<PairUpdate>> parts = find_in_parts(
-        ctx.scene.def.tasks, state.box_pairs.size(), pairs_per_task, ctx.scratch.pair_updates_of_task,
+        ctx.scene.def.tasks, state.box_pairs.size(), pairs_per_task, ctx.scratch.broad.pair_updates_of_task,
         [&](std::size_t first, std::size_t last, std::vector<PairUpdate>& some) { find_updates(ctx, first, last, some); });
     state.parted_pairs.clear();
     PairUpdates updates(ctx);

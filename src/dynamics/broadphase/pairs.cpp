@@ -96,7 +96,7 @@ void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, 
                                                      look(first, last, pairs);
                                                  });
     for (const Pairs& some : parts)
-        append_all(ctx.scratch.new_pairs, some);
+        append_all(ctx.scratch.broad.new_pairs, some);
 }
 
 void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
@@ -137,13 +137,13 @@ void offer_new_overlaps(const StepContext& ctx, const MovingBlocks& moving, int 
 void look_around_moved(StepContext& ctx)
 {
     BroadPhase& boxes = ctx.state.broad_phase;
-    if (ctx.scratch.all_fitted)
+    if (ctx.scratch.broad.all_fitted)
     {
         const auto blocks = static_cast<std::size_t>(boxes.block_count());
         for_each_in_parts(ctx.scene.def.tasks, blocks, blocks_per_task,
                           [&](std::size_t k) { boxes.note_changes(static_cast<int>(k)); });
         const MovingBlocks moving = boxes.moving_blocks();
-        look_on_all_threads(ctx, blocks, blocks_per_task, ctx.scratch.pairs_of_task,
+        look_on_all_threads(ctx, blocks, blocks_per_task, ctx.scratch.broad.pairs_of_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
                                 for (std::size_t k = first; k < last; ++k)
@@ -152,22 +152,22 @@ void look_around_moved(StepContext& ctx)
     }
     else
     {
-        look_on_all_threads(ctx, ctx.scratch.moved.items.size(), 8 * blocks_per_task, ctx.scratch.pairs_of_task,
+        look_on_all_threads(ctx, ctx.scratch.broad.moved.items.size(), 8 * blocks_per_task, ctx.scratch.broad.pairs_of_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
                             {
                                 for (std::size_t i = first; i < last; ++i)
-                                    look_around_box(ctx, ctx.scratch.moved.items[i], pairs);
+                                    look_around_box(ctx, ctx.scratch.broad.moved.items[i], pairs);
                             });
     }
     if (boxes.unbounded().empty())
         return;
-    for (const std::int32_t shape : ctx.scratch.moved.items)
+    for (const std::int32_t shape : ctx.scratch.broad.moved.items)
     {
         for (const std::int32_t half_space : boxes.unbounded())
         {
             if (!reaches_half_space(ctx.state, half_space, boxes.box_before(shape), 0) &&
                 reaches_half_space(ctx.state, half_space, boxes.box(shape), 0))
-                offer_pair(ctx, shape, half_space, ctx.scratch.new_pairs);
+                offer_pair(ctx, shape, half_space, ctx.scratch.broad.new_pairs);
         }
     }
 }
@@ -236,7 +236,7 @@ void look_around_fresh(StepContext& ctx)
 void settle(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    const std::vector<std::int32_t>& moved = ctx.scratch.moved.items;
+    const std::vector<std::int32_t>& moved = ctx.scratch.broad.moved.items;
     for_each_in_parts(ctx.scene.def.tasks, moved.size(), boxes_per_task,
                       [&](std::size_t i) { state.broad_phase.settle(moved[i]); });
     for (const std::int32_t shape : state.fresh_shapes)
@@ -256,7 +256,7 @@ void leave_out_doubles(Pairs& pairs)
 
 void add_pairs(StepContext& ctx)
 {
-    const Pairs& keys = ctx.scratch.new_pairs;
+    const Pairs& keys = ctx.scratch.broad.new_pairs;
     std::vector<BoxPair>& pairs = ctx.state.box_pairs;
     const std::size_t known = pairs.size();
     grow(pairs, known + keys.size());
@@ -268,11 +268,11 @@ void add_pairs(StepContext& ctx)
 
 void find_pairs(StepContext& ctx)
 {
-    ctx.scratch.new_pairs.clear();
+    ctx.scratch.broad.new_pairs.clear();
     look_around_fresh(ctx);
     look_around_moved(ctx);
     if (!ctx.state.fresh_shapes.empty())
-        leave_out_doubles(ctx.scratch.new_pairs);
+        leave_out_doubles(ctx.scratch.broad.new_pairs);
     add_pairs(ctx);
     settle(ctx);
     follow_pairs(ctx);
@@ -281,11 +281,11 @@ void find_pairs(StepContext& ctx)
 void find_deflected_pairs(StepContext& ctx)
 {
     const SceneState& state = ctx.state;
-    std::vector<std::uint64_t>& pairs = ctx.scratch.new_pairs;
+    std::vector<std::uint64_t>& pairs = ctx.scratch.broad.new_pairs;
     pairs.clear();
     if (!state.broad_phase.has_triggers())
         return;
-    for (const Flier& flier : ctx.scratch.fliers)
+    for (const Flier& flier : ctx.scratch.flight.fliers)
     {
         if (!flier.deflected || !is_awake(state, flier.body))
             continue;

@@ -135,7 +135,7 @@ private:
             }
             if (!sweep_lanes())
                 return false;
-            sweep_body(m_ctx, bodies[i], m_ctx.scratch.motion[i], m_moved);
+            sweep_body(m_ctx, bodies[i], m_ctx.scratch.broad.motion[i], m_moved);
         }
         return sweep_lanes();
     }
@@ -213,7 +213,7 @@ private:
             return false;
         for (int i = 0; i < count; ++i)
         {
-            m_ctx.scratch.motion[m_body_places[i]] = m_eight.motion.v[i];
+            m_ctx.scratch.broad.motion[m_body_places[i]] = m_eight.motion.v[i];
             if ((m_eight.moved >> i & 1u) != 0)
                 move_box(m_moved, m_shapes[i], four_of(m_eight.lx.v[i], m_eight.ly.v[i], m_eight.ux.v[i], m_eight.uy.v[i]),
                          m_eight.motion.v[i], margin);
@@ -239,11 +239,11 @@ bool sweep_all(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     const std::vector<std::int32_t>& bodies = ctx.state.awake_bodies;
-    set_size(scratch.motion, bodies.size());
+    set_size(scratch.broad.motion, bodies.size());
     const std::span<MovedBoxes> parts =
-        find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.moved_of_task,
+        find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.broad.moved_of_task,
                       [&](std::size_t first, std::size_t last, MovedBoxes& moved) { TaskSweep(ctx, first, last, moved).run(); });
-    MovedBoxes& all = scratch.moved;
+    MovedBoxes& all = scratch.broad.moved;
     all.items.clear();
     all.boxes.clear();
     scratch.unsound.clear();
@@ -266,8 +266,8 @@ void sweep_paths(StepContext& ctx)
     while (!sweep_all(ctx))
     { // without those that were put aside
     }
-    const MovedBoxes& moved = ctx.scratch.moved;
-    ctx.scratch.all_fitted =
+    const MovedBoxes& moved = ctx.scratch.broad.moved;
+    ctx.scratch.broad.all_fitted =
         !moved.items.empty() && ctx.state.broad_phase.update_moving(ctx.scene.def.tasks, moved.items, moved.boxes);
 }
 

@@ -14,11 +14,11 @@ namespace carom::internal {
 
 void gather_paths(StepContext& ctx)
 {
-    std::vector<PathPiece>& paths = ctx.scratch.paths;
+    std::vector<PathPiece>& paths = ctx.scratch.sensors.paths;
     paths.clear();
-    for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
+    for (std::size_t u = 0; u < ctx.scratch.solver.islands.size(); ++u)
     {
-        const std::vector<PathPiece>& pieces = ctx.scratch.outputs[u].path;
+        const std::vector<PathPiece>& pieces = ctx.scratch.solver.outputs[u].path;
         append_all(paths, pieces);
     }
     for (std::size_t i = 0; i < paths.size(); ++i)
@@ -34,13 +34,14 @@ bool took_part(const StepContext& ctx, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
     return record.type != BodyType::Static && record.awake_index != none &&
-           static_cast<std::size_t>(record.awake_index) < ctx.scratch.island_of.size();
+           static_cast<std::size_t>(record.awake_index) < ctx.scratch.graph.island_of.size();
 }
 
 std::span<const PathPiece> recorded(const StepContext& ctx, int body)
 {
-    const auto [first, last] = std::equal_range(ctx.scratch.paths.begin(), ctx.scratch.paths.end(), PathPiece{body, 0, 0, {}},
-                                                [](const PathPiece& x, const PathPiece& y) { return x.body < y.body; });
+    const auto [first, last] =
+        std::equal_range(ctx.scratch.sensors.paths.begin(), ctx.scratch.sensors.paths.end(), PathPiece{body, 0, 0, {}},
+                         [](const PathPiece& x, const PathPiece& y) { return x.body < y.body; });
     return {first, last};
 }
 

@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// Gathers what the islands recorded into Scratch::paths, body by body.
+/// Gathers what the islands recorded into Scratch::sensors.paths, body by body.
 void gather_paths(StepContext& ctx);
 
 /// Around all that a body has covered since something first threw it off its way.

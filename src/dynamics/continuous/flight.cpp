@@ -47,7 +47,7 @@ double least_of(std::span<const double> times)
 Flier* earliest(const FlightSpan& span)
 {
     const std::span<const double> times =
-        std::span(span.scratch.event_times)
+        std::span(span.scratch.flight.event_times)
             .subspan(static_cast<std::size_t>(span.island.first_flier), static_cast<std::size_t>(span.island.flier_count));
     const double best = least_of(times);
     if (best > span.h)
@@ -59,18 +59,18 @@ Flier* earliest(const FlightSpan& span)
 void note_reach(const FlightSpan& span, std::int32_t state)
 {
     const std::vector<std::int32_t>& deflected = span.output.deflected;
-    const std::int32_t f = span.scratch.flier_of_state[static_cast<std::size_t>(state)];
+    const std::int32_t f = span.scratch.flight.flier_of_state[static_cast<std::size_t>(state)];
     const auto place = std::lower_bound(deflected.begin(), deflected.end(), f);
     if (place != deflected.end() && *place == f)
         span.output.reaches[static_cast<std::size_t>(place - deflected.begin())] =
-            reach_of(span, span.scratch.fliers[static_cast<std::size_t>(f)].body);
+            reach_of(span, span.scratch.flight.fliers[static_cast<std::size_t>(f)].body);
 }
 
 // Others near a struck body of the solver's may now meet it sooner: of two bodies of one shape, in their contact. What has changed as well looks for
 // itself.
 void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::span<const std::int32_t> changed)
 {
-    const int body = span.scratch.state_bodies[static_cast<std::size_t>(struck)];
+    const int body = span.scratch.solver.state_bodies[static_cast<std::size_t>(struck)];
     const SceneState& state = span.state;
     const auto has_one_shape = [&](int b) { return state.bodies[b].first_shape == state.bodies[b].last_shape; };
     for (const int index : contacts_of(state, body))
@@ -103,7 +103,7 @@ void process(const FlightSpan& span, Flier& f)
     resolve_impact(span, f, changed);
     for (const std::int32_t s : changed)
     {
-        ++span.scratch.versions[static_cast<std::size_t>(s)];
+        ++span.scratch.flight.versions[static_cast<std::size_t>(s)];
         trace(span, s, f.time);
         note_reach(span, s);
     }
@@ -119,7 +119,8 @@ void process(const FlightSpan& span, Flier& f)
 void note_all_reaches(const FlightSpan& span)
 {
     for (std::size_t i = 0; i < span.output.deflected.size(); ++i)
-        span.output.reaches[i] = reach_of(span, span.scratch.fliers[static_cast<std::size_t>(span.output.deflected[i])].body);
+        span.output.reaches[i] =
+            reach_of(span, span.scratch.flight.fliers[static_cast<std::size_t>(span.output.deflected[i])].body);
 }
 
 // In a sub-step: what is left over then stays where it is until the next. Some milliseconds; impacts that come out take a hundredth.
@@ -199,7 +200,7 @@ void find_first_events(const FlightSpan& span, WorkerTeam& team)
 
 void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier)
 {
-    Flier& f = scratch.fliers[static_cast<std::size_t>(flier)];
+    Flier& f = scratch.flight.fliers[static_cast<std::size_t>(flier)];
     if (f.deflected)
         return;
     f.deflected = true;
@@ -233,10 +234,10 @@ void take_off_with_bats(const FlightSpan& span, Flier& f)
     for_each_pressed_by(span, f.state,
                         [&](std::int32_t other)
                         {
-                            const std::int32_t i = span.scratch.flier_of_state[static_cast<std::size_t>(other)];
+                            const std::int32_t i = span.scratch.flight.flier_of_state[static_cast<std::size_t>(other)];
                             if (i == none)
                                 return;
-                            Flier& bat = span.scratch.fliers[static_cast<std::size_t>(i)];
+                            Flier& bat = span.scratch.flight.fliers[static_cast<std::size_t>(i)];
                             if (bat.landed && bat.joint != none)
                                 bats.push_back(&bat);
                         });
@@ -277,7 +278,7 @@ bool flies_freely(const StepContext& ctx, const Island& island)
         return false;
     const auto falls = [&](const Flier& f)
     {
-        const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(f.state)];
+        const StateConstants& c = ctx.scratch.solver.constants[static_cast<std::size_t>(f.state)];
         return !f.landed && f.joint == none && c.linear_decay == 1 && c.angular_decay == 1;
     };
     return std::ranges::all_of(fliers_of(ctx.scratch, island), falls);

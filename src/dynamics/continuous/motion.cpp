@@ -7,6 +7,7 @@
 #include "dynamics/continuous/flight.h"
 #include "dynamics/solver/contact/prepare_wide.h"
 #include "dynamics/state/body_store.h"
+#include "dynamics/state/contact_store.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,10 @@ Flier* FlightSpan::flier_at(std::int32_t state_index) const
 {
     if (state_index == none)
         return nullptr;
-    const std::int32_t f = scratch.flier_of_state[static_cast<std::size_t>(state_index)];
-    if (f == none || scratch.fliers[static_cast<std::size_t>(f)].landed)
+    const std::int32_t f = scratch.flight.flier_of_state[static_cast<std::size_t>(state_index)];
+    if (f == none || scratch.flight.fliers[static_cast<std::size_t>(f)].landed)
         return nullptr;
-    return &scratch.fliers[static_cast<std::size_t>(f)];
+    return &scratch.flight.fliers[static_cast<std::size_t>(f)];
 }
 
 std::int32_t FlightSpan::state_in_island(int body) const
@@ -45,7 +46,7 @@ std::int32_t FlightSpan::state_in_island(int body) const
     const int place = state.bodies[body].awake_index;
     if (place == none || state.bodies[body].type != BodyType::Dynamic)
         return none;
-    const std::int32_t s = scratch.state_of[static_cast<std::size_t>(place)];
+    const std::int32_t s = scratch.solver.state_of[static_cast<std::size_t>(place)];
     return s >= island.first_state && s < island.first_state + island.state_count ? s : none;
 }
 
@@ -378,7 +379,7 @@ void take_off(const FlightSpan& span, Flier& f, double time)
     f.w = path.w;
     f.landed = false;
     span.output.disturbed = true;
-    note_deflected(span.scratch, span.output, span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
+    note_deflected(span.scratch, span.output, span.scratch.flight.flier_of_state[static_cast<std::size_t>(f.state)]);
     span.state_of(f.state).flags |= body_flag::flier;
     const auto drop_constraints = [&](std::span<ContactConstraint> constraints)
     {

@@ -32,10 +32,10 @@ struct FlightSpan
     [[nodiscard]] std::span<Flier> fliers() const;
     [[nodiscard]] std::span<const Hold> holds_of(const Flier& f) const;
     [[nodiscard]] Flier* flier_at(std::int32_t state_index) const; ///< nothing for what does not fly or has landed
-    [[nodiscard]] BodyState& state_of(std::int32_t index) const { return scratch.states[static_cast<std::size_t>(index)]; }
+    [[nodiscard]] BodyState& state_of(std::int32_t index) const { return scratch.solver.states[static_cast<std::size_t>(index)]; }
     [[nodiscard]] const StateConstants& constants_of(std::int32_t i) const
     {
-        return scratch.constants[static_cast<std::size_t>(i)];
+        return scratch.solver.constants[static_cast<std::size_t>(i)];
     }
     [[nodiscard]] const BodySim& sim_of(int body) const { return state.sims[static_cast<std::size_t>(body)]; }
     /// The state of a dynamic body of this island; none: it does not move, or belongs elsewhere.

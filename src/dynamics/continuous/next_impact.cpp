@@ -189,7 +189,7 @@ private:
             const double time = first_meeting(own_way().reach, reaches[i]);
             if (time > m_span.h || time >= m_flier.event_time)
                 continue;
-            const int body = m_span.scratch.fliers[static_cast<std::size_t>(m_span.output.deflected[i])].body;
+            const int body = m_span.scratch.flight.fliers[static_cast<std::size_t>(m_span.output.deflected[i])].body;
             if (body != m_flier.body)
                 offer_all(body, time);
         }
@@ -412,7 +412,7 @@ bool looks_for_none(const FlightSpan& span, const Flier& f) { return f.landed ||
 
 double& time_in_list(const FlightSpan& span, const Flier& f)
 {
-    return span.scratch.event_times[static_cast<std::size_t>(&f - span.scratch.fliers.data())];
+    return span.scratch.flight.event_times[static_cast<std::size_t>(&f - span.scratch.flight.fliers.data())];
 }
 
 } // namespace

@@ -17,7 +17,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
 /// How often the path of a state has changed in this sub-step.
 [[nodiscard]] inline std::int32_t version_of(const FlightSpan& span, std::int32_t state)
 {
-    return state == none ? 0 : span.scratch.versions[static_cast<std::size_t>(state)];
+    return state == none ? 0 : span.scratch.flight.versions[static_cast<std::size_t>(state)];
 }
 
 /// Of a dynamic body of the island, whether it flies or not, for the rest of the sub-step.

@@ -89,7 +89,7 @@ bool neighbours_meet_nothing(const StepContext& ctx, int body, const FloatBox& b
     const FloatBox around = grow(bounds, 0.1f * (bounds.ux - bounds.lx + bounds.uy - bounds.ly));
     if (!contains(around, box))
         return false;
-    const std::atomic_ref surroundings(ctx.scratch.surroundings[static_cast<std::size_t>(block)]);
+    const std::atomic_ref surroundings(ctx.scratch.flight.surroundings[static_cast<std::size_t>(block)]);
     Surroundings known = surroundings.load(std::memory_order_relaxed);
     if (known == Surroundings::Unknown)
     { // others may look at the same time, and find the same
@@ -116,7 +116,7 @@ bool may_meet_walls(const StepContext& ctx, int body, double dx, double dy)
 
 void forget_surroundings(StepContext& ctx)
 {
-    ctx.scratch.surroundings.assign(static_cast<std::size_t>(ctx.state.broad_phase.block_count()), Surroundings::Unknown);
+    ctx.scratch.flight.surroundings.assign(static_cast<std::size_t>(ctx.state.broad_phase.block_count()), Surroundings::Unknown);
 }
 
 Position free_way(const StepContext& ctx, int body, Position way, Rotation turn)

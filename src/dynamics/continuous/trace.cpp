@@ -9,9 +9,9 @@ namespace {
 // What was thrown off its way may meet triggers that nobody expected it at.
 bool is_recorded(const FlightSpan& span, std::int32_t state)
 {
-    const std::int32_t f = span.scratch.flier_of_state[static_cast<std::size_t>(state)];
+    const std::int32_t f = span.scratch.flight.flier_of_state[static_cast<std::size_t>(state)];
     return (span.state_of(state).flags & body_flag::traced) != 0 ||
-           (f != none && span.scratch.fliers[static_cast<std::size_t>(f)].deflected);
+           (f != none && span.scratch.flight.fliers[static_cast<std::size_t>(f)].deflected);
 }
 
 std::int32_t& last_piece_of(const FlightSpan& span, std::int32_t state)
@@ -35,7 +35,7 @@ FramePath at_rest(const BodySim& sim)
 FramePath solved_path(const FlightSpan& span, std::int32_t state, double time)
 {
     const BodyState& s = span.state_of(state);
-    const BodySim& sim = span.sim_of(span.scratch.state_bodies[static_cast<std::size_t>(state)]);
+    const BodySim& sim = span.sim_of(span.scratch.solver.state_bodies[static_cast<std::size_t>(state)]);
     const std::int32_t last = last_piece_of(span, state);
     FramePath path = at_rest(sim);
     if (last != none)
@@ -70,7 +70,7 @@ void trace(const FlightSpan& span, std::int32_t state, double time)
 {
     if (!span.state.broad_phase.has_triggers() || !is_recorded(span, state))
         return;
-    const int body = span.scratch.state_bodies[static_cast<std::size_t>(state)];
+    const int body = span.scratch.solver.state_bodies[static_cast<std::size_t>(state)];
     const FramePath path =
         span.flier_at(state) != nullptr ? path_from(span, body, time, span.sim_of(body).center) : solved_path(span, state, time);
     last_piece_of(span, state) = static_cast<std::int32_t>(span.output.path.size());

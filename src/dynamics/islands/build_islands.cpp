@@ -13,7 +13,7 @@ namespace carom::internal {
 
 void build_islands(StepContext& ctx)
 {
-    ctx.scratch.fullest_cell = 0;
+    ctx.scratch.graph.fullest_cell = 0;
     if (ctx.scratch.cached_graph.constraints_are_unchanged)
     {
         refill_islands(ctx);

@@ -33,8 +33,8 @@ class ContactWalk
 {
 public:
     ContactWalk(const StepContext& ctx, EdgesOfTask& some)
-        : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.places.data()),
-          m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.is_loaded.data()),
+        : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.graph.places.data()),
+          m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.graph.is_loaded.data()),
           m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(some.links.data() + some.count),
           m_old_end(some.links.data() + some.to_compare), m_stay(some.stay), m_touching(some.touching)
     {}
@@ -130,7 +130,7 @@ ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
     add_tasks(1, 1);
     // Links of the last step are compared with these, and give their place to them.
     EdgesOfTask& all = edges_of(0);
-    all.links.swap(scratch.links);
+    all.links.swap(scratch.graph.links);
     all.stay = scratch.cached_graph.are_plain;
     all.to_compare = all.stay ? all.links.size() : 0;
     set_size(all.links, std::max(all.links.size(), ctx.state.awake_contacts.size()));
@@ -139,7 +139,7 @@ ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
 // That have asked nothing yet.
 void ContactEdges::add_tasks(std::size_t contacts, std::size_t contacts_to_a_task)
 {
-    std::vector<EdgesOfTask>& all = m_ctx.scratch.edges_of_task;
+    std::vector<EdgesOfTask>& all = m_ctx.scratch.graph.edges_of_task;
     const std::size_t first = m_tasks;
     m_tasks += (contacts + contacts_to_a_task - 1) / contacts_to_a_task;
     all.resize(std::max(all.size(), m_tasks));
@@ -153,7 +153,7 @@ void ContactEdges::add_tasks(std::size_t contacts, std::size_t contacts_to_a_tas
     }
 }
 
-EdgesOfTask& ContactEdges::edges_of(std::size_t task) { return m_ctx.scratch.edges_of_task[m_alone ? 0 : task]; }
+EdgesOfTask& ContactEdges::edges_of(std::size_t task) { return m_ctx.scratch.graph.edges_of_task[m_alone ? 0 : task]; }
 
 void ContactEdges::ask(std::size_t first, std::size_t last, std::vector<std::int32_t>& later)
 {
@@ -196,7 +196,7 @@ void ContactEdges::ask_later(std::span<const std::int32_t> contacts)
 void ContactEdges::join()
 {
     Scratch& scratch = m_ctx.scratch;
-    const std::span<EdgesOfTask> parts = std::span(scratch.edges_of_task).first(m_tasks);
+    const std::span<EdgesOfTask> parts = std::span(scratch.graph.edges_of_task).first(m_tasks);
     std::size_t count = 0;
     for (EdgesOfTask& some : parts)
     {
@@ -207,17 +207,17 @@ void ContactEdges::join()
     if (m_alone)
     {
         parts[0].links.resize(count);
-        scratch.links.swap(parts[0].links);
+        scratch.graph.links.swap(parts[0].links);
         scratch.cached_graph.edges_are_unchanged = parts[0].stay && count == parts[0].to_compare;
         return;
     }
-    const bool may_stay = scratch.cached_graph.are_plain && scratch.links.size() == count;
-    set_size(scratch.links, count);
+    const bool may_stay = scratch.cached_graph.are_plain && scratch.graph.links.size() == count;
+    set_size(scratch.graph.links, count);
     for_each_in_parts(m_ctx.scene.def.tasks, parts.size(), parts_joined_at_once,
                       [&](std::size_t i)
                       {
                           const auto found = std::span(parts[i].links).first(parts[i].count);
-                          const auto to = scratch.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
+                          const auto to = scratch.graph.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
                           parts[i].stay = may_stay && std::equal(found.begin(), found.end(), to, is_same);
                           std::ranges::copy(found, to);
                       });

@@ -23,7 +23,7 @@ public:
     /// After all tasks: of the latter, and of those that have woken meanwhile. Their links come behind.
     void ask_later(std::span<const std::int32_t> contacts);
 
-    /// Fills Scratch::links, and says whether they are those of the last step.
+    /// Fills Scratch::graph.links, and says whether they are those of the last step.
     void join();
 
 private:

@@ -33,21 +33,21 @@ public:
     bool join_deflected()
     {
         find_deflected();
-        scratch.may_be_struck = scratch.is_deflected;
-        if (scratch.reaches.empty())
+        scratch.graph.may_be_struck = scratch.meetings.is_deflected;
+        if (scratch.meetings.reaches.empty())
             return false;
-        scratch.reach_tree.build(ctx.scene.def.tasks, scratch.reaches);
+        scratch.meetings.reach_tree.build(ctx.scene.def.tasks, scratch.meetings.reaches);
         using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
-        const auto blocks = static_cast<std::size_t>(scratch.reach_tree.block_count());
+        const auto blocks = static_cast<std::size_t>(scratch.meetings.reach_tree.block_count());
         const std::span<Meetings> parts =
-            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings_of_task,
+            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings.meetings_of_task,
                           [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
-        scratch.sets.reset(scratch.tallies.size());
+        scratch.graph.sets.reset(scratch.graph.tallies.size());
         bool linked = false;
         for (const Meetings& some : parts)
         {
             for (const auto& [island, other] : some)
-                linked |= scratch.sets.link(island, other, false);
+                linked |= scratch.graph.sets.link(island, other, false);
         }
         return linked;
     }
@@ -56,40 +56,40 @@ private:
     // What flies and may be deflected by what it meets on its way; where it may come then, and whose boxes keep their way.
     void find_deflected()
     {
-        scratch.is_deflected.assign(state.awake_bodies.size(), 0);
+        scratch.meetings.is_deflected.assign(state.awake_bodies.size(), 0);
         find_fastest();
         const std::span<SomeReaches> parts =
-            find_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task, scratch.reaches_of_task,
+            find_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task, scratch.meetings.reaches_of_task,
                           [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
-        scratch.reaches.clear();
+        scratch.meetings.reaches.clear();
         std::vector<std::int32_t>& shapes = scratch.order;
         shapes.clear();
         for (const SomeReaches& some : parts)
         {
-            append_all(scratch.reaches, some.reaches);
+            append_all(scratch.meetings.reaches, some.reaches);
             append_all(shapes, some.shapes);
         }
         if (!shapes.empty())
-            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.keeps_its_way);
+            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.meetings.keeps_its_way);
     }
 
     // A struck body may leave as fast as the one that strikes it comes. So each island notes the longest way of its fliers that may still meet something.
     void find_fastest()
     {
-        for (IslandTally& t : scratch.tallies)
+        for (IslandTally& t : scratch.graph.tallies)
             t.longest_way = 0;
-        set_size(scratch.may_meet, state.awake_bodies.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+        set_size(scratch.meetings.may_meet, state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
-                              const std::int32_t place = scratch.flying[i];
+                              const std::int32_t place = scratch.graph.flying[i];
                               if (!flies_far(place))
                                   return;
                               const bool meets = may_meet(place);
-                              scratch.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
+                              scratch.meetings.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
                               if (!meets)
                                   return;
-                              const float way = scratch.motion[static_cast<std::size_t>(place)];
+                              const float way = scratch.broad.motion[static_cast<std::size_t>(place)];
                               const std::atomic_ref longest(tally_of(scratch, place).longest_way);
                               float before = longest.load(std::memory_order_relaxed);
                               while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
@@ -104,12 +104,12 @@ private:
         some.shapes.clear();
         for (std::size_t i = first; i < last; ++i)
         {
-            const std::int32_t item = scratch.flying[i];
+            const std::int32_t item = scratch.graph.flying[i];
             const auto place = static_cast<std::size_t>(item);
-            const float way = scratch.tallies[static_cast<std::size_t>(scratch.island_of[place])].longest_way;
-            if (way == 0 || !(flies_far(item) ? scratch.may_meet[place] != 0 : may_meet(item)))
+            const float way = scratch.graph.tallies[static_cast<std::size_t>(scratch.graph.island_of[place])].longest_way;
+            if (way == 0 || !(flies_far(item) ? scratch.meetings.may_meet[place] != 0 : may_meet(item)))
                 continue;
-            scratch.is_deflected[place] = 1;
+            scratch.meetings.is_deflected[place] = 1;
             const int body = body_at(item);
             const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
             const double r = static_cast<double>(way) + static_cast<double>(sim.extent);
@@ -121,7 +121,7 @@ private:
 
     [[nodiscard]] bool flies_far(std::int32_t place) const
     {
-        return scratch.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
+        return scratch.broad.motion[static_cast<std::size_t>(place)] > ctx.scene.tolerances.speculation;
     }
 
     [[nodiscard]] bool may_meet(std::int32_t place) const
@@ -137,12 +137,12 @@ private:
     // Islands that meet; notes what else may be struck.
     void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
     {
-        const BoxTree& tree = scratch.reach_tree;
+        const BoxTree& tree = scratch.meetings.reach_tree;
         meetings.clear();
         const auto note = [&](std::int32_t place, std::int32_t other)
         {
-            const std::pair islands(scratch.island_of[static_cast<std::size_t>(place)],
-                                    scratch.island_of[static_cast<std::size_t>(other)]);
+            const std::pair islands(scratch.graph.island_of[static_cast<std::size_t>(place)],
+                                    scratch.graph.island_of[static_cast<std::size_t>(other)]);
             const bool is_known = !meetings.empty() && meetings.back() == islands;
             if (islands.second != none && islands.first != islands.second && !is_known) // kinematic bodies have none
                 meetings.push_back(islands);
@@ -151,12 +151,12 @@ private:
         {
             const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
             state.broad_phase.for_each_overlap(
-                tree, k, lanes, Layer::Moving, scratch.keeps_its_way,
+                tree, k, lanes, Layer::Moving, scratch.meetings.keeps_its_way,
                 [&](std::int32_t place, int shape)
                 {
                     const std::size_t other = place_of_shape(shape);
-                    std::atomic_ref(scratch.may_be_struck[other]).store(1, std::memory_order_relaxed);
-                    if (scratch.is_deflected[other] == 0) // what no tree holds yet is not chosen
+                    std::atomic_ref(scratch.graph.may_be_struck[other]).store(1, std::memory_order_relaxed);
+                    if (scratch.meetings.is_deflected[other] == 0) // what no tree holds yet is not chosen
                         note(place, static_cast<std::int32_t>(other));
                 });
             // of two that are both deflected the first finds the second

@@ -4,7 +4,7 @@
 
 namespace carom::internal {
 
-/// Joins islands in Scratch::sets whose bodies may meet in flight; fills Scratch::is_deflected and may_be_struck. True where islands have become one.
+/// Joins islands in Scratch::graph.sets whose bodies may meet in flight; fills Scratch::meetings.is_deflected and may_be_struck. True where islands have become one.
 [[nodiscard]] bool join_deflected(StepContext& ctx);
 
 } // namespace carom::internal

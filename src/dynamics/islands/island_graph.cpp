@@ -46,15 +46,15 @@ public:
     // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
     void join_islands()
     {
-        const int worth = 1 + static_cast<int>((scratch.links.size() + scratch.joint_edges.size()) / edges_per_task);
+        const int worth = 1 + static_cast<int>((scratch.graph.links.size() + scratch.graph.joint_edges.size()) / edges_per_task);
         const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, std::min(worth, most_sets));
-        if (scratch.more_sets.size() + 1 < static_cast<std::size_t>(parts))
-            scratch.more_sets.resize(static_cast<std::size_t>(parts) - 1);
+        if (scratch.graph.more_sets.size() + 1 < static_cast<std::size_t>(parts))
+            scratch.graph.more_sets.resize(static_cast<std::size_t>(parts) - 1);
         const auto sets_of = [&](int part) -> UnionFind&
-        { return part == 0 ? scratch.sets : scratch.more_sets[static_cast<std::size_t>(part) - 1]; };
+        { return part == 0 ? scratch.graph.sets : scratch.graph.more_sets[static_cast<std::size_t>(part) - 1]; };
         run_tasks(ctx.scene.def.tasks, parts, [&](int part) { gather_part(part, parts, sets_of(part)); });
         for (int part = 1; part < parts; ++part)
-            scratch.sets.join_all(sets_of(part));
+            scratch.graph.sets.join_all(sets_of(part));
     }
 
     void gather_part(int part, int parts, UnionFind& sets)
@@ -69,11 +69,11 @@ public:
         const auto guess = [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); };
         const auto link = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
         sets.reset(state.awake_bodies.size());
-        over_both_ends(scratch.links, guess);
-        over_both_ends(scratch.joint_edges, guess);
+        over_both_ends(scratch.graph.links, guess);
+        over_both_ends(scratch.graph.joint_edges, guess);
         sets.flatten();
-        over_both_ends(scratch.links, link);
-        over_both_ends(scratch.joint_edges, link);
+        over_both_ends(scratch.graph.links, link);
+        over_both_ends(scratch.graph.joint_edges, link);
         sets.flatten();
     }
 
@@ -81,19 +81,19 @@ public:
     // way.
     void ground_crowds()
     {
-        for (const std::int32_t place : scratch.flying)
+        for (const std::int32_t place : scratch.graph.flying)
             ++tally_of(scratch, place).unloaded;
-        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
-                              const std::int32_t place = scratch.flying[i];
-                              std::int32_t& flight = scratch.flight[static_cast<std::size_t>(place)];
+                              const std::int32_t place = scratch.graph.flying[i];
+                              std::int32_t& flight = scratch.graph.flight[static_cast<std::size_t>(place)];
                               if (is_crowd(tally_of(scratch, place).unloaded) && !is_fast_mover(body_at(place)))
-                                  scratch.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
+                                  scratch.graph.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
                           });
-        std::erase_if(scratch.flying,
-                      [&](std::int32_t place) { return scratch.flight[static_cast<std::size_t>(place)] == earthbound; });
-        for (const std::int32_t place : scratch.flying)
+        std::erase_if(scratch.graph.flying,
+                      [&](std::int32_t place) { return scratch.graph.flight[static_cast<std::size_t>(place)] == earthbound; });
+        for (const std::int32_t place : scratch.graph.flying)
             ++tally_of(scratch, place).fliers;
     }
 
@@ -118,9 +118,9 @@ public:
     // Who bears a load matters to soft joints.
     void count_contacts()
     {
-        if (!may_have_soft_joints(scratch.joint_edges.size()))
+        if (!may_have_soft_joints(scratch.graph.joint_edges.size()))
             return;
-        for (const ContactEdge& l : scratch.links)
+        for (const ContactEdge& l : scratch.graph.links)
         {
             if (!l.has(edge_flag::solved))
                 continue;
@@ -137,33 +137,34 @@ public:
         find_isolated();
         std::vector<std::int32_t>& island_of_group = scratch.order;
         island_of_group.clear();
-        scratch.islands.clear();
+        scratch.solver.islands.clear();
         Batch soft;
         Batch isolated;
-        for (const IslandTally& t : scratch.tallies)
+        for (const IslandTally& t : scratch.graph.tallies)
         {
-            const bool is_isolated = t.bodies == 1 && scratch.is_isolated[static_cast<std::size_t>(t.first)] != 0;
+            const bool is_isolated = t.bodies == 1 && scratch.graph.is_isolated[static_cast<std::size_t>(t.first)] != 0;
             const IslandPolicy policy = choose_policy(t, is_isolated, ctx.dt, ctx.scene.forced_policy);
             Batch* batch = policy.soft_joints ? &soft : policy.free_fall ? &isolated : nullptr;
             if (batch == nullptr || batch->island == none || batch->bodies >= enough_bodies)
             {
-                append(scratch.islands, {});
-                Island& island = scratch.islands.back();
+                append(scratch.solver.islands, {});
+                Island& island = scratch.solver.islands.back();
                 island.policy = policy;
                 if (batch != nullptr)
-                    *batch = {static_cast<std::int32_t>(scratch.islands.size()) - 1, 0};
+                    *batch = {static_cast<std::int32_t>(scratch.solver.islands.size()) - 1, 0};
             }
             if (batch != nullptr)
                 batch->bodies += t.bodies;
-            island_of_group.push_back(batch != nullptr ? batch->island : static_cast<std::int32_t>(scratch.islands.size()) - 1);
+            island_of_group.push_back(batch != nullptr ? batch->island
+                                                       : static_cast<std::int32_t>(scratch.solver.islands.size()) - 1);
         }
-        ctx.report.islands = static_cast<int>(scratch.tallies.size());
-        if (scratch.islands.size() == scratch.tallies.size())
+        ctx.report.islands = static_cast<int>(scratch.graph.tallies.size());
+        if (scratch.solver.islands.size() == scratch.graph.tallies.size())
             return;
-        for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
+        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
                           [&](std::size_t place)
                           {
-                              std::int32_t& u = scratch.island_of[place];
+                              std::int32_t& u = scratch.graph.island_of[place];
                               u = u == none ? none : island_of_group[static_cast<std::size_t>(u)];
                           });
     }
@@ -177,13 +178,13 @@ public:
     // Of what flies.
     void find_isolated()
     {
-        set_size(scratch.is_isolated, state.awake_bodies.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.flying.size(), fliers_per_task,
+        set_size(scratch.graph.is_isolated, state.awake_bodies.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
                           [&](std::size_t i)
                           {
-                              const std::int32_t place = scratch.flying[i];
+                              const std::int32_t place = scratch.graph.flying[i];
                               const bool isolated = tally_of(scratch, place).bodies == 1 && is_isolated(place);
-                              scratch.is_isolated[static_cast<std::size_t>(place)] = isolated ? 1 : 0;
+                              scratch.graph.is_isolated[static_cast<std::size_t>(place)] = isolated ? 1 : 0;
                           });
     }
 
@@ -191,8 +192,8 @@ public:
     {
         const int body = body_at(place);
         const BodyRecord& record = state.bodies[body];
-        return scratch.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none && meets_nothing(body) &&
-               is_free_of_loads(body) && !ctx.scene.def.record_substeps;
+        return scratch.graph.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none &&
+               meets_nothing(body) && is_free_of_loads(body) && !ctx.scene.def.record_substeps;
     }
 
     [[nodiscard]] bool is_free_of_loads(int body) const
@@ -220,23 +221,23 @@ public:
         const std::size_t n = state.awake_bodies.size();
         std::vector<std::int32_t>& firsts = scratch.order;
         set_size(firsts, n + 1);
-        set_size(scratch.island_of, n);
+        set_size(scratch.graph.island_of, n);
         std::int32_t count = 0;
         for (std::size_t i = 0; i < n; ++i)
         {
-            const auto before = static_cast<std::size_t>(scratch.sets.before(i));
-            const bool moves = !scratch.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic;
+            const auto before = static_cast<std::size_t>(scratch.graph.sets.before(i));
+            const bool moves = !scratch.graph.has_kinematic || state.bodies[state.awake_bodies[i]].type == BodyType::Dynamic;
             const bool is_first = before == i;
             firsts[static_cast<std::size_t>(count)] = static_cast<std::int32_t>(i);
-            scratch.island_of[i] = is_first ? (moves ? count : none) : scratch.island_of[before];
+            scratch.graph.island_of[i] = is_first ? (moves ? count : none) : scratch.graph.island_of[before];
             count += is_first && moves ? 1 : 0;
         }
-        scratch.tallies.clear();
-        set_size(scratch.tallies, static_cast<std::size_t>(count));
+        scratch.graph.tallies.clear();
+        set_size(scratch.graph.tallies, static_cast<std::size_t>(count));
         for (std::int32_t island = 0; island < count; ++island)
             tally(scratch, island).first = firsts[static_cast<std::size_t>(island)];
         for_each_run(
-            0, n, [&](std::size_t i) { return scratch.island_of[i]; },
+            0, n, [&](std::size_t i) { return scratch.graph.island_of[i]; },
             [&](const IslandRun& run) { tally(scratch, run.island).bodies += run.count; });
     }
 
@@ -244,23 +245,23 @@ public:
     void renumber_islands()
     {
         std::vector<std::int32_t>& numbers = scratch.order;
-        set_size(numbers, scratch.tallies.size());
+        set_size(numbers, scratch.graph.tallies.size());
         std::int32_t count = 0;
-        for (std::size_t u = 0; u < scratch.tallies.size(); ++u)
+        for (std::size_t u = 0; u < scratch.graph.tallies.size(); ++u)
         {
-            const IslandTally old{.first = scratch.tallies[u].first, .bodies = scratch.tallies[u].bodies};
-            const auto before = static_cast<std::size_t>(scratch.sets.before(u));
+            const IslandTally old{.first = scratch.graph.tallies[u].first, .bodies = scratch.graph.tallies[u].bodies};
+            const auto before = static_cast<std::size_t>(scratch.graph.sets.before(u));
             numbers[u] = before == u ? count++ : numbers[before];
             if (before == u)
                 tally(scratch, numbers[u]) = old;
             else
                 tally(scratch, numbers[u]).bodies += old.bodies;
         }
-        scratch.tallies.resize(static_cast<std::size_t>(count));
-        for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
+        scratch.graph.tallies.resize(static_cast<std::size_t>(count));
+        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
                           [&](std::size_t place)
                           {
-                              std::int32_t& island = scratch.island_of[place]; // kinematic bodies have none
+                              std::int32_t& island = scratch.graph.island_of[place]; // kinematic bodies have none
                               island = island == none ? none : numbers[static_cast<std::size_t>(island)];
                           });
     }
@@ -272,44 +273,44 @@ public:
     }
     [[nodiscard]] bool in_flight(std::int32_t place) const
     {
-        return place >= 0 && scratch.flight[static_cast<std::size_t>(place)] != earthbound;
+        return place >= 0 && scratch.graph.flight[static_cast<std::size_t>(place)] != earthbound;
     }
 
     // On all threads: what follows goes by these alone.
     void find_islands_of_edges()
     {
-        set_size(scratch.island_of_edge, scratch.links.size());
+        set_size(scratch.graph.island_of_edge, scratch.graph.links.size());
         using Some = std::vector<KinematicMeeting>;
-        const std::span<Some> parts =
-            find_in_parts(ctx.scene.def.tasks, scratch.links.size(), edges_per_task, scratch.meetings_with_kinematic_of_task,
-                          [&](std::size_t first, std::size_t last, Some& meetings)
-                          {
-                              meetings.clear();
-                              for (std::size_t i = first; i < last; ++i)
-                              {
-                                  const ContactEdge& l = scratch.links[i];
-                                  const std::int32_t island = scratch.island_of_edge[i] = island_of_constraint(l);
-                                  const std::int32_t kinematic = std::min(l.a, l.b); // if either is
-                                  if (kinematic < none && island != none)
-                                      meetings.push_back({island, static_cast<std::int32_t>(i), -2 - kinematic});
-                              }
-                          });
-        scratch.meetings_with_kinematic.clear();
+        const std::span<Some> parts = find_in_parts(
+            ctx.scene.def.tasks, scratch.graph.links.size(), edges_per_task, scratch.graph.meetings_with_kinematic_of_task,
+            [&](std::size_t first, std::size_t last, Some& meetings)
+            {
+                meetings.clear();
+                for (std::size_t i = first; i < last; ++i)
+                {
+                    const ContactEdge& l = scratch.graph.links[i];
+                    const std::int32_t island = scratch.graph.island_of_edge[i] = island_of_constraint(l);
+                    const std::int32_t kinematic = std::min(l.a, l.b); // if either is
+                    if (kinematic < none && island != none)
+                        meetings.push_back({island, static_cast<std::int32_t>(i), -2 - kinematic});
+                }
+            });
+        scratch.graph.meetings_with_kinematic.clear();
         for (const Some& some : parts)
-            append_all(scratch.meetings_with_kinematic, some);
-        std::ranges::sort(scratch.meetings_with_kinematic, {},
+            append_all(scratch.graph.meetings_with_kinematic, some);
+        std::ranges::sort(scratch.graph.meetings_with_kinematic, {},
                           [](const KinematicMeeting& m) { return std::pair(m.island, m.link); });
     }
 
     void sort_joints()
     {
         sort_by_island(
-            ctx.scene.def.tasks, scratch, scratch.joint_edges, scratch.solved_joints, joints_per_task,
-            [&](std::size_t i) { return island_of_edge(scratch, scratch.joint_edges[i]); },
+            ctx.scene.def.tasks, scratch, scratch.graph.joint_edges, scratch.graph.solved_joints, joints_per_task,
+            [&](std::size_t i) { return island_of_edge(scratch, scratch.graph.joint_edges[i]); },
             [](Island& island, int first, int count)
             {
-                island.first_joint = first;
-                island.joint_count = count;
+                island.first_joint_edge = first;
+                island.joint_edge_count = count;
             });
     }
 
@@ -317,11 +318,11 @@ public:
     void sort_bodies()
     {
         sort_by_island(
-            ctx.scene.def.tasks, scratch, scratch.in_plane, scratch.solved_bodies, bodies_per_task,
-            [&](std::size_t i) { return scratch.island_of[static_cast<std::size_t>(scratch.in_plane[i])]; },
+            ctx.scene.def.tasks, scratch, scratch.graph.in_plane, scratch.graph.solved_bodies, bodies_per_task,
+            [&](std::size_t i) { return scratch.graph.island_of[static_cast<std::size_t>(scratch.graph.in_plane[i])]; },
             [](Island& island, int first, int count)
             {
-                island.first_state = first;
+                island.first_body = first;
                 island.dynamic_count = count;
             });
     }
@@ -329,12 +330,12 @@ public:
     // Places in awake_bodies, by counting.
     void sort_by_cell()
     {
-        std::vector<std::int32_t>& places = scratch.in_plane;
+        std::vector<std::int32_t>& places = scratch.graph.in_plane;
         const auto cell_of = [&](std::int32_t body) { return static_cast<std::size_t>(state.bodies[body].plane_cell); };
         std::int32_t starts[plane_cells + 1] = {};
         for (const std::int32_t body : state.awake_bodies)
             ++starts[cell_of(body) + 1];
-        scratch.fullest_cell = static_cast<std::size_t>(*std::ranges::max_element(starts));
+        scratch.graph.fullest_cell = static_cast<std::size_t>(*std::ranges::max_element(starts));
         for (int cell = 0; cell < plane_cells; ++cell)
             starts[cell + 1] += starts[cell];
         set_size(places, state.awake_bodies.size());

@@ -7,7 +7,7 @@
 
 namespace carom::internal {
 
-/// When all links are known: fills Scratch::islands with how many states and joints each has, solved_bodies and solved_joints in their order, island_of_edge, and who flies.
+/// When all links are known: fills Scratch::solver.islands with how many states and joints each has, solved_bodies and solved_joints in their order, island_of_edge, and who flies.
 void build_island_graph(StepContext& ctx);
 
 } // namespace carom::internal

@@ -47,27 +47,29 @@ public:
 
     void forget_bodies()
     {
-        scratch.flight.clear();
-        scratch.grounded.clear();
-        scratch.is_loaded.clear();
-        scratch.has_uneven = scratch.has_kinematic = scratch.has_hung = false;
-        for (const std::int32_t body : scratch.placed) // of what was awake in the last step alone: what never moves costs nothing
-            scratch.places[static_cast<std::size_t>(body)] = none;
-        scratch.places.resize(std::max(scratch.places.size(), static_cast<std::size_t>(state.bodies.capacity())), none);
-        scratch.placed.clear();
+        scratch.graph.flight.clear();
+        scratch.graph.grounded.clear();
+        scratch.graph.is_loaded.clear();
+        scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hung = false;
+        for (const std::int32_t body :
+             scratch.graph.placed) // of what was awake in the last step alone: what never moves costs nothing
+            scratch.graph.places[static_cast<std::size_t>(body)] = none;
+        scratch.graph.places.resize(std::max(scratch.graph.places.size(), static_cast<std::size_t>(state.bodies.capacity())),
+                                    none);
+        scratch.graph.placed.clear();
     }
 
     // Those that have woken since it was last called.
     void place_bodies()
     {
-        const std::size_t first = scratch.placed.size();
+        const std::size_t first = scratch.graph.placed.size();
         const std::size_t count = state.awake_bodies.size();
-        scratch.placed.insert(scratch.placed.end(), state.awake_bodies.begin() + static_cast<std::ptrdiff_t>(first),
-                              state.awake_bodies.end());
-        scratch.flight.resize(count, earthbound);
-        scratch.grounded.resize(count, earthbound);
-        scratch.is_loaded.resize(first); // but for nobody's
-        scratch.is_loaded.resize(count + 1);
+        scratch.graph.placed.insert(scratch.graph.placed.end(), state.awake_bodies.begin() + static_cast<std::ptrdiff_t>(first),
+                                    state.awake_bodies.end());
+        scratch.graph.flight.resize(count, earthbound);
+        scratch.graph.grounded.resize(count, earthbound);
+        scratch.graph.is_loaded.resize(first); // but for nobody's
+        scratch.graph.is_loaded.resize(count + 1);
         for_each_in_parts(ctx.scene.def.tasks, count - first, bodies_per_task,
                           [&](std::size_t k)
                           {
@@ -77,25 +79,25 @@ public:
                               note_place(body, static_cast<std::int32_t>(i));
                               note_uneven(body);
                               if (ctx.scene.def.continuous)
-                                  scratch.flight[i] = kind_of_flight(body);
+                                  scratch.graph.flight[i] = kind_of_flight(body);
                           });
     }
 
     // A body that a contact loads does not fly. No branch asks which do: it would be guessed wrong.
     void list_fliers()
     {
-        set_size(scratch.flying, scratch.flight.size());
+        set_size(scratch.graph.flying, scratch.graph.flight.size());
         std::size_t count = 0;
-        for (std::size_t i = 0; i < scratch.flight.size(); ++i)
+        for (std::size_t i = 0; i < scratch.graph.flight.size(); ++i)
         {
-            const bool loaded = scratch.is_loaded[i] != 0;
-            const std::int32_t flight = scratch.flight[i];
-            scratch.grounded[i] = loaded ? flight : scratch.grounded[i];
-            scratch.flight[i] = loaded ? earthbound : flight;
-            scratch.flying[count] = static_cast<std::int32_t>(i);
-            count += scratch.flight[i] != earthbound ? 1 : 0;
+            const bool loaded = scratch.graph.is_loaded[i] != 0;
+            const std::int32_t flight = scratch.graph.flight[i];
+            scratch.graph.grounded[i] = loaded ? flight : scratch.graph.grounded[i];
+            scratch.graph.flight[i] = loaded ? earthbound : flight;
+            scratch.graph.flying[count] = static_cast<std::int32_t>(i);
+            count += scratch.graph.flight[i] != earthbound ? 1 : 0;
         }
-        scratch.flying.resize(count);
+        scratch.graph.flying.resize(count);
     }
 
     // But for what may fly, they say nothing that a step changes.
@@ -103,15 +105,15 @@ public:
     {
         CachedGraph& kept = scratch.cached_graph;
         kept.stay_plain = kept.are_plain && !state.graph_dirty && bodies_are_unchanged(ctx);
-        kept.joints_are_unchanged = kept.stay_plain && !scratch.has_hung && !kept.has_hung;
-        kept.has_hung = scratch.has_hung;
+        kept.joints_are_unchanged = kept.stay_plain && !scratch.graph.has_hung && !kept.has_hung;
+        kept.has_hung = scratch.graph.has_hung;
         if (kept.joints_are_unchanged)
             return;
-        scratch.joint_edges.swap(kept.joints);
+        scratch.graph.joint_edges.swap(kept.joints);
         using Some = std::vector<JointEdge>;
         const auto joints = static_cast<std::size_t>(state.joints.capacity());
         const std::span<Some> parts =
-            find_in_parts(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.joints_of_task,
+            find_in_parts(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.graph.joints_of_task,
                           [&](std::size_t first, std::size_t last, Some& some)
                           {
                               some.clear();
@@ -123,12 +125,12 @@ public:
                           });
         if (parts.size() == 1)
         {
-            scratch.joint_edges.swap(parts[0]);
+            scratch.graph.joint_edges.swap(parts[0]);
             return;
         }
-        scratch.joint_edges.clear();
+        scratch.graph.joint_edges.clear();
         for (const Some& some : parts)
-            append_all(scratch.joint_edges, some);
+            append_all(scratch.graph.joint_edges, some);
     }
 
 private:
@@ -145,16 +147,16 @@ private:
     void note_place(int body, std::int32_t place) const
     {
         const bool dynamic = state.bodies[body].type == BodyType::Dynamic;
-        scratch.places[static_cast<std::size_t>(body)] = dynamic ? place : -2 - place;
+        scratch.graph.places[static_cast<std::size_t>(body)] = dynamic ? place : -2 - place;
         if (!dynamic)
-            std::atomic_ref(scratch.has_kinematic).store(true, std::memory_order_relaxed);
+            std::atomic_ref(scratch.graph.has_kinematic).store(true, std::memory_order_relaxed);
     }
 
     void note_uneven(int body) const
     {
         const MotionLocks locks = state.bodies[body].locks;
         if (locks.linear_x != locks.linear_y)
-            std::atomic_ref(scratch.has_uneven).store(true, std::memory_order_relaxed);
+            std::atomic_ref(scratch.graph.has_uneven).store(true, std::memory_order_relaxed);
     }
 
     [[nodiscard]] std::int32_t kind_of_flight(int body) const
@@ -166,7 +168,7 @@ private:
             return kind;
         if (!is_closed(ctx, kind, body))
             return earthbound;
-        std::atomic_ref(scratch.has_hung).store(true, std::memory_order_relaxed);
+        std::atomic_ref(scratch.graph.has_hung).store(true, std::memory_order_relaxed);
         return kind;
     }
 
@@ -200,8 +202,8 @@ private:
     // About a hinge to the world.
     [[nodiscard]] bool may_fly(std::int32_t place) const
     {
-        return place >= 0 && (scratch.flight[static_cast<std::size_t>(place)] != earthbound ||
-                              scratch.grounded[static_cast<std::size_t>(place)] != earthbound);
+        return place >= 0 && (scratch.graph.flight[static_cast<std::size_t>(place)] != earthbound ||
+                              scratch.graph.grounded[static_cast<std::size_t>(place)] != earthbound);
     }
 
     StepContext& ctx;

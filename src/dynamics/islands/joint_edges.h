@@ -8,7 +8,7 @@
 
 namespace carom::internal {
 
-/// Gives bodies that are awake their places as in Link, and says in Scratch::flight who may fly as far as single bodies tell; no contact loads them
+/// Gives bodies that are awake their places as in Link, and says in Scratch::graph.flight who may fly as far as single bodies tell; no contact loads them
 /// yet. Called again after more have woken, for these.
 void forget_bodies(StepContext& ctx);
 void place_bodies(StepContext& ctx);
@@ -16,7 +16,7 @@ void place_bodies(StepContext& ctx);
 /// When links of contacts are known: whom one loads does not fly.
 void list_fliers(StepContext& ctx);
 
-/// Fills Scratch::joint_edges.
+/// Fills Scratch::graph.joint_edges.
 void gather_joints(StepContext& ctx);
 
 /// Of a body with joints: the hinge to the world that it turns on, which nothing drives, or earthbound.
@@ -34,7 +34,7 @@ void gather_joints(StepContext& ctx);
 /// Of a body, as in Link.
 [[nodiscard]] inline std::int32_t place_of(const Scratch& scratch, int body)
 {
-    return scratch.places[static_cast<std::size_t>(body)];
+    return scratch.graph.places[static_cast<std::size_t>(body)];
 }
 
 /// The contact gets no row in this step.

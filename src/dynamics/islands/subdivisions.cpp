@@ -31,23 +31,23 @@ public:
     // Sub-steps are subdivided so that normals that turn with a bar or a bat, and arms of joints, turn by little in each.
     void find_subdivisions()
     {
-        const bool may_turn = (scratch.has_kinematic || state.joints.count() > 0) &&
-                              std::any_of(scratch.tallies.begin(), scratch.tallies.end(),
+        const bool may_turn = (scratch.graph.has_kinematic || state.joints.count() > 0) &&
+                              std::any_of(scratch.graph.tallies.begin(), scratch.graph.tallies.end(),
                                           [](const IslandTally& t) { return follows_turning_contacts(t.bodies); });
         if (may_turn)
-            for_each_in_parts(ctx.scene.def.tasks, scratch.island_of.size(), bodies_per_task,
+            for_each_in_parts(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
                               [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
         find_swings();
-        for (std::size_t i = 0; i < scratch.joint_edges.size(); ++i)
+        for (std::size_t i = 0; i < scratch.graph.joint_edges.size(); ++i)
         {
-            const JointEdge& j = scratch.joint_edges[i];
+            const JointEdge& j = scratch.graph.joint_edges[i];
             IslandTally& t = tally(scratch, island_of_edge(scratch, j));
             ++t.joints;
             t.hangs |= j.a < 0 || j.b < 0;
             t.damped += j.damped ? 1 : 0;
-            t.swing = std::max(t.swing, scratch.swings[i]);
+            t.swing = std::max(t.swing, scratch.graph.swings[i]);
         }
-        for (IslandTally& t : scratch.tallies)
+        for (IslandTally& t : scratch.graph.tallies)
             t.subdivisions = std::max(t.subdivisions, subdivisions_for(t.swing, most_swing, most_subdivisions));
     }
 
@@ -60,7 +60,7 @@ private:
     // Of a small island.
     void follow_contacts_of(std::int32_t place)
     {
-        const std::int32_t island = scratch.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
+        const std::int32_t island = scratch.graph.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
         if (island == none || !follows_turning_contacts(tally(scratch, island).bodies))
             return;
         for (const int index : contacts_of(state, body_at(place)))
@@ -87,13 +87,13 @@ private:
     // Of joints in small islands, on all threads.
     void find_swings()
     {
-        set_size(scratch.swings, scratch.joint_edges.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.joint_edges.size(), joints_per_task,
+        set_size(scratch.graph.swings, scratch.graph.joint_edges.size());
+        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.joint_edges.size(), joints_per_task,
                           [&](std::size_t i)
                           {
-                              const JointEdge& j = scratch.joint_edges[i];
+                              const JointEdge& j = scratch.graph.joint_edges[i];
                               const bool is_followed = follows_swinging_joints(tally(scratch, island_of_edge(scratch, j)).bodies);
-                              scratch.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
+                              scratch.graph.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
                           });
     }
 

@@ -8,18 +8,18 @@ namespace carom::internal {
 
 [[nodiscard]] inline IslandTally& tally(Scratch& scratch, std::int32_t island)
 {
-    return scratch.tallies[static_cast<std::size_t>(island)];
+    return scratch.graph.tallies[static_cast<std::size_t>(island)];
 }
 /// Of the body at a place in awake_bodies.
 [[nodiscard]] inline IslandTally& tally_of(Scratch& scratch, std::int32_t place)
 {
-    return tally(scratch, scratch.island_of[static_cast<std::size_t>(place)]);
+    return tally(scratch, scratch.graph.island_of[static_cast<std::size_t>(place)]);
 }
 /// Of a contact or a joint. One of its bodies is dynamic.
 template <class AnyEdge>
 [[nodiscard]] std::int32_t island_of_edge(const Scratch& scratch, const AnyEdge& edge)
 {
-    return scratch.island_of[static_cast<std::size_t>(edge.a >= 0 ? edge.a : edge.b)];
+    return scratch.graph.island_of[static_cast<std::size_t>(edge.a >= 0 ? edge.a : edge.b)];
 }
 
 } // namespace carom::internal

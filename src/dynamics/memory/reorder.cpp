@@ -51,7 +51,7 @@ std::size_t cells_for(std::size_t bodies, std::size_t cells_now)
 void part_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    HilbertOrder& order = ctx.scratch.plane_order;
+    HilbertOrder& order = ctx.scratch.reordering.plane_order;
     order.sort(ctx.scene.def.tasks, state.awake_bodies.size(),
                [&](std::size_t i) { return to_vec2(state.sims[static_cast<std::size_t>(state.awake_bodies[i])].center); });
     const std::span<const HilbertOrder::Key> keys = order.keys();
@@ -74,8 +74,9 @@ class ContactOrder
 {
 public:
     explicit ContactOrder(StepContext& ctx)
-        : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.contact_order), m_sorted(ctx.scratch.sorted_contacts),
-          m_bodies(ctx.scratch.moved_to), m_moved_to(ctx.scratch.moved_to), m_tasks(ctx.scene.def.tasks)
+        : m_state(ctx.state), m_scratch(ctx.scratch), m_order(ctx.scratch.reordering.contact_order),
+          m_sorted(ctx.scratch.reordering.sorted_contacts), m_bodies(ctx.scratch.reordering.moved_to),
+          m_moved_to(ctx.scratch.reordering.moved_to), m_tasks(ctx.scene.def.tasks)
     {}
 
     void find()
@@ -83,12 +84,12 @@ public:
         find_bodies();
         m_order.clear();
         make_room(m_order, m_state.awake_contacts.size());
-        for (const Island& island : m_scratch.islands)
+        for (const Island& island : m_scratch.solver.islands)
         {
-            const auto lanes = std::span(m_scratch.lane_edges);
+            const auto lanes = std::span(m_scratch.layout.lane_edges);
             place(lanes.subspan(static_cast<std::size_t>(island.first_wide) * lane_count,
                                 static_cast<std::size_t>(island.wide_count) * lane_count));
-            const auto constraints = std::span(m_scratch.constraint_edges);
+            const auto constraints = std::span(m_scratch.layout.constraint_edges);
             place(constraints.subspan(static_cast<std::size_t>(island.first_constraint),
                                       static_cast<std::size_t>(island.constraint_count)));
         }
@@ -154,7 +155,7 @@ private:
         for (const std::int32_t i : links)
         {
             if (i != none)
-                place(m_scratch.solved_edges[static_cast<std::size_t>(i)]);
+                place(m_scratch.layout.solved_edges[static_cast<std::size_t>(i)]);
         }
     }
 
@@ -263,7 +264,7 @@ private:
     // What goes to another's slot, that to a third's, and so on until the first slot is free to be taken: one after the other, the first marked.
     void find_cycles(const std::vector<std::int32_t>& slots)
     {
-        std::vector<std::int32_t>& cycles = m_scratch.move_cycles;
+        std::vector<std::int32_t>& cycles = m_scratch.reordering.move_cycles;
         cycles.clear();
         for (const std::int32_t first : slots)
         {
@@ -292,7 +293,7 @@ private:
     void move_items(const At& at) const
     {
         static_assert(std::is_trivially_copyable_v<std::remove_reference_t<decltype(at(0))>>);
-        const std::vector<std::int32_t>& cycles = m_scratch.move_cycles;
+        const std::vector<std::int32_t>& cycles = m_scratch.reordering.move_cycles;
         for (std::size_t i = cycles.size(); i-- > 0;)
         {
             const auto last = at(cycles[i]);
@@ -359,7 +360,7 @@ void reorder(StepContext& ctx)
         return;
     if (ctx.state.step_count % steps_between != 1)
     { // who has woken since is in no cell of its own
-        if (ctx.scratch.fullest_cell * full_of > ctx.state.awake_bodies.size())
+        if (ctx.scratch.graph.fullest_cell * full_of > ctx.state.awake_bodies.size())
             part_bodies(ctx);
         return;
     }

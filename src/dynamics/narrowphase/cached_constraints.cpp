@@ -38,7 +38,7 @@ bool are_in_place(const StepContext& ctx)
 // What has no lane must go on needing none.
 bool look_at_loose(const StepContext& ctx, std::int32_t index)
 {
-    ctx.scratch.is_looked_at[as_index(index)] = 1;
+    ctx.scratch.narrow.is_looked_at[as_index(index)] = 1;
     Contact& contact = ctx.state.contacts[index];
     const bool was_solved = is_solved(contact); // or would be, if what it touches moved
     if (update_contact(ctx, index) != TouchChange::Nothing || is_solved(contact) != was_solved)
@@ -70,13 +70,13 @@ bool are_marked(const SceneState& state, const WideContactNotes& notes)
 // Those of a large island by the threads that solve them, of small ones a few islands to a task.
 bool constraints_are_unchanged(const StepContext& ctx)
 {
-    const std::vector<Island>& islands = ctx.scratch.islands;
+    const std::vector<Island>& islands = ctx.scratch.solver.islands;
     std::atomic<bool> stay{true};
     const auto follow = [&](const Island& island, int first, int last)
     {
         ConstraintRefresh follower(ctx);
-        WideContact* const constraints = ctx.scratch.wide_contacts.data() + island.wide_store;
-        WideContactNotes* const all_notes = ctx.scratch.wide_notes.data() + island.wide_store;
+        WideContact* const constraints = ctx.scratch.solver.wide_contacts.data() + island.wide_store;
+        WideContactNotes* const all_notes = ctx.scratch.solver.wide_notes.data() + island.wide_store;
         const bool asks_ahead = !is_shared(island); // a thread has much of a large one in its cache still
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
@@ -111,9 +111,9 @@ bool constraints_are_unchanged(const StepContext& ctx)
 bool all_are_borne(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
-    for (std::size_t s = 0; s < scratch.state_bodies.size(); ++s)
+    for (std::size_t s = 0; s < scratch.solver.state_bodies.size(); ++s)
     {
-        if (scratch.state_bodies[s] != none && scratch.borne[s] == 0)
+        if (scratch.solver.state_bodies[s] != none && scratch.narrow.borne[s] == 0)
             return false;
     }
     return true;
@@ -136,19 +136,19 @@ bool refresh_cached_constraints(StepContext& ctx)
     CachedGraph& kept = scratch.cached_graph;
     kept.constraints_are_unchanged = false;
     const std::uint64_t stayed_for = std::exchange(kept.constraints_unchanged_for, 0);
-    scratch.is_looked_at.clear();
+    scratch.narrow.is_looked_at.clear();
     const bool are_of_this_state = ctx.state.lanes_stamp != 0 && kept.stamp == ctx.state.lanes_stamp;
     ctx.state.lanes_stamp = 0; // until they have been solved
     kept.are_plain = kept.are_plain && are_of_this_state;
     if (!are_of_this_state || !kept.constraints_apart)
         return false;
-    scratch.borne.assign(scratch.state_bodies.size(), 0);
-    scratch.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
+    scratch.narrow.borne.assign(scratch.solver.state_bodies.size(), 0);
+    scratch.narrow.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
     kept.constraints_are_unchanged = are_in_place(ctx) && loose_stay(ctx) && constraints_are_unchanged(ctx) &&
                                      (!ctx.scene.def.continuous || all_are_borne(ctx));
     if (!kept.constraints_are_unchanged)
         return false;
-    scratch.is_looked_at.clear();
+    scratch.narrow.is_looked_at.clear();
     kept.constraints_unchanged_for = stayed_for + 1;
     return true;
 }
@@ -159,15 +159,15 @@ void cache_constraints(StepContext& ctx)
     CachedGraph& kept = scratch.cached_graph;
     const auto may_stay = [&](const ContactEdge& l)
     { return !l.has(edge_flag::solved) || (l.has(edge_flag::plain) && leans_on_statics(ctx.state, l)); };
-    kept.constraints_apart = ctx.state.joints.count() == 0 && !scratch.has_kinematic && !scratch.islands.empty() &&
-                             std::ranges::all_of(scratch.links, may_stay);
+    kept.constraints_apart = ctx.state.joints.count() == 0 && !scratch.graph.has_kinematic && !scratch.solver.islands.empty() &&
+                             std::ranges::all_of(scratch.graph.links, may_stay);
     if (!kept.constraints_apart)
         return;
     kept.contacts = ctx.state.awake_contacts;
     kept.touching = ctx.report.touching;
     std::vector<std::int32_t>& has_lane = scratch.order;
     has_lane.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    for (const ContactEdge& l : scratch.solved_edges)
+    for (const ContactEdge& l : scratch.layout.solved_edges)
         has_lane[as_index(l.contact)] = 1;
     kept.loose.clear();
     std::copy_if(kept.contacts.begin(), kept.contacts.end(), std::back_inserter(kept.loose),

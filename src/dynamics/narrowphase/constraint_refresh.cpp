@@ -48,7 +48,7 @@ void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes
 {
     const std::uint32_t bit = 1u << i;
     const std::int32_t index = notes.contact.v[i];
-    m_scratch.is_looked_at[static_cast<std::size_t>(index)] = 1;
+    m_scratch.narrow.is_looked_at[static_cast<std::size_t>(index)] = 1;
     const Contact& contact = m_state.contacts[index];
     if (update_contact(m_ctx, index) != TouchChange::Nothing)
         changes.told |= bit;
@@ -69,7 +69,7 @@ void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes
 void ConstraintRefresh::note_borne(const WideContact& constraint, int i) const
 {
     for (const std::int32_t s : {constraint.a.v[i], constraint.b.v[i]})
-        std::atomic_ref(m_scratch.borne[static_cast<std::size_t>(s)]).store(1, std::memory_order_relaxed);
+        std::atomic_ref(m_scratch.narrow.borne[static_cast<std::size_t>(s)]).store(1, std::memory_order_relaxed);
 }
 
 void ConstraintRefresh::note_if_loaded(const WideContact& constraint, const WideContactNotes& notes, int i,

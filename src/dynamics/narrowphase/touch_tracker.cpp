@@ -45,7 +45,7 @@ bool has_bounced(const StepContext& ctx, const Contact& contact)
 std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const RawTouch> begins)
 {
     const SceneState& state = ctx.state;
-    std::vector<std::uint8_t>& bounced = ctx.scratch.bounced;
+    std::vector<std::uint8_t>& bounced = ctx.scratch.narrow.bounced;
     set_size(bounced, begins.size());
     for_each_in_parts(ctx.scene.def.tasks, begins.size(), touches_per_task, [&](std::size_t i)
                       { bounced[i] = begins[i].contact != none && has_bounced(ctx, state.contacts[begins[i].contact]) ? 1 : 0; });

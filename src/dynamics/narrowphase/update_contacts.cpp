@@ -142,7 +142,7 @@ void inherit_load(StepContext& ctx, int index)
     if ((contact.flags & contact_flag::piece) == 0 || (contact.flags & contact_flag::loaded) != 0)
         return;
     const int visitor = visitor_of(state, contact);
-    if (!std::ranges::binary_search(ctx.scratch.left_loads, visitor))
+    if (!std::ranges::binary_search(ctx.scratch.narrow.left_loads, visitor))
         return;
     const bool piece_is_a = visitor == contact.shape_b;
     const int piece = piece_is_a ? contact.shape_a : contact.shape_b;
@@ -226,7 +226,7 @@ constexpr std::size_t contacts_at_once = 512;
 // Since refresh_cached_constraints has tried to do with less.
 bool is_looked_at(const Scratch& scratch, std::int32_t contact)
 {
-    return !scratch.is_looked_at.empty() && scratch.is_looked_at[static_cast<std::size_t>(contact)] != 0;
+    return !scratch.narrow.is_looked_at.empty() && scratch.narrow.is_looked_at[static_cast<std::size_t>(contact)] != 0;
 }
 
 // A task's contacts, and what is new of each. Writes to these contacts alone.
@@ -443,24 +443,24 @@ void update_contacts(StepContext& ctx)
     const std::size_t count = state.awake_contacts.size();
     ContactEdges links(ctx, contacts_at_once);
     const std::span<ContactChanges> parts =
-        find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.changes_of_task,
+        find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.narrow.changes_of_task,
                       [&](std::size_t first, std::size_t last, ContactChanges& some)
                       {
                           ContactUpdate(ctx, first, last, some).run();
                           links.ask(first, last, some.of_others);
                       });
-    std::vector<ContactChange>& changes = ctx.scratch.changes;
-    std::vector<std::int32_t>& of_others = ctx.scratch.of_others;
+    std::vector<ContactChange>& changes = ctx.scratch.narrow.changes;
+    std::vector<std::int32_t>& of_others = ctx.scratch.narrow.of_others;
     changes.clear();
     of_others.clear();
-    ctx.scratch.left_loads.clear();
+    ctx.scratch.narrow.left_loads.clear();
     for (const ContactChanges& some : parts)
     {
         append_all(changes, some.others);
         append_all(of_others, some.of_others);
-        append_all(ctx.scratch.left_loads, some.left_loads);
+        append_all(ctx.scratch.narrow.left_loads, some.left_loads);
     }
-    std::ranges::sort(ctx.scratch.left_loads);
+    std::ranges::sort(ctx.scratch.narrow.left_loads);
     report_noted_begins(ctx, gather(ctx, parts, &ContactChanges::begins));
     report_noted_ends(ctx, gather(ctx, parts, &ContactChanges::ends));
     // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
@@ -477,7 +477,7 @@ void update_contacts(StepContext& ctx)
         if (n.what == TouchChange::Ends)
             end_touch(ctx.scene, n.contact, ctx.scene.events, 0);
     }
-    ctx.scratch.motion.resize(state.awake_bodies.size(), 0);               // bodies woken in this stage were at rest
+    ctx.scratch.broad.motion.resize(state.awake_bodies.size(), 0);         // bodies woken in this stage were at rest
     append_all(of_others, std::span(state.awake_contacts).subspan(count)); // woken in this stage
     links.ask_later(of_others);
     links.join();

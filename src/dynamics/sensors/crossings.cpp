@@ -18,7 +18,7 @@ public:
 
     void run()
     {
-        std::vector<Crossing>& all = m_ctx.scratch.crossings;
+        std::vector<Crossing>& all = m_ctx.scratch.sensors.crossings;
         // In one moment comings before goings: who changes from leaf to leaf stays inside.
         std::sort(all.begin(), all.end(),
                   [](const Crossing& x, const Crossing& y)

@@ -209,9 +209,9 @@ private:
     {
         m_inside = !m_inside;
         internal::cross(m_contact);
-        m_ctx.scratch.crossings.push_back({m_index, m_state.shapes[m_contact.shape_a].owner,
-                                           m_state.shapes[m_contact.shape_b].owner,
-                                           static_cast<std::int32_t>(m_ctx.scratch.crossings.size()), time, m_inside});
+        m_ctx.scratch.sensors.crossings.push_back(
+            {m_index, m_state.shapes[m_contact.shape_a].owner, m_state.shapes[m_contact.shape_b].owner,
+             static_cast<std::int32_t>(m_ctx.scratch.sensors.crossings.size()), time, m_inside});
     }
 
     StepContext& m_ctx;
@@ -246,9 +246,10 @@ void mark_traced(StepContext& ctx)
             const int place = state.bodies[body].awake_index;
             if (place == none || state.bodies[body].type != BodyType::Dynamic)
                 continue;
-            scratch.states[static_cast<std::size_t>(scratch.state_of[static_cast<std::size_t>(place)])].flags |=
+            scratch.solver.states[static_cast<std::size_t>(scratch.solver.state_of[static_cast<std::size_t>(place)])].flags |=
                 body_flag::traced;
-            scratch.islands[static_cast<std::size_t>(scratch.island_of[static_cast<std::size_t>(place)])].traced = true;
+            scratch.solver.islands[static_cast<std::size_t>(scratch.graph.island_of[static_cast<std::size_t>(place)])].traced =
+                true;
         }
     }
 }
@@ -260,7 +261,7 @@ void update_triggers(StepContext& ctx)
     gather_paths(ctx);
     find_deflected_pairs(ctx);
     order.assign(state.trigger_contacts.begin(), state.trigger_contacts.end());
-    ctx.scratch.crossings.clear();
+    ctx.scratch.sensors.crossings.clear();
     for (const std::int32_t index : order)
     {
         const Contact& contact = state.contacts[index];

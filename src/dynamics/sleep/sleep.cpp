@@ -157,8 +157,8 @@ class TiredIslands
 {
 public:
     explicit TiredIslands(StepContext& ctx)
-        : m_ctx(ctx), m_state(ctx.state), m_sets(ctx.scratch.sets), m_is_tired(ctx.scratch.is_tired),
-          m_is_kept_awake(ctx.scratch.is_kept_awake)
+        : m_ctx(ctx), m_state(ctx.state), m_sets(ctx.scratch.graph.sets), m_is_tired(ctx.scratch.sleep.is_tired),
+          m_is_kept_awake(ctx.scratch.sleep.is_kept_awake)
     {}
 
     void put_to_sleep()
@@ -264,7 +264,7 @@ void settle_bodies(StepContext& ctx)
                           sim.torque = 0;
                       });
     const bool looks = ctx.scene.def.sleeping && looks_for_islands(ctx);
-    if (ctx.scratch.has_kinematic)
+    if (ctx.scratch.graph.has_kinematic)
         settle_kinematic_bodies(state, looks);
     if (looks && any_tired)
         TiredIslands(ctx).put_to_sleep();

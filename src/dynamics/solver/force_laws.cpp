@@ -62,14 +62,14 @@ void apply_force_law(const StepContext& ctx, const LawWork& work, int k, IslandO
 {
     Scratch& scratch = ctx.scratch;
     const auto index = static_cast<std::size_t>(work.state);
-    BodyState& s = scratch.states[index];
+    BodyState& s = scratch.solver.states[index];
     if ((s.flags & body_flag::unsound) != 0)
         return;
-    const int body = scratch.state_bodies[index];
+    const int body = scratch.solver.state_bodies[index];
     const ForceLaw& law = ctx.scene.laws[static_cast<std::size_t>(body)];
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     const Load load = law.function(law.user, motion_at(ctx, sim, s, k, impacts_of(ctx, body, k, output)));
-    StateConstants& c = scratch.constants[index];
+    StateConstants& c = scratch.solver.constants[index];
     c.acceleration = work.acceleration + Vec2{c.inverse_mass.x * load.force.x, c.inverse_mass.y * load.force.y};
     c.angular_acceleration = work.angular_acceleration + c.inverse_inertia * load.torque;
     if (!is_sound(ctx, c.acceleration, c.angular_acceleration))
@@ -78,7 +78,7 @@ void apply_force_law(const StepContext& ctx, const LawWork& work, int k, IslandO
         c.angular_acceleration = work.angular_acceleration;
         s.flags |= body_flag::unsound;
     }
-    else if (const std::int32_t f = scratch.flier_of_state[index]; f != none && exceeds(law, load))
+    else if (const std::int32_t f = scratch.flight.flier_of_state[index]; f != none && exceeds(law, load))
     {
         note_deflected(scratch, output, f); // it may leave the boxes that its pairs were found with
     }
@@ -91,7 +91,7 @@ void apply_force_laws(const StepContext& ctx, const Island& island, int k, Islan
     if (island.law_count == 0)
         return;
     for (std::int32_t i = island.first_law; i < island.first_law + island.law_count; ++i)
-        apply_force_law(ctx, ctx.scratch.laws[static_cast<std::size_t>(i)], k, output);
+        apply_force_law(ctx, ctx.scratch.solver.laws[static_cast<std::size_t>(i)], k, output);
     output.reported_impacts = output.impacts.size();
 }
 
@@ -106,13 +106,13 @@ void note_pending_impacts(StepContext& ctx)
         const int body = slot_of(id);
         const int place = state.bodies[body].awake_index;
         const bool of_island =
-            place != none && ctx.scratch.island_of[static_cast<std::size_t>(place)] == static_cast<int>(island);
-        if (force_law_of(ctx, body) != nullptr && !(of_island && i < ctx.scratch.outputs[island].reported_impacts))
+            place != none && ctx.scratch.graph.island_of[static_cast<std::size_t>(place)] == static_cast<int>(island);
+        if (force_law_of(ctx, body) != nullptr && !(of_island && i < ctx.scratch.solver.outputs[island].reported_impacts))
             ctx.scene.pending_impacts.push_back({body, event});
     };
-    for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
+    for (std::size_t u = 0; u < ctx.scratch.solver.islands.size(); ++u)
     {
-        const std::vector<ImpactEvent>& impacts = ctx.scratch.outputs[u].impacts;
+        const std::vector<ImpactEvent>& impacts = ctx.scratch.solver.outputs[u].impacts;
         for (std::size_t i = 0; i < impacts.size(); ++i)
         {
             note(u, i, impacts[i].body_a, impacts[i]);

@@ -64,10 +64,10 @@ void integrate_velocities(const SolvedIsland& work, WarmStart start)
                     {
                         BodyState& s = work.view.states[i];
                         const F4 now = speeds_of(s);
-                        store4(&work.scratch.speeds[as_index(i)].velocity.x, now);
+                        store4(&work.scratch.solver.speeds[as_index(i)].velocity.x, now);
                         if (!solver_moves(s))
                             continue;
-                        float* const unpushed = &work.scratch.unpushed[as_index(i)].velocity.x;
+                        float* const unpushed = &work.scratch.solver.unpushed[as_index(i)].velocity.x;
                         const F4 next = accelerated(s, work.view.constants[i], work.ctx.h);
                         set_speeds(s, start == WarmStart::ByBody ? next + (now - load4(unpushed)) : next);
                         if (start != WarmStart::ByConstraint)

@@ -35,9 +35,9 @@ void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, co
 [[gnu::always_inline]] inline void prefetch_lane(const StepContext& ctx, std::size_t lane)
 {
     const Scratch& scratch = ctx.scratch;
-    if (lane >= scratch.lane_edges.size() || scratch.lane_edges[lane] == none)
+    if (lane >= scratch.layout.lane_edges.size() || scratch.layout.lane_edges[lane] == none)
         return;
-    const std::int32_t contact = scratch.solved_edges[as_index(scratch.lane_edges[lane])].contact;
+    const std::int32_t contact = scratch.layout.solved_edges[as_index(scratch.layout.lane_edges[lane])].contact;
     prefetch(ctx.state.contacts[contact]);
     prefetch(ctx.state.impulses[as_index(contact)]);
 }
@@ -47,20 +47,20 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
 {
     const Scratch& scratch = ctx.scratch;
     const std::int32_t first_lane = (island.first_wide + g) * lane_count;
-    WideContact& constraint = ctx.scratch.wide_contacts[as_index(island.wide_store + g)];
-    WideContactNotes& notes = ctx.scratch.wide_notes[as_index(island.wide_store + g)];
+    WideContact& constraint = ctx.scratch.solver.wide_contacts[as_index(island.wide_store + g)];
+    WideContactNotes& notes = ctx.scratch.solver.wide_notes[as_index(island.wide_store + g)];
     notes.count = 0;
     for (int i = 0; i < lane_count; ++i)
     {
         prefetch_lane(ctx, as_index(first_lane + i) + 2 * prefetch_distance);
-        const std::int32_t link = scratch.lane_edges[as_index(first_lane + i)];
+        const std::int32_t link = scratch.layout.lane_edges[as_index(first_lane + i)];
         if (link == none)
         {
             constraint.a.v[i] = constraint.b.v[i] = island.first_state;
             notes.contact.v[i] = none;
             continue;
         }
-        const ContactEdge& l = scratch.solved_edges[as_index(link)];
+        const ContactEdge& l = scratch.layout.solved_edges[as_index(link)];
         constraint.a.v[i] = l.a;
         constraint.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
@@ -69,14 +69,14 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
         contact.wide = (island.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InLane;
     }
-    wide_kernels().fill(constraint, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.constants.data());
+    wide_kernels().fill(constraint, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.solver.constants.data());
 }
 
 void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t i)
 {
-    const ContactEdge& l = ctx.scratch.solved_edges[as_index(ctx.scratch.constraint_edges[as_index(i)])];
+    const ContactEdge& l = ctx.scratch.layout.solved_edges[as_index(ctx.scratch.layout.constraint_edges[as_index(i)])];
     const Contact& contact = ctx.state.contacts[l.contact];
-    ContactConstraint& constraint = ctx.scratch.constraints[as_index(i)];
+    ContactConstraint& constraint = ctx.scratch.solver.constraints[as_index(i)];
     constraint = prepare_constraint(ctx, l.contact, contact.manifold, l.a, l.b);
     follow_closely(contact, island, constraint);
 }
@@ -99,19 +99,19 @@ void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t 
 void fill_joint_group(const StepContext& ctx, WideJoint& group)
 {
     wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.state.turns.data(),
-                               ctx.scratch.constants.data(), ctx.h);
+                               ctx.scratch.solver.constants.data(), ctx.h);
 }
 
 void fill_joint_groups(const StepContext& ctx, const Island& island, int first, int last)
 {
     const auto lanes =
-        std::span(ctx.scratch.joint_lanes).subspan(as_index(island.first_joint_lane), as_index(island.joint_lane_count));
+        std::span(ctx.scratch.layout.joint_lanes).subspan(as_index(island.first_joint_lane), as_index(island.joint_lane_count));
     const auto of_group = [&](int g)
     { return std::ranges::lower_bound(lanes, (island.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
     auto l = of_group(first);
     for (int g = island.first_wide_joint + first; g < island.first_wide_joint + last; ++g)
     {
-        WideJoint& group = ctx.scratch.wide_joints[as_index(g)];
+        WideJoint& group = ctx.scratch.solver.wide_joints[as_index(g)];
         std::ranges::fill(group.a.v, island.first_state);
         std::ranges::fill(group.b.v, island.first_state);
         std::ranges::fill(group.joint.v, none);
@@ -131,7 +131,7 @@ void fill_joint_groups(const StepContext& ctx, const Island& island, int first, 
 void follow_joint_groups(const StepContext& ctx, const Island& island, int first, int last)
 {
     for (WideJoint& group :
-         std::span(ctx.scratch.wide_joints).subspan(as_index(island.first_wide_joint + first), as_index(last - first)))
+         std::span(ctx.scratch.solver.wide_joints).subspan(as_index(island.first_wide_joint + first), as_index(last - first)))
     {
         if (group.turns == 0)
             wide_kernels().follow_joints(group, ctx.state.sims.data());
@@ -163,8 +163,8 @@ void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
     for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i)
                    {
-                       const JointPlace& place = ctx.scratch.joint_places[as_index(i)];
-                       ctx.scratch.joints[as_index(i)] = prepare_joint(island_ctx, island, place);
+                       const JointPlace& place = ctx.scratch.layout.joint_places[as_index(i)];
+                       ctx.scratch.solver.joints[as_index(i)] = prepare_joint(island_ctx, island, place);
                    });
     joint_bins(ctx.scratch, island)
         .all(team,
@@ -180,8 +180,8 @@ void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     Scratch& scratch = ctx.scratch;
-    WideContact* const constraints = scratch.wide_contacts.data() + island.wide_store;
-    WideContactNotes* const notes = scratch.wide_notes.data() + island.wide_store;
+    WideContact* const constraints = scratch.solver.wide_contacts.data() + island.wide_store;
+    WideContactNotes* const notes = scratch.solver.wide_notes.data() + island.wide_store;
     contact_bins(scratch, island)
         .for_each(team,
                   [&](int g)
@@ -194,14 +194,14 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
                       wide_kernels().take_impulses(constraints[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
                   });
     for_each_place(team, island.first_constraint, island.constraint_count,
-                   [&](std::int32_t i) { commit_constraint(ctx.state, scratch.constraints[as_index(i)]); });
+                   [&](std::int32_t i) { commit_constraint(ctx.state, scratch.solver.constraints[as_index(i)]); });
     for_each_place(team, island.first_joint, island.joint_count,
-                   [&](std::int32_t i) { commit_joint(ctx, scratch.joints[as_index(i)]); });
+                   [&](std::int32_t i) { commit_joint(ctx, scratch.solver.joints[as_index(i)]); });
     joint_bins(scratch, island)
         .for_each(team,
                   [&](int g)
                   {
-                      wide_kernels().take_joint_impulses(scratch.wide_joints[as_index(island.first_wide_joint + g)],
+                      wide_kernels().take_joint_impulses(scratch.solver.wide_joints[as_index(island.first_wide_joint + g)],
                                                          &ctx.state.joints[0], ctx.dt);
                   });
 }

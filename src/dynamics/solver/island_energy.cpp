@@ -119,7 +119,7 @@ void IslandEnergy::place_body(const StepContext& ctx, std::int32_t state)
          .flew = flies(state)};
     group_of(state) = {};
     const auto center = [&](std::int32_t i)
-    { return m_state->sims[static_cast<std::size_t>(ctx.scratch.state_bodies[static_cast<std::size_t>(i)])].center; };
+    { return m_state->sims[static_cast<std::size_t>(ctx.scratch.solver.state_bodies[static_cast<std::size_t>(i)])].center; };
     const Position own = center(state);
     const Position origin = center(has_carrier() ? m_carrier : m_first);
     b.center = {own.x - origin.x, own.y - origin.y};
@@ -135,7 +135,7 @@ void IslandEnergy::find_carrier(const StepContext& ctx, const Island& island)
     m_carrier = none;
     for (std::int32_t i = m_first + island.dynamic_count; i < island.first_state + island.state_count; ++i)
     {
-        const BodyState& s = ctx.scratch.states[static_cast<std::size_t>(i)];
+        const BodyState& s = ctx.scratch.solver.states[static_cast<std::size_t>(i)];
         if (s.velocity == Vec2{} && s.angular_velocity == 0)
             continue;
         const bool is_second = has_carrier();

@@ -325,7 +325,7 @@ private:
     {
         for (int i = m_work.island.first_state; i < m_work.island.first_state + m_work.island.state_count; ++i)
         {
-            const int body = m_work.scratch.state_bodies[as_index(i)];
+            const int body = m_work.scratch.solver.state_bodies[as_index(i)];
             if (body != none && m_work.is_dynamic(i))
                 m_work.output.poses.push_back(
                     {body, m_work.ctx.h * static_cast<float>(k + 1), m_work.pose_of(body, i, 0).frame()});

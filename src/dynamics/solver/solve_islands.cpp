@@ -23,8 +23,8 @@ namespace {
 // A parabola and an even turn: in double, rounded once. Damping acts after each sub-step, as on everything else.
 void fall(const StepContext& ctx, std::int32_t index)
 {
-    BodyState& s = ctx.scratch.states[static_cast<std::size_t>(index)];
-    const StateConstants& c = ctx.scratch.constants[static_cast<std::size_t>(index)];
+    BodyState& s = ctx.scratch.solver.states[static_cast<std::size_t>(index)];
+    const StateConstants& c = ctx.scratch.solver.constants[static_cast<std::size_t>(index)];
     const double h = static_cast<double>(ctx.h);
     const auto sum = [&](float& speed, float acceleration, float decay)
     {
@@ -52,11 +52,11 @@ void fall(const StepContext& ctx, const Island& island)
 
 void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, WorkerTeam& team)
 {
-    const Island& island = ctx.scratch.islands[u];
-    if (glide(ctx, island, ctx.scratch.outputs[u]))
+    const Island& island = ctx.scratch.solver.islands[u];
+    if (glide(ctx, island, ctx.scratch.solver.outputs[u]))
         return;
     fill_island(ctx, island, team);
-    solve_island(ctx, island, ctx.scratch.outputs[u], energy, team);
+    solve_island(ctx, island, ctx.scratch.solver.outputs[u], energy, team);
     commit_island(ctx, island, team);
 }
 
@@ -73,9 +73,9 @@ void form_batches(Scratch& scratch)
     std::int32_t large = 0;
     std::int32_t most = 0; // groups of an island of the batch
     int bodies = 0;
-    for (std::size_t i = 0; i < scratch.islands.size(); ++i)
+    for (std::size_t i = 0; i < scratch.solver.islands.size(); ++i)
     {
-        Island& island = scratch.islands[i];
+        Island& island = scratch.solver.islands[i];
         island.wide_store = store;
         if (is_shared(island))
         {
@@ -87,7 +87,7 @@ void form_batches(Scratch& scratch)
             bodies += island.state_count;
             most = std::max(most, island.wide_count);
         }
-        if (bodies < batch_bodies && i + 1 < scratch.islands.size())
+        if (bodies < batch_bodies && i + 1 < scratch.solver.islands.size())
             continue;
         starts.push_back(static_cast<std::int32_t>(i) + 1);
         store += most;
@@ -95,7 +95,7 @@ void form_batches(Scratch& scratch)
         bodies = 0;
     }
     std::int32_t groups = store + large;
-    for (Island& island : scratch.islands)
+    for (Island& island : scratch.solver.islands)
     {
         island.wide_store += is_shared(island) ? store : 0; // the large ones come behind
         if (scratch.cached_graph.constraints_apart)
@@ -104,18 +104,18 @@ void form_batches(Scratch& scratch)
             groups = island.first_wide + island.wide_count;
         }
     }
-    scratch.wide_contacts.make_room(static_cast<std::size_t>(groups));
-    scratch.wide_notes.make_room(static_cast<std::size_t>(groups));
-    set_size(scratch.struck, scratch.wide_contacts.size());
+    scratch.solver.wide_contacts.make_room(static_cast<std::size_t>(groups));
+    scratch.solver.wide_notes.make_room(static_cast<std::size_t>(groups));
+    set_size(scratch.solver.struck, scratch.solver.wide_contacts.size());
 }
 
 // All threads on one after the other.
 void solve_large(const StepContext& ctx, WorkerTeam& team)
 {
     IslandEnergy energy;
-    for (std::size_t u = 0; u < ctx.scratch.islands.size(); ++u)
+    for (std::size_t u = 0; u < ctx.scratch.solver.islands.size(); ++u)
     {
-        if (is_shared(ctx.scratch.islands[u]))
+        if (is_shared(ctx.scratch.solver.islands[u]))
             solve(ctx, u, energy, team);
     }
 }
@@ -128,7 +128,7 @@ void solve_batch(const StepContext& ctx, int batch)
     const auto b = static_cast<std::size_t>(batch);
     for (auto u = static_cast<std::size_t>(scratch.order[b]); u < static_cast<std::size_t>(scratch.order[b + 1]); ++u)
     {
-        const Island& island = scratch.islands[u];
+        const Island& island = scratch.solver.islands[u];
         if (island.policy.free_fall)
             fall(ctx, island);
         else if (!is_shared(island))
@@ -141,20 +141,20 @@ void solve_batch(const StepContext& ctx, int batch)
 void solve_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    if (scratch.outputs.size() < scratch.islands.size())
-        set_size(scratch.outputs, scratch.islands.size());
-    if (scratch.impacts_lender < scratch.outputs.size())
-        std::swap(scratch.outputs[scratch.impacts_lender].impacts, ctx.scene.events.impacts); // see take_impacts()
-    for (std::size_t i = 0; i < scratch.islands.size(); ++i)
-        scratch.outputs[i].clear();
+    if (scratch.solver.outputs.size() < scratch.solver.islands.size())
+        set_size(scratch.solver.outputs, scratch.solver.islands.size());
+    if (scratch.solver.impacts_lender < scratch.solver.outputs.size())
+        std::swap(scratch.solver.outputs[scratch.solver.impacts_lender].impacts, ctx.scene.events.impacts); // see take_impacts()
+    for (std::size_t i = 0; i < scratch.solver.islands.size(); ++i)
+        scratch.solver.outputs[i].clear();
     mark_traced(ctx);
-    set_size(scratch.unpushed, scratch.states.size());
-    set_size(scratch.speeds, scratch.states.size());
+    set_size(scratch.solver.unpushed, scratch.solver.states.size());
+    set_size(scratch.solver.speeds, scratch.solver.states.size());
     form_batches(scratch);
     const TaskHooks& tasks = ctx.scene.def.tasks;
     const int batches = static_cast<int>(scratch.order.size()) - 1;
     const auto solve_some = [&](int batch) { solve_batch(ctx, batch); };
-    if (std::ranges::any_of(scratch.islands, is_shared))
+    if (std::ranges::any_of(scratch.solver.islands, is_shared))
         WorkerTeam::run(tasks, [&](WorkerTeam& team) { solve_large(ctx, team); }, batches, solve_some);
     else
         run_tasks(tasks, batches, solve_some);

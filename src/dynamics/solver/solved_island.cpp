@@ -8,10 +8,10 @@ namespace carom::internal {
 
 SolvedIsland::SolvedIsland(const StepContext& step, const Island& solved, IslandOutput& out, WorkerTeam& workers)
     : ctx(solved.policy.subdivisions > 1 ? subdivided(step, solved.policy.subdivisions) : step), scratch(step.scratch),
-      island(solved), output(out), team(workers),
-      view{step.scratch.states.data(), step.scratch.constants.data(), ctx.h, 1 / ctx.h, step.scene.tolerances.push_speed},
+      island(solved), output(out), team(workers), view{step.scratch.solver.states.data(), step.scratch.solver.constants.data(),
+                                                       ctx.h, 1 / ctx.h, step.scene.tolerances.push_speed},
       constraints(constraints_of(step.scratch, solved)),
-      joints(std::span(step.scratch.joints).subspan(as_index(solved.first_joint), as_index(solved.joint_count)))
+      joints(std::span(step.scratch.solver.joints).subspan(as_index(solved.first_joint), as_index(solved.joint_count)))
 {}
 
 bool SolvedIsland::has_fliers() const

@@ -153,9 +153,9 @@ TEST(DynamicsTidy, ManyContactsStayInTheOrderOfMemory)
         }
         ASSERT_GT(state.awake_contacts.size(), internal::most_near_pairs);
         ASSERT_NO_FATAL_FAILURE(step_both()) << "step " << i;
-        const bool more = scratch.made_contacts.size() > scratch.destroyed_contacts.size();
+        const bool more = scratch.broad.made_contacts.size() > scratch.broad.destroyed_contacts.size();
         ++(more ? more_made : more_destroyed);
-        EXPECT_GT(std::min(scratch.made_contacts.size(), scratch.destroyed_contacts.size()), 100u);
+        EXPECT_GT(std::min(scratch.broad.made_contacts.size(), scratch.broad.destroyed_contacts.size()), 100u);
     }
     EXPECT_GT(more_made, 0);
     EXPECT_GT(more_destroyed, 0);

@@ -206,8 +206,8 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
 // What the solver has now but could fly.
 Flier* ImpactSet::grounded(const Member& m) const
 {
-    const std::int32_t f = m.state == none ? none : m_span.scratch.flier_of_state[static_cast<std::size_t>(m.state)];
-    return f == none ? nullptr : &m_span.scratch.fliers[static_cast<std::size_t>(f)];
+    const std::int32_t f = m.state == none ? none : m_span.scratch.flight.flier_of_state[static_cast<std::size_t>(m.state)];
+    return f == none ? nullptr : &m_span.scratch.flight.fliers[static_cast<std::size_t>(f)];
 }
 
 void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
@@ -218,7 +218,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     f.alpha = turning_acceleration(m_span, f, f.angle);
     if (!struck)
         return;
-    note_deflected(m_span.scratch, m_span.output, m_span.scratch.flier_of_state[static_cast<std::size_t>(f.state)]);
+    note_deflected(m_span.scratch, m_span.output, m_span.scratch.flight.flier_of_state[static_cast<std::size_t>(f.state)]);
     if (m_renewed)
         return;
     f.crowded |= !m_span.island.policy.exact_impacts || f.impacts >= crowd_limit;

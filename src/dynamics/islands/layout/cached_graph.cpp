@@ -35,24 +35,24 @@ bool graph_is_unchanged(const StepContext& ctx)
 {
     const Scratch& scratch = ctx.scratch;
     const CachedGraph& kept = scratch.cached_graph;
-    return kept.stay_plain && ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flying.empty() &&
-           kept.edges_are_unchanged && (kept.joints_are_unchanged || kept.joints == scratch.joint_edges);
+    return kept.stay_plain && ctx.scene.law_count == 0 && !scratch.graph.has_uneven && scratch.graph.flying.empty() &&
+           kept.edges_are_unchanged && (kept.joints_are_unchanged || kept.joints == scratch.graph.joint_edges);
 }
 
 void cache_graph(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     CachedGraph& kept = scratch.cached_graph;
-    kept.are_plain = ctx.scene.law_count == 0 && !scratch.has_uneven && scratch.flier_seeds.empty() &&
-                     std::all_of(scratch.islands.begin(), scratch.islands.end(), is_plain);
+    kept.are_plain = ctx.scene.law_count == 0 && !scratch.graph.has_uneven && scratch.layout.flier_seeds.empty() &&
+                     std::all_of(scratch.solver.islands.begin(), scratch.solver.islands.end(), is_plain);
     if (!kept.are_plain)
         return;
     kept.bodies.clear();
     for (const std::int32_t body : ctx.state.awake_bodies)
         kept.bodies.push_back({body, ctx.state.bodies[body].plane_cell});
-    set_size(kept.bound, scratch.states.size());
-    for (std::size_t s = 0; s < scratch.states.size(); ++s)
-        kept.bound[s] = (scratch.states[s].flags & body_flag::unbound) == 0 ? 1 : 0;
+    set_size(kept.bound, scratch.solver.states.size());
+    for (std::size_t s = 0; s < scratch.solver.states.size(); ++s)
+        kept.bound[s] = (scratch.solver.states[s].flags & body_flag::unbound) == 0 ? 1 : 0;
 }
 
 } // namespace carom::internal

@@ -35,10 +35,10 @@ public:
 
     void find()
     {
-        m_island.first_constraint = static_cast<std::int32_t>(m_scratch.constraint_edges.size());
-        m_island.first_impact_constraint = static_cast<std::int32_t>(m_scratch.impact_constraints.size());
-        m_island.first_wide = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count;
-        m_island.first_core = static_cast<std::int32_t>(m_scratch.cores.size());
+        m_island.first_constraint = static_cast<std::int32_t>(m_scratch.layout.constraint_edges.size());
+        m_island.first_impact_constraint = static_cast<std::int32_t>(m_scratch.solver.impact_constraints.size());
+        m_island.first_wide = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size()) / lane_count;
+        m_island.first_core = static_cast<std::int32_t>(m_scratch.solver.cores.size());
         m_is_uniform = m_island.policy.wide_contacts && is_uniform(m_ctx, m_island);
         find_parts();
         name_copies();
@@ -48,11 +48,12 @@ public:
         run_tasks(m_ctx.scene.def.tasks, static_cast<int>(tasks.size()),
                   [&](int t) { place(as_index(t) * edges_of_task(), tasks[as_index(t)]); });
         gather(tasks);
-        m_island.wide_count = static_cast<std::int32_t>(m_scratch.lane_edges.size()) / lane_count - m_island.first_wide;
-        m_island.constraint_count = static_cast<std::int32_t>(m_scratch.constraint_edges.size()) - m_island.first_constraint;
-        m_island.core_count = static_cast<std::int32_t>(m_scratch.cores.size()) - m_island.first_core;
+        m_island.wide_count = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size()) / lane_count - m_island.first_wide;
+        m_island.constraint_count =
+            static_cast<std::int32_t>(m_scratch.layout.constraint_edges.size()) - m_island.first_constraint;
+        m_island.core_count = static_cast<std::int32_t>(m_scratch.solver.cores.size()) - m_island.first_core;
         m_island.impact_constraint_count =
-            static_cast<std::int32_t>(m_scratch.impact_constraints.size()) - m_island.first_impact_constraint;
+            static_cast<std::int32_t>(m_scratch.solver.impact_constraints.size()) - m_island.first_impact_constraint;
     }
 
 private:
@@ -63,13 +64,13 @@ private:
     {
         if (m_island.parts == 0)
             return;
-        std::fill_n(m_scratch.parts.begin() + m_island.first_state, m_island.state_count, no_part);
+        std::fill_n(m_scratch.solver.parts.begin() + m_island.first_state, m_island.state_count, no_part);
         const std::vector<CellOfIsland>& cells = find_cells();
         std::int64_t all = 0;
         for (const CellOfIsland& cell : cells)
             all += cell.work;
         std::int64_t before = 0;
-        auto to = m_scratch.parts.begin() + m_island.first_state + 1;
+        auto to = m_scratch.solver.parts.begin() + m_island.first_state + 1;
         for (const CellOfIsland& cell : cells)
         {
             to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_island.parts / all));
@@ -81,17 +82,17 @@ private:
     [[nodiscard]] const std::vector<CellOfIsland>& find_cells() const
     {
         using Some = std::vector<CellOfIsland>;
-        const std::span<Some> tasks =
-            find_in_parts(m_ctx.scene.def.tasks, as_index(m_island.dynamic_count), bodies_per_task, m_scratch.cells_of_task,
-                          [&](std::size_t first, std::size_t last, Some& cells)
-                          {
-                              cells.clear();
-                              for (std::size_t i = first; i < last; ++i)
-                              {
-                                  const int body = m_scratch.state_bodies[as_index(m_island.first_state + 1) + i];
-                                  add_to_cells(cells, {m_state.bodies[body].plane_cell, 1, work_of(body)});
-                              }
-                          });
+        const std::span<Some> tasks = find_in_parts(
+            m_ctx.scene.def.tasks, as_index(m_island.dynamic_count), bodies_per_task, m_scratch.layout.cells_of_task,
+            [&](std::size_t first, std::size_t last, Some& cells)
+            {
+                cells.clear();
+                for (std::size_t i = first; i < last; ++i)
+                {
+                    const int body = m_scratch.solver.state_bodies[as_index(m_island.first_state + 1) + i];
+                    add_to_cells(cells, {m_state.bodies[body].plane_cell, 1, work_of(body)});
+                }
+            });
         for (const Some& cells : tasks.subspan(1))
         {
             for (const CellOfIsland& cell : cells)
@@ -122,8 +123,8 @@ private:
     {
         if (m_island.parts == 0)
             return 0;
-        const std::uint16_t a = m_scratch.parts[as_index(l.a)];
-        const std::uint16_t b = m_scratch.parts[as_index(l.b)];
+        const std::uint16_t a = m_scratch.solver.parts[as_index(l.a)];
+        const std::uint16_t b = m_scratch.solver.parts[as_index(l.b)];
         return a == b || b == no_part ? a : a == no_part ? b : m_island.parts;
     }
 
@@ -135,22 +136,22 @@ private:
         for (std::int32_t s = m_island.first_state + 1 + m_island.dynamic_count; s < m_island.first_state + m_island.state_count;
              ++s)
         {
-            const int body = m_scratch.state_bodies[as_index(s)];
-            m_scratch.state_of[as_index(m_state.bodies[body].awake_index)] = s;
+            const int body = m_scratch.solver.state_bodies[as_index(s)];
+            m_scratch.solver.state_of[as_index(m_state.bodies[body].awake_index)] = s;
         }
     }
 
     // Of a place as in Link.
     [[nodiscard]] std::int32_t state_at(std::int32_t place) const
     {
-        return place == none ? m_island.first_state : m_scratch.state_of[as_index(place >= 0 ? place : -2 - place)];
+        return place == none ? m_island.first_state : m_scratch.solver.state_of[as_index(place >= 0 ? place : -2 - place)];
     }
 
     // --- colours and counts -----------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] std::span<ContactEdge> links() const
     {
-        return std::span(m_scratch.solved_edges).subspan(as_index(m_island.first_edge), as_index(m_island.edge_count));
+        return std::span(m_scratch.layout.solved_edges).subspan(as_index(m_island.first_edge), as_index(m_island.edge_count));
     }
 
     // A small island is one task.
@@ -164,7 +165,7 @@ private:
     [[nodiscard]] std::span<SlotsOfTask> count_edges()
     {
         return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), edges_of_task(),
-                             m_scratch.slots_of_task,
+                             m_scratch.layout.slots_of_task,
                              [&](std::size_t first, std::size_t last, SlotsOfTask& some)
                              {
                                  some.lanes.resize(std::max(some.lanes.size(), as_index((m_island.parts + 1) * bins_to_a_part)));
@@ -241,30 +242,30 @@ private:
         for (const SlotsOfTask& some : tasks)
             colors |= some.colors;
         m_island.colors = static_cast<std::int32_t>(std::bit_width(colors));
-        auto lane = static_cast<std::int32_t>(m_scratch.lane_edges.size());
-        m_island.first_bin = static_cast<std::int32_t>(m_scratch.bin_starts.size());
+        auto lane = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size());
+        m_island.first_bin = static_cast<std::int32_t>(m_scratch.solver.bin_starts.size());
         m_island.bin_count = 2 * m_island.colors;
         for (std::int32_t part = 0; part <= m_island.parts; ++part)
         {
             for (std::int32_t bin = 0; bin < m_island.bin_count; ++bin)
             {
-                m_scratch.bin_starts.push_back(lane / lane_count - m_island.first_wide);
+                m_scratch.solver.bin_starts.push_back(lane / lane_count - m_island.first_wide);
                 give_out(
                     tasks, [&](SlotsOfTask& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
                     lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
         }
-        m_scratch.bin_starts.push_back(lane / lane_count - m_island.first_wide);
+        m_scratch.solver.bin_starts.push_back(lane / lane_count - m_island.first_wide);
         auto constraint = m_island.first_constraint;
         for_each_constraint_bin(
             [&](int color)
             {
                 give_out(tasks, [&](SlotsOfTask& some) -> std::int32_t& { return some.constraints[color]; }, constraint);
             });
-        make_room(m_scratch.lane_edges, as_index(lane));
-        m_scratch.lane_edges.resize(as_index(lane), none);
-        set_size(m_scratch.constraint_edges, as_index(constraint));
+        make_room(m_scratch.layout.lane_edges, as_index(lane));
+        m_scratch.layout.lane_edges.resize(as_index(lane), none);
+        set_size(m_scratch.layout.constraint_edges, as_index(constraint));
     }
 
     // From how many of a bin each task has to where its first goes.
@@ -289,7 +290,7 @@ private:
         {
             const ContactEdge& l = links()[i];
             const std::int32_t at = some.place_for(l)++;
-            (l.has(edge_flag::in_lane) ? m_scratch.lane_edges : m_scratch.constraint_edges)[as_index(at)] =
+            (l.has(edge_flag::in_lane) ? m_scratch.layout.lane_edges : m_scratch.layout.constraint_edges)[as_index(at)] =
                 m_island.first_edge + static_cast<std::int32_t>(i);
             if (l.has(edge_flag::in_lane) && l.points() > 0)
                 add_core(l, at, some);
@@ -316,13 +317,15 @@ private:
     void gather(std::span<SlotsOfTask> tasks)
     {
         for (const SlotsOfTask& some : tasks)
-            append_all(m_scratch.cores, some.cores);
-        std::ranges::sort(m_scratch.cores.begin() + m_island.first_core, m_scratch.cores.end(), {}, &WideCore::lane);
+            append_all(m_scratch.solver.cores, some.cores);
+        std::ranges::sort(m_scratch.solver.cores.begin() + m_island.first_core, m_scratch.solver.cores.end(), {},
+                          &WideCore::lane);
         for (auto constraint = m_island.first_constraint;
-             constraint < static_cast<std::int32_t>(m_scratch.constraint_edges.size()); ++constraint)
+             constraint < static_cast<std::int32_t>(m_scratch.layout.constraint_edges.size()); ++constraint)
         {
-            if (!m_scratch.solved_edges[as_index(m_scratch.constraint_edges[as_index(constraint)])].has(edge_flag::bears))
-                m_scratch.impact_constraints.push_back(constraint);
+            if (!m_scratch.layout.solved_edges[as_index(m_scratch.layout.constraint_edges[as_index(constraint)])].has(
+                    edge_flag::bears))
+                m_scratch.solver.impact_constraints.push_back(constraint);
         }
     }
 
@@ -339,8 +342,8 @@ void sort_edges(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     sort_by_island(
-        {}, scratch, scratch.links, scratch.solved_edges, edges_per_task,
-        [&](std::size_t i) { return scratch.island_of_edge[i]; },
+        {}, scratch, scratch.graph.links, scratch.layout.solved_edges, edges_per_task,
+        [&](std::size_t i) { return scratch.graph.island_of_edge[i]; },
         [](Island& island, int first, int count)
         {
             island.first_edge = first;
@@ -351,13 +354,13 @@ void sort_edges(StepContext& ctx)
 void place_constraints_of_small_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    set_size(scratch.parts, scratch.state_bodies.size());
-    scratch.constraint_edges.clear();
-    scratch.lane_edges.clear();
-    scratch.impact_constraints.clear();
-    scratch.cores.clear();
-    scratch.bin_starts.clear();
-    for (Island& island : scratch.islands)
+    set_size(scratch.solver.parts, scratch.solver.state_bodies.size());
+    scratch.layout.constraint_edges.clear();
+    scratch.layout.lane_edges.clear();
+    scratch.solver.impact_constraints.clear();
+    scratch.solver.cores.clear();
+    scratch.solver.bin_starts.clear();
+    for (Island& island : scratch.solver.islands)
     {
         island.parts = partitions_of(island.policy, island.dynamic_count, island.edge_count);
         if (island.parts == 0)
@@ -367,7 +370,7 @@ void place_constraints_of_small_islands(StepContext& ctx)
 
 void place_constraints_of_large_islands(StepContext& ctx)
 {
-    for (Island& island : ctx.scratch.islands)
+    for (Island& island : ctx.scratch.solver.islands)
     {
         if (island.parts > 0)
             ConstraintSlots(ctx, island).find();

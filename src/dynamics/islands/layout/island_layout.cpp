@@ -37,15 +37,16 @@ public:
 
     void place_states()
     {
-        m_scratch.state_bodies.clear();
-        m_scratch.state_of.assign(m_state.awake_bodies.size(), none);
-        m_scratch.flier_seeds.clear();
-        for (Island& island : m_scratch.islands)
+        m_scratch.solver.state_bodies.clear();
+        m_scratch.solver.state_of.assign(m_state.awake_bodies.size(), none);
+        m_scratch.layout.flier_seeds.clear();
+        set_size(m_scratch.layout.joint_states, m_scratch.graph.solved_joints.size());
+        for (Island& island : m_scratch.solver.islands)
             place_states_of(island);
-        set_size(m_scratch.states, m_scratch.state_bodies.size());
-        set_size(m_scratch.constants, m_scratch.state_bodies.size());
-        set_size(m_scratch.flier_of_state, m_scratch.state_bodies.size());
-        set_size(m_scratch.versions, m_scratch.state_bodies.size());
+        set_size(m_scratch.solver.states, m_scratch.solver.state_bodies.size());
+        set_size(m_scratch.solver.constants, m_scratch.solver.state_bodies.size());
+        set_size(m_scratch.flight.flier_of_state, m_scratch.solver.state_bodies.size());
+        set_size(m_scratch.flight.versions, m_scratch.solver.state_bodies.size());
     }
 
     void fill_states()
@@ -67,13 +68,13 @@ public:
                           fill_some_states(task - 2);
                   });
         place_constraints_of_large_islands(m_ctx);
-        for (Island& island : m_scratch.islands)
+        for (Island& island : m_scratch.solver.islands)
             let_drift(island);
         unbind_those(
             [&](std::size_t s)
             {
-                const int body = m_scratch.state_bodies[s];
-                return m_scratch.bound_by_joint[s] != 0 || (body != none && colors_of(m_state, body) != 0);
+                const int body = m_scratch.solver.state_bodies[s];
+                return m_scratch.layout.bound_by_joint[s] != 0 || (body != none && colors_of(m_state, body) != 0);
             });
     }
 
@@ -81,9 +82,9 @@ public:
 
     void add_fliers()
     {
-        set_size(m_scratch.fliers, m_scratch.flier_seeds.size());
-        set_size(m_scratch.event_times, m_scratch.fliers.size());
-        const auto count = static_cast<std::int32_t>(m_scratch.fliers.size());
+        set_size(m_scratch.flight.fliers, m_scratch.layout.flier_seeds.size());
+        set_size(m_scratch.flight.event_times, m_scratch.flight.fliers.size());
+        const auto count = static_cast<std::int32_t>(m_scratch.flight.fliers.size());
         run_tasks(m_ctx.scene.def.tasks, tasks_for(count),
                   [&](int task)
                   {
@@ -95,27 +96,27 @@ public:
 
     void add_laws()
     {
-        m_scratch.laws.clear();
-        for (Island& island : m_scratch.islands)
+        m_scratch.solver.laws.clear();
+        for (Island& island : m_scratch.solver.islands)
         {
-            island.first_law = static_cast<std::int32_t>(m_scratch.laws.size());
+            island.first_law = static_cast<std::int32_t>(m_scratch.solver.laws.size());
             for (std::int32_t s = island.first_state + 1;
                  m_ctx.scene.law_count > 0 && s <= island.first_state + island.dynamic_count; ++s)
             {
-                const StateConstants& c = m_scratch.constants[as_index(s)];
-                if (force_law_of(m_ctx, m_scratch.state_bodies[as_index(s)]) != nullptr)
-                    m_scratch.laws.push_back({s, c.angular_acceleration, c.acceleration});
+                const StateConstants& c = m_scratch.solver.constants[as_index(s)];
+                if (force_law_of(m_ctx, m_scratch.solver.state_bodies[as_index(s)]) != nullptr)
+                    m_scratch.solver.laws.push_back({s, c.angular_acceleration, c.acceleration});
             }
-            island.law_count = static_cast<std::int32_t>(m_scratch.laws.size()) - island.first_law;
+            island.law_count = static_cast<std::int32_t>(m_scratch.solver.laws.size()) - island.first_law;
         }
     }
 
     // For what island_constraints.cpp fills.
     void make_room()
     {
-        set_size(m_scratch.constraints, m_scratch.constraint_edges.size());
-        set_size(m_scratch.joints, m_scratch.joint_places.size());
-        set_size(m_scratch.wide_joints, as_index(m_groups));
+        set_size(m_scratch.solver.constraints, m_scratch.layout.constraint_edges.size());
+        set_size(m_scratch.solver.joints, m_scratch.layout.joint_places.size());
+        set_size(m_scratch.solver.wide_joints, as_index(m_groups));
     }
 
     // What held each state when the constraints were placed holds it still.
@@ -126,7 +127,7 @@ public:
 
     void count()
     {
-        for (const Island& island : m_scratch.islands)
+        for (const Island& island : m_scratch.solver.islands)
             m_ctx.report.colors = std::max(m_ctx.report.colors, static_cast<int>(island.colors));
     }
 
@@ -137,20 +138,20 @@ private:
     template <class IsBound>
     void unbind_those(const IsBound& is_bound)
     {
-        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.states.size(), places_per_task,
+        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.solver.states.size(), places_per_task,
                           [&](std::size_t s)
                           {
                               if (is_bound(s))
-                                  m_scratch.states[s].flags &= ~body_flag::unbound;
+                                  m_scratch.solver.states[s].flags &= ~body_flag::unbound;
                           });
     }
 
-    [[nodiscard]] int state_tasks() const { return tasks_for(static_cast<std::int32_t>(m_scratch.state_bodies.size())); }
+    [[nodiscard]] int state_tasks() const { return tasks_for(static_cast<std::int32_t>(m_scratch.solver.state_bodies.size())); }
 
     void fill_some_states(int task)
     {
         for_items(
-            task, static_cast<std::int32_t>(m_scratch.state_bodies.size()),
+            task, static_cast<std::int32_t>(m_scratch.solver.state_bodies.size()),
             [](const Island& island) { return island.first_state; },
             [&](const StepContext& island_ctx, const Island& island, std::int32_t i) { fill_state(island_ctx, island, i); });
     }
@@ -159,7 +160,7 @@ private:
     template <class First, class Visit>
     void for_items(int task, std::int32_t count, const First& first_of, const Visit& visit)
     {
-        const std::vector<Island>& islands = m_scratch.islands;
+        const std::vector<Island>& islands = m_scratch.solver.islands;
         const std::int32_t begin = task * places_per_task;
         const std::int32_t end = std::min(begin + places_per_task, count);
         auto island = std::upper_bound(islands.begin(), islands.end(), begin,
@@ -181,76 +182,75 @@ private:
     // then copies of kinematic ones.
     void place_states_of(Island& island)
     {
-        const std::int32_t first = island.first_state;
         island.first_state = add_state(none);
-        island.first_flier = static_cast<std::int32_t>(m_scratch.flier_seeds.size());
-        for (std::int32_t i = first; i < first + island.dynamic_count; ++i)
+        island.first_flier = static_cast<std::int32_t>(m_scratch.layout.flier_seeds.size());
+        for (std::int32_t i = island.first_body; i < island.first_body + island.dynamic_count; ++i)
         {
-            const std::int32_t place = m_scratch.solved_bodies[as_index(i)];
+            const std::int32_t place = m_scratch.graph.solved_bodies[as_index(i)];
             const int body = m_state.awake_bodies[as_index(place)];
-            m_scratch.state_of[as_index(place)] = add_state(body);
+            m_scratch.solver.state_of[as_index(place)] = add_state(body);
             seed_flier(island, place);
         }
-        island.flier_count = static_cast<std::int32_t>(m_scratch.flier_seeds.size()) - island.first_flier;
+        island.flier_count = static_cast<std::int32_t>(m_scratch.layout.flier_seeds.size()) - island.first_flier;
         m_ctx.report.flight_bodies += island.policy.free_fall ? island.dynamic_count : 0;
         copy_kinematic_bodies(island);
-        island.state_count = static_cast<std::int32_t>(m_scratch.state_bodies.size()) - island.first_state;
+        island.state_count = static_cast<std::int32_t>(m_scratch.solver.state_bodies.size()) - island.first_state;
     }
 
     std::int32_t add_state(int body)
     {
-        m_scratch.state_bodies.push_back(body);
-        return static_cast<std::int32_t>(m_scratch.state_bodies.size()) - 1;
+        m_scratch.solver.state_bodies.push_back(body);
+        return static_cast<std::int32_t>(m_scratch.solver.state_bodies.size()) - 1;
     }
 
     void seed_flier(const Island& island, std::int32_t place)
     {
         if (island.policy.free_fall)
             return;
-        const std::int32_t kind = m_scratch.flight[as_index(place)];
-        const std::int32_t could = m_scratch.grounded[as_index(place)];
+        const std::int32_t kind = m_scratch.graph.flight[as_index(place)];
+        const std::int32_t could = m_scratch.graph.grounded[as_index(place)];
         const int body = m_state.awake_bodies[as_index(place)];
-        const std::int32_t s = m_scratch.state_of[as_index(place)];
+        const std::int32_t s = m_scratch.solver.state_of[as_index(place)];
         if (kind != earthbound)
         {
             ++m_ctx.report.flight_bodies;
             if (kind != none)
                 forget_impulses(m_state.joints[kind]);
-            m_scratch.flier_seeds.push_back({s, body, kind, false});
+            m_scratch.layout.flier_seeds.push_back({s, body, kind, false});
         }
         else if (could != earthbound && (island.policy.exact_impacts || may_take_off(place, could)))
         {
-            m_scratch.flier_seeds.push_back({s, body, could, true});
+            m_scratch.layout.flier_seeds.push_back({s, body, could, true});
         }
     }
 
     // In a crowd only what flies, or a law, makes anything fast enough to fly within the step.
     [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t kind) const
     {
-        return m_scratch.may_be_struck[as_index(place)] != 0 || kind != none ||
+        return m_scratch.graph.may_be_struck[as_index(place)] != 0 || kind != none ||
                force_law_of(m_ctx, m_state.awake_bodies[as_index(place)]) != nullptr;
     }
 
     // Kinematic bodies are copied into every island they meet: their path is a function of time alone, and islands then share nothing that is
-    // written. A flier may land on one. Links of joints name states from here on.
+    // written. A flier may land on one.
     void copy_kinematic_bodies(const Island& island)
     {
-        const auto index = static_cast<std::int32_t>(&island - m_scratch.islands.data());
+        const auto index = static_cast<std::int32_t>(&island - m_scratch.solver.islands.data());
         for (const KinematicMeeting& m :
-             std::ranges::equal_range(m_scratch.meetings_with_kinematic, index, {}, &KinematicMeeting::island))
+             std::ranges::equal_range(m_scratch.graph.meetings_with_kinematic, index, {}, &KinematicMeeting::island))
             static_cast<void>(state_for(island, m_state.awake_bodies[as_index(m.place)]));
-        for (std::int32_t i = island.first_joint; i < island.first_joint + island.joint_count; ++i)
+        for (std::int32_t i = island.first_joint_edge; i < island.first_joint_edge + island.joint_edge_count; ++i)
         {
-            JointEdge& j = m_scratch.solved_joints[as_index(i)];
-            j.a = state_at(island, j.a);
-            j.b = state_at(island, j.b);
+            const JointEdge& j = m_scratch.graph.solved_joints[as_index(i)];
+            const std::int32_t a = state_at(island, j.a);
+            m_scratch.layout.joint_states[as_index(i)] = {a, state_at(island, j.b)};
         }
-        if (!m_scratch.has_kinematic)
+        if (!m_scratch.graph.has_kinematic)
             return;
         for (std::int32_t i = island.first_flier; i < island.first_flier + island.flier_count; ++i)
-            copy_those_near(island, m_scratch.flier_seeds[as_index(i)].body);
+            copy_those_near(island, m_scratch.layout.flier_seeds[as_index(i)].body);
         for (std::int32_t s = 1; island.policy.recomputes_contacts && s <= island.dynamic_count; ++s)
-            copy_those_near(island, m_scratch.state_bodies[as_index(island.first_state + s)]);
+            copy_those_near(island, m_scratch.solver.state_bodies[as_index(island.first_state + s)]);
     }
 
     void copy_those_near(const Island& island, int body)
@@ -266,7 +266,7 @@ private:
     [[nodiscard]] std::int32_t state_at(const Island& island, std::int32_t place)
     {
         if (place >= 0)
-            return m_scratch.state_of[as_index(place)];
+            return m_scratch.solver.state_of[as_index(place)];
         return state_for(island, place == none ? none : m_state.awake_bodies[as_index(-2 - place)]);
     }
 
@@ -275,7 +275,7 @@ private:
     {
         if (body == none || m_state.bodies[body].awake_index == none)
             return island.first_state;
-        std::int32_t& copy = m_scratch.state_of[as_index(m_state.bodies[body].awake_index)];
+        std::int32_t& copy = m_scratch.solver.state_of[as_index(m_state.bodies[body].awake_index)];
         if (copy < island.first_state)
             copy = add_state(body);
         return copy;
@@ -283,11 +283,11 @@ private:
 
     void fill_state(const StepContext& island_ctx, const Island& island, std::int32_t i)
     {
-        const int body = m_scratch.state_bodies[as_index(i)];
-        BodyState& s = m_scratch.states[as_index(i)];
-        StateConstants& c = m_scratch.constants[as_index(i)];
-        m_scratch.flier_of_state[as_index(i)] = none;
-        m_scratch.versions[as_index(i)] = 0;
+        const int body = m_scratch.solver.state_bodies[as_index(i)];
+        BodyState& s = m_scratch.solver.states[as_index(i)];
+        StateConstants& c = m_scratch.solver.constants[as_index(i)];
+        m_scratch.flight.flier_of_state[as_index(i)] = none;
+        m_scratch.flight.versions[as_index(i)] = 0;
         if (body == none)
             s = {};
         else
@@ -305,48 +305,49 @@ private:
 
     void add_flier(const StepContext& island_ctx, std::int32_t i)
     {
-        const FlierSeed& seed = m_scratch.flier_seeds[as_index(i)];
-        Flier& flier = m_scratch.fliers[as_index(i)];
+        const FlierSeed& seed = m_scratch.layout.flier_seeds[as_index(i)];
+        Flier& flier = m_scratch.flight.fliers[as_index(i)];
         flier = make_flier(island_ctx, seed.state, seed.body, seed.kind);
         flier.landed = seed.landed;
-        m_scratch.event_times[as_index(i)] = 1e300;
-        m_scratch.flier_of_state[as_index(seed.state)] = i;
+        m_scratch.flight.event_times[as_index(i)] = 1e300;
+        m_scratch.flight.flier_of_state[as_index(seed.state)] = i;
         if (!seed.landed)
-            m_scratch.states[as_index(seed.state)].flags |= body_flag::flier;
+            m_scratch.solver.states[as_index(seed.state)].flags |= body_flag::flier;
     }
 
     // --- joints -----------------------------------------------------------------------------------------------------------------------
 
     void place_joints()
     {
-        m_scratch.joint_places.clear();
-        m_scratch.joint_lanes.clear();
-        m_scratch.joint_bin_starts.clear();
-        m_scratch.bound_by_joint.assign(m_scratch.state_bodies.size(), 0);
-        set_size(m_scratch.joint_colors, m_scratch.state_bodies.size());
+        m_scratch.layout.joint_places.clear();
+        m_scratch.layout.joint_lanes.clear();
+        m_scratch.solver.joint_bin_starts.clear();
+        m_scratch.layout.bound_by_joint.assign(m_scratch.solver.state_bodies.size(), 0);
+        set_size(m_scratch.layout.joint_colors, m_scratch.solver.state_bodies.size());
         m_groups = 0;
-        for (Island& island : m_scratch.islands)
+        for (Island& island : m_scratch.solver.islands)
             place_joints_of(island);
     }
 
     // Where joints are solved directly and nothing touches, axes are solved for the drift along parabolas, too.
     void let_drift(Island& island)
     {
-        const auto places = std::span(m_scratch.joint_places).subspan(as_index(island.first_joint), as_index(island.joint_count));
+        const auto places =
+            std::span(m_scratch.layout.joint_places).subspan(as_index(island.first_joint), as_index(island.joint_count));
         const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
                                          { return sum + most_rows_of(m_state.joints[place.joint]); });
         island.all_direct =
             island.joint_count > 0 && solves_all_joints_directly(island.policy, rows, island.wide_joint_count > 0);
         island.drifts = island.all_direct && island.constraint_count == 0 && island.wide_count == 0;
         if (island.drifts)
-            std::fill_n(m_scratch.bound_by_joint.begin() + island.first_state, island.state_count, 0);
+            std::fill_n(m_scratch.layout.bound_by_joint.begin() + island.first_state, island.state_count, 0);
     }
 
     // Marks it as taken.
     int free_color(const Island& island, std::int32_t a, std::int32_t b)
     {
-        std::uint64_t& of_a = m_scratch.joint_colors[as_index(a)];
-        std::uint64_t& of_b = m_scratch.joint_colors[as_index(b)];
+        std::uint64_t& of_a = m_scratch.layout.joint_colors[as_index(a)];
+        std::uint64_t& of_b = m_scratch.layout.joint_colors[as_index(b)];
         const int color = std::countr_one((is_dynamic(island, a) ? of_a : 0) | (is_dynamic(island, b) ? of_b : 0));
         if (color >= color_limit)
             return color_limit;
@@ -358,46 +359,46 @@ private:
     // The hinges of an island with more joints than are solved directly go side by side, by colour; the others one by one.
     void place_joints_of(Island& island)
     {
-        const std::int32_t first = island.first_joint;
-        const std::int32_t count = island.joint_count;
         const bool wide = island.policy.wide_joints;
         const bool uniform = wide && is_uniform(m_ctx, island);
-        island.first_joint = static_cast<std::int32_t>(m_scratch.joint_places.size());
+        island.first_joint = static_cast<std::int32_t>(m_scratch.layout.joint_places.size());
         island.first_wide_joint = m_groups;
         if (wide)
-            std::fill_n(m_scratch.joint_colors.begin() + island.first_state, island.state_count, 0);
-        const std::size_t first_lane = m_scratch.joint_lanes.size();
-        for (std::int32_t i = first; i < first + count; ++i)
+            std::fill_n(m_scratch.layout.joint_colors.begin() + island.first_state, island.state_count, 0);
+        const std::size_t first_lane = m_scratch.layout.joint_lanes.size();
+        for (std::int32_t i = island.first_joint_edge; i < island.first_joint_edge + island.joint_edge_count; ++i)
         {
-            const JointEdge& j = m_scratch.solved_joints[as_index(i)];
-            if (!wide || !place_joint_in_lane(island, j, uniform))
-                m_scratch.joint_places.push_back({j.joint, j.a, j.b});
+            const JointEdge& j = m_scratch.graph.solved_joints[as_index(i)];
+            const StatePair states = m_scratch.layout.joint_states[as_index(i)];
+            const JointPlace joint = {j.joint, states.a, states.b};
+            if (!wide || !place_joint_in_lane(island, j, joint, uniform))
+                m_scratch.layout.joint_places.push_back(joint);
             if (j.binds)
-                m_scratch.bound_by_joint[as_index(j.a)] = m_scratch.bound_by_joint[as_index(j.b)] = 1;
+                m_scratch.layout.bound_by_joint[as_index(states.a)] = m_scratch.layout.bound_by_joint[as_index(states.b)] = 1;
         }
         group_joints(island, first_lane);
         island.first_joint_lane = static_cast<std::int32_t>(first_lane);
-        island.joint_lane_count = static_cast<std::int32_t>(m_scratch.joint_lanes.size() - first_lane);
-        island.joint_count = static_cast<std::int32_t>(m_scratch.joint_places.size()) - island.first_joint;
+        island.joint_lane_count = static_cast<std::int32_t>(m_scratch.layout.joint_lanes.size() - first_lane);
+        island.joint_count = static_cast<std::int32_t>(m_scratch.layout.joint_places.size()) - island.first_joint;
         island.wide_joint_count = m_groups - island.first_wide_joint;
     }
 
     // Finds its colour; false where it must stand alone.
-    bool place_joint_in_lane(const Island& island, const JointEdge& j, bool uniform)
+    bool place_joint_in_lane(const Island& island, const JointEdge& j, const JointPlace& joint, bool uniform)
     {
-        if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, j)))
+        if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, joint)))
             return false;
-        const std::int32_t color = free_color(island, j.a, j.b);
+        const std::int32_t color = free_color(island, joint.a, joint.b);
         if (color == color_limit)
             return false;
-        m_scratch.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, {j.joint, j.a, j.b}});
+        m_scratch.layout.joint_lanes.push_back({2 * color + (j.holds ? 0 : 1), none, joint});
         return true;
     }
 
     // By counting; those of a bin stay in order.
     void sort_by_bin(std::size_t first)
     {
-        std::vector<JointLane>& lanes = m_scratch.joint_lanes;
+        std::vector<JointLane>& lanes = m_scratch.layout.joint_lanes;
         if (lanes.size() == first)
             return;
         std::int32_t starts[2 * color_limit + 1] = {};
@@ -405,7 +406,7 @@ private:
             ++starts[lanes[i].bin + 1];
         for (int bin = 0; bin < 2 * color_limit; ++bin)
             starts[bin + 1] += starts[bin];
-        std::vector<JointLane>& sorted = m_scratch.sorted_lanes;
+        std::vector<JointLane>& sorted = m_scratch.layout.sorted_lanes;
         set_size(sorted, lanes.size() - first);
         for (std::size_t i = first; i < lanes.size(); ++i)
             sorted[as_index(starts[lanes[i].bin]++)] = lanes[i];
@@ -415,16 +416,16 @@ private:
     // Sorted by bin, eight by eight; each learns its lane.
     void group_joints(Island& island, std::size_t first)
     {
-        const auto begin = m_scratch.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto begin = m_scratch.layout.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
         sort_by_bin(first);
-        island.first_joint_bin = static_cast<std::int32_t>(m_scratch.joint_bin_starts.size());
+        island.first_joint_bin = static_cast<std::int32_t>(m_scratch.solver.joint_bin_starts.size());
         std::int32_t bin = none;
         int lane = 0;
         std::int32_t next_bin = 0; // to begin
-        for (auto l = begin; l != m_scratch.joint_lanes.end(); ++l)
+        for (auto l = begin; l != m_scratch.layout.joint_lanes.end(); ++l)
         {
             for (; next_bin <= l->bin; ++next_bin)
-                m_scratch.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
+                m_scratch.solver.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
             if (l->bin != bin || lane == lane_count)
             {
                 ++m_groups;
@@ -434,8 +435,8 @@ private:
             l->lane = (m_groups - 1) * lane_count + lane++;
         }
         for (; next_bin % 2 != 0; ++next_bin)
-            m_scratch.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
-        m_scratch.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
+            m_scratch.solver.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
+        m_scratch.solver.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
         island.joint_bin_count = next_bin;
     }
 
@@ -449,7 +450,7 @@ private:
 
 bool is_uniform(const StepContext& ctx, const Island& island)
 {
-    for (std::int32_t s = island.first_state; ctx.scratch.has_uneven && s < island.first_state + island.state_count; ++s)
+    for (std::int32_t s = island.first_state; ctx.scratch.graph.has_uneven && s < island.first_state + island.state_count; ++s)
     {
         if (!has_even_mass(ctx, s))
             return false;
@@ -459,7 +460,7 @@ bool is_uniform(const StepContext& ctx, const Island& island)
 
 bool has_even_mass(const StepContext& ctx, std::int32_t state)
 {
-    const int body = ctx.scratch.state_bodies[as_index(state)];
+    const int body = ctx.scratch.solver.state_bodies[as_index(state)];
     if (body == none)
         return true;
     const Vec2 inverse_mass = ctx.state.sims[as_index(body)].inverse_mass;
@@ -474,7 +475,7 @@ void refill_islands(StepContext& ctx)
     layout.add_fliers();
     layout.add_laws();
     layout.count();
-    ctx.report.islands = static_cast<int>(ctx.scratch.islands.size());
+    ctx.report.islands = static_cast<int>(ctx.scratch.solver.islands.size());
 }
 
 void lay_out_islands(StepContext& ctx)

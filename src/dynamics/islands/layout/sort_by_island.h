@@ -41,22 +41,22 @@ void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<
 {
     using Runs = std::vector<IslandRun>;
     const std::span<Runs> parts =
-        find_in_parts(tasks, items.size(), items_per_task, scratch.runs_of_task,
+        find_in_parts(tasks, items.size(), items_per_task, scratch.layout.runs_of_task,
                       [&](std::size_t first, std::size_t last, Runs& runs)
                       {
                           runs.clear();
                           for_each_run(first, last, island_of, [&](const IslandRun& run) { append(runs, run); });
                       });
-    std::vector<std::int32_t>& starts = scratch.island_starts;
-    starts.assign(scratch.islands.size() + 1, 0);
+    std::vector<std::int32_t>& starts = scratch.layout.island_starts;
+    starts.assign(scratch.solver.islands.size() + 1, 0);
     for (const Runs& runs : parts)
     {
         for (const IslandRun& run : runs)
             starts[static_cast<std::size_t>(run.island) + 1] += run.count;
     }
-    for (std::size_t u = 0; u < scratch.islands.size(); ++u)
+    for (std::size_t u = 0; u < scratch.solver.islands.size(); ++u)
     {
-        set_range(scratch.islands[u], starts[u], starts[u + 1]);
+        set_range(scratch.solver.islands[u], starts[u], starts[u + 1]);
         starts[u + 1] += starts[u];
     }
     for (Runs& runs : parts)
@@ -65,7 +65,7 @@ void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<
             run.sorted_first = std::exchange(starts[static_cast<std::size_t>(run.island)],
                                              starts[static_cast<std::size_t>(run.island)] + run.count);
     }
-    set_size(sorted, static_cast<std::size_t>(starts[scratch.islands.empty() ? 0 : scratch.islands.size() - 1]));
+    set_size(sorted, static_cast<std::size_t>(starts[scratch.solver.islands.empty() ? 0 : scratch.solver.islands.size() - 1]));
     run_tasks(tasks, static_cast<int>(parts.size()),
               [&](int task)
               {

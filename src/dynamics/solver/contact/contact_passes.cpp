@@ -17,9 +17,9 @@ constexpr int passes_of_deep_overlaps = 7;
 } // namespace
 
 ContactPasses::ContactPasses(SolvedIsland& work)
-    : m_work(work), m_wide(work.scratch.wide_contacts.data() + work.island.wide_store),
-      m_notes(work.scratch.wide_notes.data() + work.island.wide_store),
-      m_struck(work.scratch.struck.data() + work.island.wide_store),
+    : m_work(work), m_wide(work.scratch.solver.wide_contacts.data() + work.island.wide_store),
+      m_notes(work.scratch.solver.wide_notes.data() + work.island.wide_store),
+      m_struck(work.scratch.solver.struck.data() + work.island.wide_store),
       m_softness{
           work.ctx.h,         work.view.inverse_h, work.view.push_speed, work.ctx.contact_softness, work.ctx.static_softness,
           work.ctx.rest_speed},
@@ -65,7 +65,8 @@ void ContactPasses::solve_by_partition()
     const auto relax = [this](int first, int last) { relax_lanes(first, last); };
     integrate_positions(m_work, island.first_state + 1 + island.dynamic_count,
                         island.first_state + island.state_count); // kinematic
-    const auto parts = std::span(m_work.scratch.parts).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
+    const auto parts =
+        std::span(m_work.scratch.solver.parts).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
     const Walls walls = this->walls();
     m_partitions.crossing(m_work.team, solve);
     m_partitions.in_parts(m_work.team,
@@ -86,7 +87,8 @@ void ContactPasses::relax_struck()
     std::vector<std::int32_t>& parts = m_work.output.struck_states;
     if (parts.empty() && m_work.late_constraints().empty())
         return;
-    std::ranges::transform(parts, parts.begin(), [&](std::int32_t state) { return m_work.scratch.parts[as_index(state)]; });
+    std::ranges::transform(parts, parts.begin(),
+                           [&](std::int32_t state) { return m_work.scratch.solver.parts[as_index(state)]; });
     std::erase_if(parts, [&](std::int32_t part) { return part >= m_work.island.parts; }); // of bodies of infinite mass
     std::ranges::sort(parts);
     parts.erase(std::ranges::unique(parts).begin(), parts.end());
@@ -130,8 +132,8 @@ void ContactPasses::solve_lanes(int first, int last) const
 
 void ContactPasses::relax_lanes(int first, int last)
 {
-    const float least =
-        m_kernels.relax(lanes(first, last), m_work.view.states, m_softness, m_work.scratch.speeds.data(), m_struck + first);
+    const float least = m_kernels.relax(lanes(first, last), m_work.view.states, m_softness, m_work.scratch.solver.speeds.data(),
+                                        m_struck + first);
     if (least < deep())
         std::atomic_ref(m_is_deep).store(1, std::memory_order_relaxed);
 }
@@ -156,7 +158,7 @@ float ContactPasses::deep() const { return -m_work.view.push_speed / m_softness.
 Walls ContactPasses::walls() const
 {
     const Island& island = m_work.island;
-    const auto cores = std::span(m_work.scratch.cores).subspan(as_index(island.first_core), as_index(island.core_count));
+    const auto cores = std::span(m_work.scratch.solver.cores).subspan(as_index(island.first_core), as_index(island.core_count));
     return {m_work.view,
             {m_work.constraints,
              m_work.late_constraints(),

@@ -131,12 +131,12 @@ private:
 
 [[nodiscard]] inline Partitions contact_bins(const Scratch& scratch, const Island& island)
 {
-    return {scratch.bin_starts, island.first_bin, island.parts, island.bin_count};
+    return {scratch.solver.bin_starts, island.first_bin, island.parts, island.bin_count};
 }
 
 [[nodiscard]] inline Partitions joint_bins(const Scratch& scratch, const Island& island)
 {
-    return {scratch.joint_bin_starts, island.first_joint_bin, 0, island.joint_bin_count};
+    return {scratch.solver.joint_bin_starts, island.first_joint_bin, 0, island.joint_bin_count};
 }
 
 } // namespace carom::internal

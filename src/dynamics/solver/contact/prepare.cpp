@@ -101,10 +101,10 @@ float coupling(const StateConstants& a, const StateConstants& b, const ContactCo
 
 void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& m)
 {
-    const BodyState& sa = scratch.states[static_cast<std::size_t>(constraint.a)];
-    const BodyState& sb = scratch.states[static_cast<std::size_t>(constraint.b)];
-    const StateConstants& ca = scratch.constants[static_cast<std::size_t>(constraint.a)];
-    const StateConstants& cb = scratch.constants[static_cast<std::size_t>(constraint.b)];
+    const BodyState& sa = scratch.solver.states[static_cast<std::size_t>(constraint.a)];
+    const BodyState& sb = scratch.solver.states[static_cast<std::size_t>(constraint.b)];
+    const StateConstants& ca = scratch.solver.constants[static_cast<std::size_t>(constraint.a)];
+    const StateConstants& cb = scratch.solver.constants[static_cast<std::size_t>(constraint.b)];
     constraint.n = m.normal;
     constraint.count = m.count;
     constraint.turn_a = sa.delta_rotation;
@@ -149,12 +149,12 @@ std::int32_t state_for_constraints(const StepContext& ctx, const Island& island,
     const std::int32_t end = island.first_state + island.state_count;
     if (record.type == BodyType::Dynamic)
     {
-        const std::int32_t s = ctx.scratch.state_of[static_cast<std::size_t>(record.awake_index)];
+        const std::int32_t s = ctx.scratch.solver.state_of[static_cast<std::size_t>(record.awake_index)];
         return s >= island.first_state && s < end ? s : none;
     }
     for (std::int32_t s = island.first_state + 1 + island.dynamic_count; s < end; ++s)
     {
-        if (ctx.scratch.state_bodies[static_cast<std::size_t>(s)] == body)
+        if (ctx.scratch.solver.state_bodies[static_cast<std::size_t>(s)] == body)
             return s;
     }
     return none;
@@ -163,8 +163,8 @@ std::int32_t state_for_constraints(const StepContext& ctx, const Island& island,
 ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Manifold& manifold, std::int32_t a, std::int32_t b)
 {
     const Contact& contact = ctx.state.contacts[index];
-    const StateConstants& ca = ctx.scratch.constants[static_cast<std::size_t>(a)];
-    const StateConstants& cb = ctx.scratch.constants[static_cast<std::size_t>(b)];
+    const StateConstants& ca = ctx.scratch.solver.constants[static_cast<std::size_t>(a)];
+    const StateConstants& cb = ctx.scratch.solver.constants[static_cast<std::size_t>(b)];
     ContactConstraint constraint;
     constraint.a = a;
     constraint.b = b;

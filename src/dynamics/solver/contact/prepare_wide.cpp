@@ -21,8 +21,8 @@ struct Lane
     int i;
 
     Lane(Scratch& scratch, std::int32_t lane)
-        : constraint(scratch.wide_contacts[as_index(lane / lane_count)]), notes(scratch.wide_notes[as_index(lane / lane_count)]),
-          i(lane % lane_count)
+        : constraint(scratch.solver.wide_contacts[as_index(lane / lane_count)]),
+          notes(scratch.solver.wide_notes[as_index(lane / lane_count)]), i(lane % lane_count)
     {}
 
     // J M^-1 J^T of the normal, as the kernels have it.
@@ -36,7 +36,7 @@ struct Lane
 
 const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
 {
-    return ctx.scratch.constants[static_cast<std::size_t>(state)];
+    return ctx.scratch.solver.constants[static_cast<std::size_t>(state)];
 }
 
 // Two points that are not nearly in one place.

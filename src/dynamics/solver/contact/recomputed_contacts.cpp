@@ -54,7 +54,7 @@ void RecomputedContacts::add_constraints_beyond_seams()
     {
         if ((m_work.view.states[s].flags & body_flag::flier) != 0)
             continue;
-        const int body = m_work.scratch.state_bodies[static_cast<std::size_t>(s)];
+        const int body = m_work.scratch.solver.state_bodies[static_cast<std::size_t>(s)];
         for (const int index : contacts_of(state, body))
             add_constraint_beyond_seam(index, body, s);
     }

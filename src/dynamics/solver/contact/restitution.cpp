@@ -32,8 +32,9 @@ class Bounces
 public:
     explicit Bounces(const BouncingIsland& of)
         : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_island(of.island), m_output(of.output), m_view(of.view),
-          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.wide_contacts.data() + m_island.wide_store),
-          m_notes(m_scratch.wide_notes.data() + m_island.wide_store), m_struck(m_scratch.struck.data() + m_island.wide_store)
+          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.solver.wide_contacts.data() + m_island.wide_store),
+          m_notes(m_scratch.solver.wide_notes.data() + m_island.wide_store),
+          m_struck(m_scratch.solver.struck.data() + m_island.wide_store)
     {}
 
     void note_approaches()
@@ -52,8 +53,8 @@ public:
 private:
     [[nodiscard]] ContactConstraint& impact_constraint(int i)
     {
-        return m_scratch.constraints[static_cast<std::size_t>(
-            m_scratch.impact_constraints[static_cast<std::size_t>(m_island.first_impact_constraint + i)])];
+        return m_scratch.solver.constraints[static_cast<std::size_t>(
+            m_scratch.solver.impact_constraints[static_cast<std::size_t>(m_island.first_impact_constraint + i)])];
     }
 
     // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
@@ -181,7 +182,7 @@ private:
         if (!has_finite_mass(state))
             return;
         const StateConstants& c = m_view.constants[state];
-        BodySpeeds& unpushed = m_scratch.unpushed[static_cast<std::size_t>(state)];
+        BodySpeeds& unpushed = m_scratch.solver.unpushed[static_cast<std::size_t>(state)];
         unpushed.velocity.x += c.inverse_mass.x * impulse.x;
         unpushed.velocity.y += c.inverse_mass.y * impulse.y;
         unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
@@ -212,8 +213,8 @@ private:
     // The approach speed when the sub-step began, along the normal that the constraint has now.
     [[nodiscard]] float came_at(const ContactConstraint& constraint, const ConstraintPoint& p) const
     {
-        const BodySpeeds& a = m_scratch.speeds[as_index(constraint.a)];
-        const BodySpeeds& b = m_scratch.speeds[as_index(constraint.b)];
+        const BodySpeeds& a = m_scratch.solver.speeds[as_index(constraint.a)];
+        const BodySpeeds& b = m_scratch.solver.speeds[as_index(constraint.b)];
         return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), constraint.n);
     }
 
@@ -336,8 +337,8 @@ private:
             return;
         arm_a *= 1 / event.impulse;
         arm_b *= 1 / event.impulse;
-        const BodySpeeds& a = m_scratch.speeds[as_index(constraint.a)];
-        const BodySpeeds& b = m_scratch.speeds[as_index(constraint.b)];
+        const BodySpeeds& a = m_scratch.solver.speeds[as_index(constraint.a)];
+        const BodySpeeds& b = m_scratch.solver.speeds[as_index(constraint.b)];
         event.normal = constraint.n;
         event.point = place_on_a(constraint, arm_a);
         event.velocity_a = a.velocity + cross(a.angular_velocity, arm_a);

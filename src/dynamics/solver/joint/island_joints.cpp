@@ -14,7 +14,7 @@
 namespace carom::internal {
 
 IslandJoints::IslandJoints(SolvedIsland& work)
-    : m_work(work), m_wide(work.scratch.wide_joints.data() + work.island.first_wide_joint),
+    : m_work(work), m_wide(work.scratch.solver.wide_joints.data() + work.island.first_wide_joint),
       m_softness{work.view.inverse_h, make_softness(work.ctx.joint_hertz, 0, work.ctx.h)},
       m_bins(joint_bins(work.scratch, work.island))
 {
@@ -90,7 +90,7 @@ void IslandJoints::find_pulled_constraints()
             if (!m_work.is_dynamic(s) || (m_work.view.states[s].flags & body_flag::jointed) != 0)
                 continue;
             m_work.view.states[s].flags |= body_flag::jointed;
-            const int body = m_work.scratch.state_bodies[as_index(s)];
+            const int body = m_work.scratch.solver.state_bodies[as_index(s)];
             if (m_work.island.wide_count > 0)
                 for_each_contact(m_work.ctx.state, body, [&](int contact) { add_pulled_constraint(contact, body, s); });
         }
@@ -181,7 +181,7 @@ void IslandJoints::forget_pull()
                 p.normal_impulse = p.tangent_impulse = 0;
         });
     for (WideContact& constraint :
-         std::span(m_work.scratch.wide_contacts.data() + m_work.island.wide_store, as_index(m_work.island.wide_count)))
+         std::span(m_work.scratch.solver.wide_contacts.data() + m_work.island.wide_store, as_index(m_work.island.wide_count)))
     {
         for (int i = 0; i < lane_count; ++i)
         {

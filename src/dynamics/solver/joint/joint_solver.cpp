@@ -128,7 +128,7 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Join
     work.wraps = joint.kind == JointType::Prismatic;
     if (has_angle(joint))
         work.angle0 = hinge_angle(ctx.state, joint);
-    const SolverView view{ctx.scratch.states.data(), ctx.scratch.constants.data(), ctx.h, 1 / ctx.h, 0};
+    const SolverView view{ctx.scratch.solver.states.data(), ctx.scratch.solver.constants.data(), ctx.h, 1 / ctx.h, 0};
     if (joint.kind == JointType::Spring)
         fit_spring(view, ctx.state, work);
     else if (joint.hertz > 0)
