@@ -70,6 +70,7 @@ struct Demand
     double impulse = 0;
 };
 
+constexpr int passes_with_rising_friction = 20; // in a steep wedge force and friction would raise each other without end
 constexpr int pass_limit = 100;
 constexpr int least_passes = 4; // when the work is spent
 
@@ -428,6 +429,7 @@ void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
 } // namespace
 
 double gap_rate(const Bodies& bodies, const ImpactRow& row) { return rate_along(bodies, row, normal_of(row)); }
+
 double slip_rate(const Bodies& bodies, const ImpactRow& row)
 {
     return rate_along(bodies, row, tangent_of(row)) - row.surface_speed;
@@ -449,8 +451,7 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
     int round = 0;
     while (round < round_limit && reflect_once(impact, law) && !work.is_spent())
         ++round;
-    // A ball between two that close in bounces for ever: what is left is taken without bounce.
-    // A long row only takes its time; what is jammed gets nowhere.
+    // A ball between two that close in bounces for ever: the rest is taken without bounce. A long row only takes its time; a jam gets nowhere.
     double half_way = 0;
     while (round < 2 * round_limit && !work.is_spent() && reflect_once(impact, still, Asked::All))
     {
@@ -474,9 +475,6 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
     return !work.is_spent();
 }
 
-// In a wedge steep enough to hold by friction alone force and friction raise each other without end; with limits that stay, they agree.
-constexpr int jammed_from = 20;
-
 void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vector<Pressing>& pressing)
 {
     std::vector<Demand> demands;
@@ -492,7 +490,7 @@ void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vecto
         {
             Pressing& p = pressing[i];
             p.force = demands[i].impulse;
-            if (pass < jammed_from)
+            if (pass < passes_with_rising_friction)
                 p.limit = rows[static_cast<std::size_t>(p.row)].friction * p.force;
             rub_pressed(accelerations, rows, p);
         }
