@@ -22,20 +22,20 @@ void BoxTree::build(const TaskHooks& tasks, std::span<const TreeLeaf> leaves)
     blocks.resize((leaves.size() + arity - 1) / arity);
     m_filters.resize(1);
     m_filters[0].assign(blocks.size(), {0, 0});
-    for_each_in_parts(tasks, blocks.size(), blocks_per_task,
-                      [&](std::size_t k)
-                      {
-                          for (std::size_t i = k * arity; i < (k + 1) * arity; ++i)
-                          {
-                              const bool is_leaf = i < keys.size();
-                              if (is_leaf)
-                              {
-                                  m_items[i] = leaves[keys[i].index].item;
-                                  widen(m_filters[0][k], leaves[keys[i].index].filter);
-                              }
-                              blocks[k].set(static_cast<int>(i % arity), is_leaf ? leaves[keys[i].index].box : FloatBox{});
-                          }
-                      });
+    for_each_in_chunks(tasks, blocks.size(), blocks_per_task,
+                       [&](std::size_t k)
+                       {
+                           for (std::size_t i = k * arity; i < (k + 1) * arity; ++i)
+                           {
+                               const bool is_leaf = i < keys.size();
+                               if (is_leaf)
+                               {
+                                   m_items[i] = leaves[keys[i].index].item;
+                                   widen(m_filters[0][k], leaves[keys[i].index].filter);
+                               }
+                               blocks[k].set(static_cast<int>(i % arity), is_leaf ? leaves[keys[i].index].box : FloatBox{});
+                           }
+                       });
     m_live = static_cast<int>(leaves.size());
     build_levels();
     build_filters();

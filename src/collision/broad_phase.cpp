@@ -33,7 +33,7 @@ void BroadPhase::remove(int item)
 {
     if (!has(item))
         return;
-    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
+    SweptBox& place = m_places[static_cast<std::size_t>(item)];
     if (place.traits.unbounded)
         std::erase(m_unbounded, item);
     else
@@ -53,7 +53,7 @@ void BroadPhase::set_trigger(int item, bool trigger)
 
 void BroadPhase::move_to(int item, Layer layer)
 {
-    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
+    SweptBox& place = m_places[static_cast<std::size_t>(item)];
     if (place.layer == layer)
         return;
     if (!place.traits.unbounded)
@@ -69,7 +69,7 @@ void BroadPhase::move_to(int item, Layer layer)
 
 void BroadPhase::stand_still(int item)
 {
-    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
+    SweptBox& place = m_places[static_cast<std::size_t>(item)];
     place.path = {place.box, {}, 0};
 }
 
@@ -82,7 +82,7 @@ void BroadPhase::set_box(int item, const FloatBox& box)
 
 void BroadPhase::widen(int item, const FloatBox& box)
 {
-    BoxPlace& place = m_places[static_cast<std::size_t>(item)];
+    SweptBox& place = m_places[static_cast<std::size_t>(item)];
     place.box = box;
     const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
     if (!place.traits.unbounded && leaf.tree >= 0)
@@ -95,7 +95,7 @@ void BroadPhase::set_filter(int item, const FilterBits& filter)
         return;
     m_filters[static_cast<std::size_t>(item)] = filter;
     const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
-    const BoxPlace& place = m_places[static_cast<std::size_t>(item)];
+    const SweptBox& place = m_places[static_cast<std::size_t>(item)];
     if (!place.traits.unbounded && leaf.tree >= 0)
         m_forests[static_cast<std::size_t>(place.layer)].trees[static_cast<std::size_t>(leaf.tree)].widen_filter(leaf.index,
                                                                                                                  filter);
@@ -111,8 +111,8 @@ bool BroadPhase::update_moving(const TaskHooks& tasks, std::span<const std::int3
     const bool many = items.size() * 16 > total;
     if (many)
     {
-        for_each_in_parts(tasks, items.size(), items_per_task,
-                          [&](std::size_t i) { m_places[static_cast<std::size_t>(items[i])].box = boxes[i]; });
+        for_each_in_chunks(tasks, items.size(), items_per_task,
+                           [&](std::size_t i) { m_places[static_cast<std::size_t>(items[i])].box = boxes[i]; });
         fit_moving(tasks);
         return true;
     }
@@ -232,20 +232,20 @@ void BroadPhase::rebuild(const TaskHooks& tasks, Forest& forest, std::size_t fro
     if (items.empty())
         return;
     std::vector<TreeLeaf> leaves(items.size());
-    for_each_in_parts(tasks, items.size(), items_per_task,
-                      [&](std::size_t i)
-                      {
-                          const std::int32_t item = items[i];
-                          leaves[i] = {box(item), item, m_filters[static_cast<std::size_t>(item)]};
-                      });
+    for_each_in_chunks(tasks, items.size(), items_per_task,
+                       [&](std::size_t i)
+                       {
+                           const std::int32_t item = items[i];
+                           leaves[i] = {box(item), item, m_filters[static_cast<std::size_t>(item)]};
+                       });
     BoxTree& tree = forest.trees.back();
     tree.build(tasks, leaves);
-    for_each_in_parts(tasks, leaves.size(), items_per_task,
-                      [&](std::size_t i)
-                      {
-                          const int leaf = static_cast<int>(i);
-                          m_leaves[static_cast<std::size_t>(tree.item(leaf))] = {static_cast<std::int32_t>(from_tree), leaf};
-                      });
+    for_each_in_chunks(tasks, leaves.size(), items_per_task,
+                       [&](std::size_t i)
+                       {
+                           const int leaf = static_cast<int>(i);
+                           m_leaves[static_cast<std::size_t>(tree.item(leaf))] = {static_cast<std::int32_t>(from_tree), leaf};
+                       });
 }
 
 } // namespace carom::internal

@@ -79,9 +79,9 @@ bool is_farther(const LeafView& v, Point p, double reach)
         return false;
     }
     const Point d = wide(leaf.p1) - wide(leaf.p0);
-    const Point way = p - wide(leaf.p0);
-    const double along = std::clamp(dot(way, d), 0.0, dot(d, d));
-    const Point off = dot(d, d) * way - along * d;
+    const Point displacement = p - wide(leaf.p0);
+    const double along = std::clamp(dot(displacement, d), 0.0, dot(d, d));
+    const Point off = dot(d, d) * displacement - along * d;
     const double most = (reach + static_cast<double>(std::max(leaf.r0, leaf.r1))) * dot(d, d);
     return dot(off, off) > most * most;
 }
@@ -165,9 +165,9 @@ private:
                                        if (is_farther(other.leaf, in(other, p), m_tolerance) ||
                                            nearest(other, p).distance > m_tolerance)
                                            return false;
-                                       const Point way = nearest(other, p + 2 * m_tolerance * n).at - p;
-                                       const double l = magnitude(way);
-                                       return l > 0.002 * m_tolerance && dot(n, way) > 1e-3 * l;
+                                       const Point displacement = nearest(other, p + 2 * m_tolerance * n).at - p;
+                                       const double l = magnitude(displacement);
+                                       return l > 0.002 * m_tolerance && dot(n, displacement) > 1e-3 * l;
                                    });
     }
 

@@ -315,9 +315,9 @@ private:
         const Vector center_v = {m_carrier.center.vx - m_frame.center.vx + t * m_a.x,
                                  m_carrier.center.vy - m_frame.center.vy + t * m_a.y};
         const double center_speed = size(center_v) + rest * size(m_a);
-        const double way = size(r) + 2 * m_reach + rest * center_speed;
+        const double displacement = size(r) + 2 * m_reach + rest * center_speed;
         sight.speed = std::min(speed + rest * (size(m_a) + own + turning * (size(r) + rest * speed)),
-                               center_speed + m_w_probe * m_reach + m_w_frame * way);
+                               center_speed + m_w_probe * m_reach + m_w_frame * displacement);
         sight.bend = own;
         if (turning > 0)
             sight.bend += 2 * m_w_frame * sight.speed + turning * (size(r) + rest * sight.speed);
@@ -331,8 +331,9 @@ private:
         const double rest = m_duration - t;
         const double push = size(m_a) + m_w_probe * m_w_probe * m_reach;
         const double speed = size(v) + m_w_frame * size(r) + rest * push;
-        const double way = size(r) + rest * speed;
-        return m_w_frame * (m_w_frame * (m_w_frame * way + 3 * speed) + 3 * push) + m_w_probe * m_w_probe * m_w_probe * m_reach;
+        const double displacement = size(r) + rest * speed;
+        return m_w_frame * (m_w_frame * (m_w_frame * displacement + 3 * speed) + 3 * push) +
+               m_w_probe * m_w_probe * m_w_probe * m_reach;
     }
 
     // Beyond its ends a piece of a chain leaves everything to its neighbours, but for the corner that it shares with the one before. How far away
@@ -440,7 +441,7 @@ struct FlushBeside
 };
 
 std::optional<Touch> first_touch_of_probe(const Approach& approach, double length, bool probe_on_a, double duration,
-                                          double least_approach, const Press& press, const FlushBeside& flush,
+                                          double least_approach, const MicroCollision& press, const FlushBeside& flush,
                                           std::int64_t& looks)
 {
     double t = 0;
@@ -478,7 +479,7 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
 
 } // namespace
 
-double pressed_speed(double acceleration, const Press& press, double length)
+double pressed_speed(double acceleration, const MicroCollision& press, double length)
 {
     if (acceleration >= 0)
         return 0;
@@ -703,8 +704,8 @@ Axis line_of_centers(const FramePath& a, const FramePath& b)
 }
 
 std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
-                                 double duration, double least_approach, const Press& press, const ProbeSet& held, Axis axis,
-                                 const Flush& flush, std::int64_t* looks)
+                                 double duration, double least_approach, const MicroCollision& press, const ProbeSet& held,
+                                 Axis axis, const Flush& flush, std::int64_t* looks)
 {
     std::int64_t looks_taken = 0;
     const double length = std::min(probe_size(a), probe_size(b));

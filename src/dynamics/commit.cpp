@@ -67,10 +67,10 @@ void commit_kinematic(const StepContext& ctx, int body)
     sim.center += ctx.dt * sim.velocity;
     if (sim.angular_velocity != 0)
     {
-        const float way = ctx.dt * sim.angular_velocity;
-        sim.rotation = renormalized(Rotation::from_angle(way) * sim.rotation);
+        const float displacement = ctx.dt * sim.angular_velocity;
+        sim.rotation = renormalized(Rotation::from_angle(displacement) * sim.rotation);
         count_turns(ctx.state.turns[static_cast<std::size_t>(body)], sim.previous_rotation, sim.rotation,
-                    static_cast<double>(way));
+                    static_cast<double>(displacement));
     }
 }
 
@@ -141,9 +141,10 @@ void commit_state(const StepContext& ctx, std::int32_t index)
         s.flags |= body_flag::unsound;
         return;
     }
-    const Position way{x, y};
-    const Position free = crowded || may_have_passed(ctx, s, body) ? free_way(ctx, body, way, s.delta_rotation) : way;
-    if (free != way)
+    const Position displacement{x, y};
+    const Position free =
+        crowded || may_have_passed(ctx, s, body) ? free_displacement(ctx, body, displacement, s.delta_rotation) : displacement;
+    if (free != displacement)
     {
         s.flags |= body_flag::stopped;
         s.velocity *= without_work(ctx, s, index, x - free.x, y - free.y);
@@ -247,19 +248,19 @@ void commit(StepContext& ctx)
     forget_surroundings(ctx);
     std::atomic<bool> any_unsound{false};
     std::atomic<bool> any_stopped{false};
-    for_each_in_parts(ctx.scene.def.tasks, scratch.solver.state_of.size(), bodies_per_task,
-                      [&](std::size_t place)
-                      {
-                          const std::int32_t i = scratch.solver.state_of[place];
-                          if (i == none)
-                              return;
-                          commit_state(ctx, i);
-                          const std::uint32_t flags = scratch.solver.states[static_cast<std::size_t>(i)].flags;
-                          if ((flags & body_flag::unsound) != 0)
-                              raise(any_unsound);
-                          if ((flags & body_flag::stopped) != 0)
-                              raise(any_stopped);
-                      });
+    for_each_in_chunks(ctx.scene.def.tasks, scratch.solver.state_of.size(), bodies_per_task,
+                       [&](std::size_t place)
+                       {
+                           const std::int32_t i = scratch.solver.state_of[place];
+                           if (i == none)
+                               return;
+                           commit_state(ctx, i);
+                           const std::uint32_t flags = scratch.solver.states[static_cast<std::size_t>(i)].flags;
+                           if ((flags & body_flag::unsound) != 0)
+                               raise(any_unsound);
+                           if ((flags & body_flag::stopped) != 0)
+                               raise(any_stopped);
+                       });
     for (std::size_t i = 0; any_unsound && i < scratch.solver.states.size(); ++i)
     {
         if ((scratch.solver.states[i].flags & body_flag::unsound) != 0)

@@ -31,7 +31,7 @@ void IslandOutput::clear()
     struck_states.clear();
     deflected.clear();
     reaches.clear();
-    hold_sets.clear();
+    resting_sets.clear();
     path.clear();
     last_piece.clear();
     poses.clear();

@@ -158,17 +158,17 @@ void ContactBatch::unlink_destroyed()
 void ContactBatch::fill_made()
 {
     make_room_beside_contacts(m_state);
-    for_each_in_parts(m_scene.def.tasks, m_made.size(), contacts_per_fill,
-                      [&](std::size_t i)
-                      {
-                          Contact& contact = m_state.contacts[m_made[i]];
-                          const std::int32_t index = contact.pair;
-                          const std::int32_t awake_index = contact.awake_index;
-                          const BoxPair& pair = m_state.box_pairs[as_index(index)];
-                          contact = new_contact(m_scene, pair.a, pair.b, index);
-                          contact.awake_index = awake_index;
-                          impulses_of(m_state, m_made[i]) = {};
-                      });
+    for_each_in_chunks(m_scene.def.tasks, m_made.size(), contacts_per_fill,
+                       [&](std::size_t i)
+                       {
+                           Contact& contact = m_state.contacts[m_made[i]];
+                           const std::int32_t index = contact.pair;
+                           const std::int32_t awake_index = contact.awake_index;
+                           const BoxPair& pair = m_state.box_pairs[as_index(index)];
+                           contact = new_contact(m_scene, pair.a, pair.b, index);
+                           contact.awake_index = awake_index;
+                           impulses_of(m_state, m_made[i]) = {};
+                       });
 }
 
 void ContactBatch::link_made()

@@ -96,7 +96,7 @@ struct SeenPair
 }
 
 // Of eight pairs.
-[[gnu::always_inline]] inline void prefetch_boxes(const BoxPlace* places, const BoxPair* pairs)
+[[gnu::always_inline]] inline void prefetch_boxes(const SweptBox* places, const BoxPair* pairs)
 {
     for (const BoxPair& pair : std::span(pairs, lane_count))
     {
@@ -109,7 +109,7 @@ struct SeenPair
 void find_updates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairUpdate>& updates)
 {
     const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
-    const BoxPlace* places = ctx.state.broad_phase.places();
+    const SweptBox* places = ctx.state.broad_phase.places();
     const WideKernels& kernels = wide_kernels();
     const bool are_far = pairs.size() > most_near_pairs;
     const auto add = [&](std::size_t i, std::uint8_t what)
@@ -241,7 +241,7 @@ private:
 void follow_pairs(StepContext& ctx)
 {
     SceneState& state = ctx.state;
-    const std::span<std::vector<PairUpdate>> parts = find_in_parts(
+    const std::span<std::vector<PairUpdate>> parts = find_in_chunks(
         ctx.scene.def.tasks, state.box_pairs.size(), pairs_per_task, ctx.scratch.broad.pair_updates_of_task,
         [&](std::size_t first, std::size_t last, std::vector<PairUpdate>& some) { find_updates(ctx, first, last, some); });
     state.parted_pairs.clear();

@@ -89,12 +89,12 @@ void look_around(const StepContext& ctx, int shape, const FloatBox& box, Pairs& 
 template <class Look>
 void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, std::vector<Pairs>& found, const Look& look)
 {
-    const std::span<Pairs> parts = find_in_parts(ctx.scene.def.tasks, count, part, found,
-                                                 [&](std::size_t first, std::size_t last, Pairs& pairs)
-                                                 {
-                                                     pairs.clear();
-                                                     look(first, last, pairs);
-                                                 });
+    const std::span<Pairs> parts = find_in_chunks(ctx.scene.def.tasks, count, part, found,
+                                                  [&](std::size_t first, std::size_t last, Pairs& pairs)
+                                                  {
+                                                      pairs.clear();
+                                                      look(first, last, pairs);
+                                                  });
     for (const Pairs& some : parts)
         append_all(ctx.scratch.broad.new_pairs, some);
 }
@@ -140,8 +140,8 @@ void look_around_moved(StepContext& ctx)
     if (ctx.scratch.broad.all_fitted)
     {
         const auto blocks = static_cast<std::size_t>(boxes.block_count());
-        for_each_in_parts(ctx.scene.def.tasks, blocks, blocks_per_task,
-                          [&](std::size_t k) { boxes.note_changes(static_cast<int>(k)); });
+        for_each_in_chunks(ctx.scene.def.tasks, blocks, blocks_per_task,
+                           [&](std::size_t k) { boxes.note_changes(static_cast<int>(k)); });
         const MovingBlocks moving = boxes.moving_blocks();
         look_on_all_threads(ctx, blocks, blocks_per_task, ctx.scratch.broad.pairs_of_task,
                             [&](std::size_t first, std::size_t last, Pairs& pairs)
@@ -180,16 +180,16 @@ void forget_pairs_of_fresh(StepContext& ctx)
     using Places = std::vector<std::int32_t>;
     std::vector<Places> found;
     const std::span<Places> parts =
-        find_in_parts(ctx.scene.def.tasks, pairs.size(), boxes_per_task, found,
-                      [&](std::size_t first, std::size_t last, Places& forgotten)
-                      {
-                          forgotten.clear();
-                          for (std::size_t i = first; i < last; ++i)
-                          {
-                              if (pairs[i].contact == none && (is_fresh(state, pairs[i].a) || is_fresh(state, pairs[i].b)))
-                                  forgotten.push_back(static_cast<std::int32_t>(i));
-                          }
-                      });
+        find_in_chunks(ctx.scene.def.tasks, pairs.size(), boxes_per_task, found,
+                       [&](std::size_t first, std::size_t last, Places& forgotten)
+                       {
+                           forgotten.clear();
+                           for (std::size_t i = first; i < last; ++i)
+                           {
+                               if (pairs[i].contact == none && (is_fresh(state, pairs[i].a) || is_fresh(state, pairs[i].b)))
+                                   forgotten.push_back(static_cast<std::int32_t>(i));
+                           }
+                       });
     std::size_t kept = 0;
     std::size_t next = 0;
     const auto keep_until = [&](std::size_t end)
@@ -237,8 +237,8 @@ void settle(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     const std::vector<std::int32_t>& moved = ctx.scratch.broad.moved.items;
-    for_each_in_parts(ctx.scene.def.tasks, moved.size(), boxes_per_task,
-                      [&](std::size_t i) { state.broad_phase.settle(moved[i]); });
+    for_each_in_chunks(ctx.scene.def.tasks, moved.size(), boxes_per_task,
+                       [&](std::size_t i) { state.broad_phase.settle(moved[i]); });
     for (const std::int32_t shape : state.fresh_shapes)
     {
         if (state.broad_phase.has(shape))
@@ -289,12 +289,12 @@ void find_deflected_pairs(StepContext& ctx)
     {
         if (!flier.deflected || !is_awake(state, flier.body))
             continue;
-        const FloatBox way = deflected_box(ctx, flier.body);
+        const FloatBox displacement = deflected_box(ctx, flier.body);
         for_each_leaf(state, flier.body,
                       [&](int shape)
                       {
-                          if (!contains(state.broad_phase.box(shape), way))
-                              look_around(ctx, shape, way, pairs);
+                          if (!contains(state.broad_phase.box(shape), displacement))
+                              look_around(ctx, shape, displacement, pairs);
                       });
     }
     const auto is_trigger = [&](std::uint64_t key)

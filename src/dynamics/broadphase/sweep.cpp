@@ -66,8 +66,8 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     if (record.has_target)
         aim_at_target(sim, state.targets[static_cast<std::size_t>(body)], ctx.dt);
     const Vec2 shift = predicted_shift(ctx, record, sim);
-    const float any_way = free_motion(ctx, body, sim, shift);
-    motion = length(shift) + any_way;
+    const float any_path = free_motion(ctx, body, sim, shift);
+    motion = length(shift) + any_path;
     if (!is_sound(sim, motion))
     {
         moved.unsound.push_back(body);
@@ -79,8 +79,8 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
                   [&](int shape)
                   {
                       const F4 tight = outer_bounds(leaf_view(state, shape), pose);
-                      state.broad_phase.set_path(shape, {box_of(tight), shift, any_way});
-                      const F4 needed = grown(swept(tight, shift, any_way), 0.25f * margin);
+                      state.broad_phase.set_path(shape, {box_of(tight), shift, any_path});
+                      const F4 needed = grown(swept(tight, shift, any_path), 0.25f * margin);
                       const F4 fat = load4(&state.broad_phase.box(shape).lx);
                       if (!contains(fat, needed) || too_wide(fat, needed, margin))
                           move_box(moved, shape, needed, motion, margin);
@@ -241,8 +241,8 @@ bool sweep_all(StepContext& ctx)
     const std::vector<std::int32_t>& bodies = ctx.state.awake_bodies;
     set_size(scratch.broad.motion, bodies.size());
     const std::span<MovedBoxes> parts =
-        find_in_parts(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.broad.moved_of_task,
-                      [&](std::size_t first, std::size_t last, MovedBoxes& moved) { TaskSweep(ctx, first, last, moved).run(); });
+        find_in_chunks(ctx.scene.def.tasks, bodies.size(), bodies_per_task, scratch.broad.moved_of_task,
+                       [&](std::size_t first, std::size_t last, MovedBoxes& moved) { TaskSweep(ctx, first, last, moved).run(); });
     MovedBoxes& all = scratch.broad.moved;
     all.items.clear();
     all.boxes.clear();

@@ -78,16 +78,16 @@ BodyPath::BodyPath(const StepContext& ctx, int body) : m_dt(static_cast<double>(
 
 void BodyPath::measure(double extent)
 {
-    const auto way = [&](const FramePath& p, double time)
+    const auto displacement = [&](const FramePath& p, double time)
     {
         const double speed = length_of(p.center.vx, p.center.vy) + 0.5 * time * length_of(p.center.ax, p.center.ay);
         const double turn = std::fabs(p.w) + 0.5 * time * std::fabs(p.alpha);
         const double arm = static_cast<double>(length(p.local_center - m_start.local_center));
         return time * (speed + turn * (extent + arm));
     };
-    m_reach = way(m_chord, m_pieces.empty() ? m_dt : m_pieces.front().start);
+    m_reach = displacement(m_chord, m_pieces.empty() ? m_dt : m_pieces.front().start);
     for (std::size_t i = 0; i < m_pieces.size(); ++i)
-        m_reach += way(m_pieces[i].path, (i + 1 < m_pieces.size() ? m_pieces[i + 1].start : m_dt) - m_pieces[i].start);
+        m_reach += displacement(m_pieces[i].path, (i + 1 < m_pieces.size() ? m_pieces[i + 1].start : m_dt) - m_pieces[i].start);
 }
 
 // From pose to pose, straight and evenly turning: the very path of a kinematic body.
@@ -137,7 +137,7 @@ FramePath BodyPath::from(double time) const
     return path_after(piece.path, time - piece.start);
 }
 
-double BodyPath::next_bend(double time) const
+double BodyPath::next_curve(double time) const
 {
     const auto next = std::ranges::upper_bound(m_pieces, time, {}, &PathPiece::start);
     return next == m_pieces.end() ? m_dt : std::min(next->start, m_dt);

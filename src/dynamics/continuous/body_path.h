@@ -25,10 +25,10 @@ public:
     [[nodiscard]] const BodyPose& end() const { return m_end; }
     /// No point of the body comes farther from where it set out, m.
     [[nodiscard]] double reach() const { return m_reach; }
-    /// From a time of the step on, until next_bend; relative to the center at the start.
+    /// From a time of the step on, until next_curve; relative to the center at the start.
     [[nodiscard]] FramePath from(double time) const;
     /// The first bend after a time; the end of the step, where none comes.
-    [[nodiscard]] double next_bend(double time) const;
+    [[nodiscard]] double next_curve(double time) const;
 
 private:
     void follow_chord(const StepContext& ctx, int body);

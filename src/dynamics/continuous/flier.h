@@ -11,7 +11,7 @@
 namespace carom::internal {
 
 /// A point at which two shapes rest against each other in flight, for what is left of the sub-step.
-struct Hold
+struct RestingContact
 {
     std::int32_t own = none;
     std::int32_t other = none;
@@ -25,7 +25,7 @@ struct Hold
     std::uint32_t other_corners = 0;
 };
 
-inline constexpr std::int32_t held_by_world = -2; ///< in Flier::carrier: by what does not move
+inline constexpr std::int32_t carried_by_world = -2; ///< in Flier::carrier: by what does not move
 
 /// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
 /// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
@@ -67,16 +67,16 @@ struct Flier
     Vec2 reaction{};          ///< over the step
     float limit_reaction = 0; ///< N m s, of the limits, over the step
 
-    static constexpr int most_held = 12;
-    std::int32_t hold_set = none; ///< in IslandOutput::hold_sets; none: nothing has held it in this step
-    std::int32_t held_count = 0;
+    static constexpr int most_resting = 12;
+    std::int32_t resting_set = none; ///< in IslandOutput::resting_sets; none: nothing has held it in this step
+    std::int32_t resting_count = 0;
     bool rests = false; ///< against something that gives way
     bool led = false;   ///< what holds it does not give way
     double lead_x = 0;  ///< velocity of that where it does not turn
     double lead_y = 0;
-    std::int32_t carrier = none; ///< the one body that holds it, or held_by_world; none: several, or what gives way or conveys
-    double bend_rate = 0;        ///< rad/s at which the way along what holds it bends
-    double hold_until = 0;       ///< time of the sub-step by which what holds it has turned so far that it is looked at again
+    std::int32_t carrier = none; ///< the one body that holds it, or carried_by_world; none: several, or what gives way or conveys
+    double curvature_rate = 0;   ///< rad/s at which the way along what holds it bends
+    double rests_until = 0;      ///< time of the sub-step by which what holds it has turned so far that it is looked at again
 
     // The next event, as last computed.
     double event_time = 0; ///< beyond the sub-step: none
@@ -91,6 +91,6 @@ struct Flier
     bool landed = false;             ///< does not fly: the solver has it, until something makes it fast
 };
 
-using HoldSet = std::array<Hold, Flier::most_held>;
+using RestingContacts = std::array<RestingContact, Flier::most_resting>;
 
 } // namespace carom::internal

@@ -251,7 +251,7 @@ void take_off_with_bats(const FlightSpan& span, Flier& f)
 
 } // namespace
 
-void raise_fast(StepContext& ctx, const Island& island, int k, IslandOutput& output)
+void take_off_fast_movers(StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
     if (island.flier_count == 0)
         return;
@@ -286,7 +286,7 @@ bool flies_freely(const StepContext& ctx, const Island& island)
 
 } // namespace
 
-bool glide(const StepContext& ctx, const Island& island, IslandOutput& output)
+bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& output)
 {
     if (!flies_freely(ctx, island))
         return false;

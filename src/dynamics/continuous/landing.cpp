@@ -1,6 +1,6 @@
 #include "dynamics/continuous/landing.h"
 
-#include "dynamics/continuous/hold.h"
+#include "dynamics/continuous/resting_contact.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/state/body_store.h"
@@ -15,15 +15,15 @@ namespace carom::internal {
 namespace {
 
 // rad: what runs through a tighter bend in a sub-step would leave it before the solver knows, and in the rest of the step come to what has no constraint.
-constexpr double most_bend = 0.25;
-constexpr double most_bend_in_step = 1;
+constexpr double most_curvature = 0.25;
+constexpr double most_curvature_in_step = 1;
 
 // Between two points of one shape, as a plank in a narrow bowl.
-bool is_wedged(std::span<const Hold> holds)
+bool is_wedged(std::span<const RestingContact> holds)
 {
-    for (const Hold& a : holds)
+    for (const RestingContact& a : holds)
     {
-        for (const Hold& b : holds)
+        for (const RestingContact& b : holds)
         {
             if (a.own == b.own && a.other == b.other && dot(a.normal, b.normal) < one_normal)
                 return true;
@@ -84,7 +84,7 @@ private:
         const std::int32_t other = is_a ? contact.shape_b : contact.shape_a;
         const BodyState& a = m_span.state_of(constraint.a);
         const Vec2 center = to_vec2(m_span.sim_of(contact.body_a).center + a.delta_position);
-        for (const Hold& h : m_span.holds_of(m_flier))
+        for (const RestingContact& h : m_span.resting_contacts_of(m_flier))
         {
             if (h.own != own || h.other != other)
                 continue;
@@ -121,10 +121,10 @@ void land(const FlightSpan& span, Flier& f)
 {
     f.landed = true;
     span.output.disturbed = true;
-    const Flier held = f;
-    release_holds(span, f, span.h);
+    const Flier resting = f;
+    release_resting_contacts(span, f, span.h);
     span.state_of(f.state).flags &= ~(body_flag::flier | body_flag::unbound);
-    Landing(span, held).run();
+    Landing(span, resting).run();
 }
 
 // m dv = reaction + contacts + m a h
@@ -157,16 +157,17 @@ void finish_flight(const FlightSpan& span, Flier& f)
     turn_from_start(s, f.angle);
     if (f.joint != none)
         sum_reaction(span, f, center);
-    if (f.held_count == 0 && !f.rests)
+    if (f.resting_count == 0 && !f.rests)
         return;
     const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
     // Along what turns or moves, whose other sides come to meet it: a slice is short, the rest of the sub-step is not.
-    const bool goes_far = f.carrier != none && f.carrier != held_by_world &&
+    const bool goes_far = f.carrier != none && f.carrier != carried_by_world &&
                           span.ctx.subdivisions * span.h * speed_over_carrier(span, f) > 0.5 * f.size;
-    const bool is_beyond_constraints =
-        f.bend_rate * span.h > most_bend || f.bend_rate * left > most_bend_in_step || goes_far || is_wedged(span.holds_of(f));
+    const bool is_beyond_constraints = f.curvature_rate * span.h > most_curvature ||
+                                       f.curvature_rate * left > most_curvature_in_step || goes_far ||
+                                       is_wedged(span.resting_contacts_of(f));
     if (is_beyond_constraints || is_fast(span, f, center.vx, center.vy, f.w) || leaves_its_boxes(span, f))
-        release_holds(span, f, span.h);
+        release_resting_contacts(span, f, span.h);
     else
         land(span, f);
 }

@@ -24,11 +24,11 @@ FlightSpan::FlightSpan(StepContext& context, const Island& u, int substep, Islan
 
 std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, island); }
 
-std::span<const Hold> FlightSpan::holds_of(const Flier& f) const
+std::span<const RestingContact> FlightSpan::resting_contacts_of(const Flier& f) const
 {
-    return f.held_count == 0
-               ? std::span<const Hold>()
-               : std::span(output.hold_sets[static_cast<std::size_t>(f.hold_set)]).first(static_cast<std::size_t>(f.held_count));
+    return f.resting_count == 0 ? std::span<const RestingContact>()
+                                : std::span(output.resting_sets[static_cast<std::size_t>(f.resting_set)])
+                                      .first(static_cast<std::size_t>(f.resting_count));
 }
 
 Flier* FlightSpan::flier_at(std::int32_t state_index) const
@@ -50,7 +50,7 @@ std::int32_t FlightSpan::state_in_island(int body) const
     return s >= island.first_state && s < island.first_state + island.state_count ? s : none;
 }
 
-Press FlightSpan::press(int a, int b) const
+MicroCollision FlightSpan::press(int a, int b) const
 {
     constexpr double shallow = 0.01; // of what is inside them
     const double size = std::min(sim_of(a).size, sim_of(b).size);
@@ -78,8 +78,8 @@ void fall_freely(const FlightSpan& span, Flier& f)
     f.ax = f.joint == none ? static_cast<double>(c.acceleration.x) : 0;
     f.ay = f.joint == none ? static_cast<double>(c.acceleration.y) : 0;
     f.alpha = turning_acceleration(span, f, f.angle);
-    f.held_count = 0;
-    f.bend_rate = 0;
+    f.resting_count = 0;
+    f.curvature_rate = 0;
     f.constrained = false;
 }
 
@@ -137,10 +137,10 @@ void follow_surface(Flier& f, double t)
     const double speed = std::sqrt(f.vx * f.vx + f.vy * f.vy);
     const double along = (f.vx * f.ax + f.vy * f.ay) / speed;
     const double turn = t * (f.vx * f.ay - f.vy * f.ax) / (speed * speed);
-    const double way = t * (speed + 0.5 * t * along);
+    const double displacement = t * (speed + 0.5 * t * along);
     // The chord of an arc of that length and turn.
     const SinCos half = sin_cos(0.5 * turn);
-    const double chord = std::fabs(turn) > 1e-4 ? way * half.sin / (0.5 * turn) : way;
+    const double chord = std::fabs(turn) > 1e-4 ? displacement * half.sin / (0.5 * turn) : displacement;
     const double ux = f.vx / speed;
     const double uy = f.vy / speed;
     f.x += chord * (half.cos * ux - half.sin * uy);
@@ -168,7 +168,7 @@ bool is_led(const Flier& f, double t)
 {
     const double vx = f.vx - f.lead_x;
     const double vy = f.vy - f.lead_y;
-    return f.held_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < vx * vx + vy * vy;
+    return f.resting_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < vx * vx + vy * vy;
 }
 
 // How it moves as what holds it sees it.
@@ -187,7 +187,7 @@ struct Seen
 Seen as_seen_from_carrier(const FlightSpan& span, const Flier& f)
 {
     Seen seen;
-    if (f.carrier != held_by_world)
+    if (f.carrier != carried_by_world)
     {
         const BodySim& own = span.sim_of(f.body);
         const BodySim& carrier = span.sim_of(f.carrier);
@@ -225,8 +225,8 @@ double twice_work(const FlightSpan& span, const Flier& f, const Flier& before, c
 {
     const StateConstants& c = span.constants_of(f.state);
     const double t = f.time - before.time;
-    const auto work = [&](double inverse_mass, float acceleration, double way, double carrier_speed)
-    { return over(2 * static_cast<double>(acceleration) * (way - t * carrier_speed), inverse_mass); };
+    const auto work = [&](double inverse_mass, float acceleration, double displacement, double carrier_speed)
+    { return over(2 * static_cast<double>(acceleration) * (displacement - t * carrier_speed), inverse_mass); };
     return work(f.inverse_mass_x, c.acceleration.x, f.x - before.x, 0.5 * (s.carrier_vx + s_before.carrier_vx)) +
            work(f.inverse_mass_y, c.acceleration.y, f.y - before.y, 0.5 * (s.carrier_vy + s_before.carrier_vy)) +
            work(f.inverse_inertia, c.angular_acceleration, f.angle - before.angle, s.carrier_w);
@@ -259,8 +259,9 @@ namespace {
 // A body that may not move along every axis has no potential on what turns.
 bool may_gain(const FlightSpan& span, const Flier& f)
 {
-    return f.held_count > 0 && f.joint == none && f.carrier != none &&
-           (f.carrier == held_by_world || f.inverse_mass_x == f.inverse_mass_y || span.sim_of(f.carrier).angular_velocity == 0);
+    return f.resting_count > 0 && f.joint == none && f.carrier != none &&
+           (f.carrier == carried_by_world || f.inverse_mass_x == f.inverse_mass_y ||
+            span.sim_of(f.carrier).angular_velocity == 0);
 }
 
 } // namespace

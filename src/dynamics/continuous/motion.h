@@ -30,7 +30,7 @@ struct FlightSpan
     FlightSpan(StepContext& context, const Island& u, int substep, IslandOutput& out);
 
     [[nodiscard]] std::span<Flier> fliers() const;
-    [[nodiscard]] std::span<const Hold> holds_of(const Flier& f) const;
+    [[nodiscard]] std::span<const RestingContact> resting_contacts_of(const Flier& f) const;
     [[nodiscard]] Flier* flier_at(std::int32_t state_index) const; ///< nothing for what does not fly or has landed
     [[nodiscard]] BodyState& state_of(std::int32_t index) const { return scratch.solver.states[static_cast<std::size_t>(index)]; }
     [[nodiscard]] const StateConstants& constants_of(std::int32_t i) const
@@ -41,7 +41,7 @@ struct FlightSpan
     /// The state of a dynamic body of this island; none: it does not move, or belongs elsewhere.
     [[nodiscard]] std::int32_t state_in_island(int body) const;
     /// Of two that both give way none holds the other; what presses them together is taken in small blows.
-    [[nodiscard]] Press press(int body_a, int body_b) const;
+    [[nodiscard]] MicroCollision press(int body_a, int body_b) const;
     [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }
 };
 

@@ -23,17 +23,17 @@ namespace {
 constexpr std::int64_t most_looks = 50'000;
 
 // Of a pair whose other corners may come down yet: held at one of them it turns about that.
-ProbeSet held_corners(std::span<const Hold> holds, std::int32_t own, std::int32_t other)
+ProbeSet resting_corners(std::span<const RestingContact> holds, std::int32_t own, std::int32_t other)
 {
-    ProbeSet held;
-    for (const Hold& h : holds)
+    ProbeSet resting;
+    for (const RestingContact& h : holds)
     {
         if (h.own != own || h.other != other)
             continue;
-        held.of_a |= h.other_corners;
-        held.of_b |= h.own_corners;
+        resting.of_a |= h.other_corners;
+        resting.of_b |= h.own_corners;
     }
-    return held;
+    return resting;
 }
 
 // Bodies come nearer in the order in which they could be met: after the first hit most of a crowd is too late.
@@ -79,7 +79,7 @@ private:
     static constexpr int offers_of_a_look = 8;     // so much cheaper are they
 
     // Most of a crowd never ask.
-    [[nodiscard]] const Way& own_way()
+    [[nodiscard]] const Way& own_displacement()
     {
         if (!m_own)
             m_own = Way{path_from(m_span, m_flier.body, m_flier.time, m_origin), reach_of(m_span, m_flier.body)};
@@ -125,7 +125,7 @@ private:
     // Before that time the bodies cannot meet. Only what is awake in this island has a known way.
     [[nodiscard]] double meeting_with(int body)
     {
-        return m_span.state_in_island(body) == none ? 0 : first_meeting(own_way().reach, reach_of(m_span, body));
+        return m_span.state_in_island(body) == none ? 0 : first_meeting(own_displacement().reach, reach_of(m_span, body));
     }
 
     // The angle reaches a limit of the hinge: the first root of angle + w t + alpha t²/2.
@@ -186,7 +186,7 @@ private:
         const std::vector<Reach>& reaches = m_span.output.reaches;
         for (std::size_t i = 0; i < reaches.size(); ++i)
         {
-            const double time = first_meeting(own_way().reach, reaches[i]);
+            const double time = first_meeting(own_displacement().reach, reaches[i]);
             if (time > m_span.h || time >= m_flier.event_time)
                 continue;
             const int body = m_span.scratch.flight.fliers[static_cast<std::size_t>(m_span.output.deflected[i])].body;
@@ -248,7 +248,8 @@ private:
         if (left < 0)
             return;
         const FramePath target = path_from(m_span, body, start, m_origin);
-        const FramePath own_path = start > m_flier.time ? path_after(own_way().path, start - m_flier.time) : own_way().path;
+        const FramePath own_path =
+            start > m_flier.time ? path_after(own_displacement().path, start - m_flier.time) : own_displacement().path;
         const LeafView a = leaf_view(state, shape);
         const LeafView b = leaf_view(state, own);
         ++m_flier.looks;
@@ -261,9 +262,9 @@ private:
         const auto find = [&](const Flush& flush)
         {
             return first_touch(a, target, b, own_path, left, m_span.least_approach,
-                               state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : Press{},
-                               held_corners(m_span.holds_of(m_flier), own, shape), normal.is_none() ? line : normal, flush,
-                               &m_flier.looks);
+                               state.bodies[body].type == BodyType::Dynamic ? m_span.press(body, m_flier.body) : MicroCollision{},
+                               resting_corners(m_span.resting_contacts_of(m_flier), own, shape), normal.is_none() ? line : normal,
+                               flush, &m_flier.looks);
         };
         std::optional<Touch> hit = find({});
         if (hit)
@@ -326,7 +327,7 @@ private:
         const LeafType type = state.shapes[shape].leaf.type;
         if (state.bodies[body].type != BodyType::Static || (type != LeafType::Segment && type != LeafType::Arc))
             return false;
-        const Reach& own = own_way().reach;
+        const Reach& own = own_displacement().reach;
         const BodySim& sim = m_span.sim_of(body);
         const double x = own.x - sim.center.x;
         const double y = own.y - sim.center.y;
@@ -423,9 +424,9 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
     f.event_time = time_in_list(span, f) = 1e300;
     if (looks_for_none(span, f))
         return true;
-    if (f.held_count > 0 && f.hold_until < span.h)
+    if (f.resting_count > 0 && f.rests_until < span.h)
     { // its path is that of the hold for so long
-        f.event_time = f.hold_until;
+        f.event_time = f.rests_until;
         f.event_own = f.event_shape = f.event_state = none;
         f.event_version = 0;
     }

@@ -48,10 +48,10 @@ FloatBox box_around(Position start, double radius, double dx, double dy)
 }
 
 // The part of a way that the core of a shape can go before it meets a wall.
-double free_part(const StepContext& ctx, int shape, const Core& core, Position start, Position way)
+double free_part(const StepContext& ctx, int shape, const Core& core, Position start, Position displacement)
 {
     const SceneState& state = ctx.state;
-    const FramePath path{{0, 0, way.x, way.y, 0, 0}};
+    const FramePath path{{0, 0, displacement.x, displacement.y, 0, 0}};
     const Leaf disc = {.type = LeafType::Circle, .r0 = static_cast<float>(core.radius)};
     double part = 1;
     const auto visit = [&](int other)
@@ -67,7 +67,7 @@ double free_part(const StepContext& ctx, int shape, const Core& core, Position s
             part = hit->time; // 0 where the core is in the wall already and would go deeper
         return true;
     };
-    const FloatBox box = box_around(start, core.radius, way.x, way.y);
+    const FloatBox box = box_around(start, core.radius, displacement.x, displacement.y);
     state.broad_phase.query(Layer::Resting, box, visit);
     for (const std::int32_t half_space : state.broad_phase.unbounded())
     {
@@ -119,11 +119,11 @@ void forget_surroundings(StepContext& ctx)
     ctx.scratch.flight.surroundings.assign(static_cast<std::size_t>(ctx.state.broad_phase.block_count()), Surroundings::Unknown);
 }
 
-Position free_way(const StepContext& ctx, int body, Position way, Rotation turn)
+Position free_displacement(const StepContext& ctx, int body, Position displacement, Rotation turn)
 {
     const SceneState& state = ctx.state;
-    if (!may_meet_walls(ctx, body, way.x, way.y))
-        return way;
+    if (!may_meet_walls(ctx, body, displacement.x, displacement.y))
+        return displacement;
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     bool met = true;
     for (int pass = 0; pass < most_passes && met; ++pass)
@@ -136,15 +136,15 @@ Position free_way(const StepContext& ctx, int body, Position way, Rotation turn)
             const Core core = core_of(leaf_view(state, shape));
             const Vec2 arm = rotate(sim.rotation, core.center - sim.local_center);
             const Vec2 turned = rotate(turn, arm) - arm;
-            const Position own{way.x + static_cast<double>(turned.x), way.y + static_cast<double>(turned.y)};
+            const Position own{displacement.x + static_cast<double>(turned.x), displacement.y + static_cast<double>(turned.y)};
             const double part = free_part(ctx, shape, core, sim.center + arm, own);
             met |= part < nearly_all;
-            way.x -= (1 - part) * own.x;
-            way.y -= (1 - part) * own.y;
+            displacement.x -= (1 - part) * own.x;
+            displacement.y -= (1 - part) * own.y;
         };
         for_each_leaf(state, body, stop);
     }
-    return met ? Position{} : way;
+    return met ? Position{} : displacement;
 }
 
 } // namespace carom::internal

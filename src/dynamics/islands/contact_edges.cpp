@@ -35,8 +35,8 @@ public:
     ContactWalk(const StepContext& ctx, EdgesOfTask& some)
         : m_ctx(ctx), m_contacts(&ctx.state.contacts[0]), m_places(ctx.scratch.graph.places.data()),
           m_lane_marks(ctx.state.lane_marks.data()), m_is_loaded(ctx.scratch.graph.is_loaded.data()),
-          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(some.links.data() + some.count),
-          m_old_end(some.links.data() + some.to_compare), m_stay(some.stay), m_touching(some.touching)
+          m_nobody(static_cast<std::int32_t>(ctx.state.awake_bodies.size())), m_next(some.edges.data() + some.count),
+          m_old_end(some.edges.data() + some.to_compare), m_stay(some.stay), m_touching(some.touching)
     {}
 
     // Links it where it takes part in the step. Whom it loads does not fly.
@@ -61,13 +61,13 @@ public:
         const bool loaded = solved && is_loaded(m_ctx, contact, least_separation(contact.manifold));
         note_load(a, loaded);
         note_load(b, loaded);
-        link(index, a, b, flags(contact, solved));
+        edge(index, a, b, flags(contact, solved));
         m_touching += touching ? 1 : 0;
     }
 
     void leave(EdgesOfTask& some) const
     {
-        some.count = static_cast<std::size_t>(m_next - some.links.data());
+        some.count = static_cast<std::size_t>(m_next - some.edges.data());
         some.stay = m_stay;
         some.touching = m_touching;
     }
@@ -82,7 +82,7 @@ private:
     }
 
     // Filled where it stands: a copy would wait for its bytes.
-    void link(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t flags)
+    void edge(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t flags)
     {
         ContactEdge& l = *m_next;
         if (m_stay)
@@ -91,7 +91,7 @@ private:
         l.a = a;
         l.b = b;
         l.flags = flags;
-        l.bin = 0;
+        l.bucket = 0;
         ++m_next;
     }
 
@@ -130,10 +130,10 @@ ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
     add_tasks(1, 1);
     // Links of the last step are compared with these, and give their place to them.
     EdgesOfTask& all = edges_of(0);
-    all.links.swap(scratch.graph.links);
+    all.edges.swap(scratch.graph.edges);
     all.stay = scratch.cached_graph.are_plain;
-    all.to_compare = all.stay ? all.links.size() : 0;
-    set_size(all.links, std::max(all.links.size(), ctx.state.awake_contacts.size()));
+    all.to_compare = all.stay ? all.edges.size() : 0;
+    set_size(all.edges, std::max(all.edges.size(), ctx.state.awake_contacts.size()));
 }
 
 // That have asked nothing yet.
@@ -146,7 +146,7 @@ void ContactEdges::add_tasks(std::size_t contacts, std::size_t contacts_to_a_tas
     for (std::size_t task = first; task < m_tasks; ++task)
     {
         EdgesOfTask& some = all[task];
-        set_size(some.links, std::max(some.links.size(), contacts_to_a_task));
+        set_size(some.edges, std::max(some.edges.size(), contacts_to_a_task));
         some.count = some.to_compare = 0;
         some.stay = false;
         some.touching = 0;
@@ -175,22 +175,22 @@ void ContactEdges::ask_later(std::span<const std::int32_t> contacts)
     place_bodies(m_ctx);
     const std::size_t first_task = m_tasks;
     if (m_alone)
-        set_size(edges_of(0).links, std::max(edges_of(0).links.size(), m_ctx.state.awake_contacts.size()));
+        set_size(edges_of(0).edges, std::max(edges_of(0).edges.size(), m_ctx.state.awake_contacts.size()));
     else
         add_tasks(contacts.size(), contacts_per_task);
-    run_parts(m_ctx.scene.def.tasks, contacts.size(), contacts_per_task,
-              [&](std::size_t first, std::size_t last)
-              {
-                  EdgesOfTask& some = edges_of(first_task + first / contacts_per_task);
-                  ContactWalk walk(m_ctx, some);
-                  for (std::size_t i = first; i < last; ++i)
-                  {
-                      if (i + prefetch_distance < last)
-                          prefetch(m_ctx.state.contacts[contacts[i + prefetch_distance]]);
-                      walk.visit(contacts[i]);
-                  }
-                  walk.leave(some);
-              });
+    run_chunks(m_ctx.scene.def.tasks, contacts.size(), contacts_per_task,
+               [&](std::size_t first, std::size_t last)
+               {
+                   EdgesOfTask& some = edges_of(first_task + first / contacts_per_task);
+                   ContactWalk walk(m_ctx, some);
+                   for (std::size_t i = first; i < last; ++i)
+                   {
+                       if (i + prefetch_distance < last)
+                           prefetch(m_ctx.state.contacts[contacts[i + prefetch_distance]]);
+                       walk.visit(contacts[i]);
+                   }
+                   walk.leave(some);
+               });
 }
 
 void ContactEdges::join()
@@ -206,21 +206,21 @@ void ContactEdges::join()
     }
     if (m_alone)
     {
-        parts[0].links.resize(count);
-        scratch.graph.links.swap(parts[0].links);
+        parts[0].edges.resize(count);
+        scratch.graph.edges.swap(parts[0].edges);
         scratch.cached_graph.edges_are_unchanged = parts[0].stay && count == parts[0].to_compare;
         return;
     }
-    const bool may_stay = scratch.cached_graph.are_plain && scratch.graph.links.size() == count;
-    set_size(scratch.graph.links, count);
-    for_each_in_parts(m_ctx.scene.def.tasks, parts.size(), parts_joined_at_once,
-                      [&](std::size_t i)
-                      {
-                          const auto found = std::span(parts[i].links).first(parts[i].count);
-                          const auto to = scratch.graph.links.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
-                          parts[i].stay = may_stay && std::equal(found.begin(), found.end(), to, is_same);
-                          std::ranges::copy(found, to);
-                      });
+    const bool may_stay = scratch.cached_graph.are_plain && scratch.graph.edges.size() == count;
+    set_size(scratch.graph.edges, count);
+    for_each_in_chunks(m_ctx.scene.def.tasks, parts.size(), parts_joined_at_once,
+                       [&](std::size_t i)
+                       {
+                           const auto found = std::span(parts[i].edges).first(parts[i].count);
+                           const auto to = scratch.graph.edges.begin() + static_cast<std::ptrdiff_t>(parts[i].first);
+                           parts[i].stay = may_stay && std::equal(found.begin(), found.end(), to, is_same);
+                           std::ranges::copy(found, to);
+                       });
     scratch.cached_graph.edges_are_unchanged = may_stay && std::ranges::all_of(parts, &EdgesOfTask::stay);
 }
 

@@ -39,9 +39,9 @@ public:
         scratch.meetings.reach_tree.build(ctx.scene.def.tasks, scratch.meetings.reaches);
         using Meetings = std::vector<std::pair<std::int32_t, std::int32_t>>;
         const auto blocks = static_cast<std::size_t>(scratch.meetings.reach_tree.block_count());
-        const std::span<Meetings> parts =
-            find_in_parts(ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings.meetings_of_task,
-                          [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
+        const std::span<Meetings> parts = find_in_chunks(
+            ctx.scene.def.tasks, blocks, reaches_per_task, scratch.meetings.meetings_of_task,
+            [&](std::size_t first, std::size_t last, Meetings& meetings) { find_meetings(first, last, meetings); });
         scratch.graph.sets.reset(scratch.graph.tallies.size());
         bool linked = false;
         for (const Meetings& some : parts)
@@ -59,8 +59,8 @@ private:
         scratch.meetings.is_deflected.assign(state.awake_bodies.size(), 0);
         find_fastest();
         const std::span<SomeReaches> parts =
-            find_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task, scratch.meetings.reaches_of_task,
-                          [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
+            find_in_chunks(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task, scratch.meetings.reaches_of_task,
+                           [&](std::size_t first, std::size_t last, SomeReaches& some) { find_reaches(first, last, some); });
         scratch.meetings.reaches.clear();
         std::vector<std::int32_t>& shapes = scratch.order;
         shapes.clear();
@@ -77,25 +77,26 @@ private:
     void find_fastest()
     {
         for (IslandTally& t : scratch.graph.tallies)
-            t.longest_way = 0;
+            t.longest_path = 0;
         set_size(scratch.meetings.may_meet, state.awake_bodies.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
-                          [&](std::size_t i)
-                          {
-                              const std::int32_t place = scratch.graph.flying[i];
-                              if (!flies_far(place))
-                                  return;
-                              const bool meets = may_meet(place);
-                              scratch.meetings.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
-                              if (!meets)
-                                  return;
-                              const float way = scratch.broad.motion[static_cast<std::size_t>(place)];
-                              const std::atomic_ref longest(tally_of(scratch, place).longest_way);
-                              float before = longest.load(std::memory_order_relaxed);
-                              while (before < way && !longest.compare_exchange_weak(before, way, std::memory_order_relaxed))
-                              {
-                              }
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
+                           [&](std::size_t i)
+                           {
+                               const std::int32_t place = scratch.graph.flying[i];
+                               if (!flies_far(place))
+                                   return;
+                               const bool meets = may_meet(place);
+                               scratch.meetings.may_meet[static_cast<std::size_t>(place)] = meets ? 1 : 0;
+                               if (!meets)
+                                   return;
+                               const float displacement = scratch.broad.motion[static_cast<std::size_t>(place)];
+                               const std::atomic_ref longest(tally_of(scratch, place).longest_path);
+                               float before = longest.load(std::memory_order_relaxed);
+                               while (before < displacement &&
+                                      !longest.compare_exchange_weak(before, displacement, std::memory_order_relaxed))
+                               {
+                               }
+                           });
     }
 
     void find_reaches(std::size_t first, std::size_t last, SomeReaches& some) const
@@ -106,13 +107,14 @@ private:
         {
             const std::int32_t item = scratch.graph.flying[i];
             const auto place = static_cast<std::size_t>(item);
-            const float way = scratch.graph.tallies[static_cast<std::size_t>(scratch.graph.island_of[place])].longest_way;
-            if (way == 0 || !(flies_far(item) ? scratch.meetings.may_meet[place] != 0 : may_meet(item)))
+            const float displacement =
+                scratch.graph.tallies[static_cast<std::size_t>(scratch.graph.island_of[place])].longest_path;
+            if (displacement == 0 || !(flies_far(item) ? scratch.meetings.may_meet[place] != 0 : may_meet(item)))
                 continue;
             scratch.meetings.is_deflected[place] = 1;
             const int body = body_at(item);
             const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-            const double r = static_cast<double>(way) + static_cast<double>(sim.extent);
+            const double r = static_cast<double>(displacement) + static_cast<double>(sim.extent);
             const Position c = sim.center;
             some.reaches.push_back({round_outwards(c.x - r, c.y - r, c.x + r, c.y + r), item});
             for_each_leaf(state, body, [&](int shape) { some.shapes.push_back(shape); });

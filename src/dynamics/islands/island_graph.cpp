@@ -46,7 +46,7 @@ public:
     // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
     void join_islands()
     {
-        const int worth = 1 + static_cast<int>((scratch.graph.links.size() + scratch.graph.joint_edges.size()) / edges_per_task);
+        const int worth = 1 + static_cast<int>((scratch.graph.edges.size() + scratch.graph.joint_edges.size()) / edges_per_task);
         const int parts = std::clamp(ctx.scene.def.tasks.worker_count, 1, std::min(worth, most_sets));
         if (scratch.graph.more_sets.size() + 1 < static_cast<std::size_t>(parts))
             scratch.graph.more_sets.resize(static_cast<std::size_t>(parts) - 1);
@@ -59,40 +59,40 @@ public:
 
     void gather_part(int part, int parts, UnionFind& sets)
     {
-        const auto over_both_ends = [&](const auto& links, const auto& visit)
+        const auto over_both_ends = [&](const auto& edges, const auto& visit)
         {
             const auto bound = [&](int p)
-            { return links.size() * static_cast<std::size_t>(p) / static_cast<std::size_t>(parts); };
-            for (const auto& l : std::span(links).subspan(bound(part), bound(part + 1) - bound(part)))
+            { return edges.size() * static_cast<std::size_t>(p) / static_cast<std::size_t>(parts); };
+            for (const auto& l : std::span(edges).subspan(bound(part), bound(part + 1) - bound(part)))
                 visit(l.a, l.b); // what is not dynamic has no place: it is negative
         };
         const auto guess = [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); };
-        const auto link = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
+        const auto edge = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
         sets.reset(state.awake_bodies.size());
-        over_both_ends(scratch.graph.links, guess);
+        over_both_ends(scratch.graph.edges, guess);
         over_both_ends(scratch.graph.joint_edges, guess);
         sets.flatten();
-        over_both_ends(scratch.graph.links, link);
-        over_both_ends(scratch.graph.joint_edges, link);
+        over_both_ends(scratch.graph.edges, edge);
+        over_both_ends(scratch.graph.joint_edges, edge);
         sets.flatten();
     }
 
     // In a crowd only fast movers fly: the others' contacts are speculative, and a contact more or less does not decide their
     // way.
-    void ground_crowds()
+    void keep_crowds_from_flight()
     {
         for (const std::int32_t place : scratch.graph.flying)
             ++tally_of(scratch, place).unloaded;
-        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
-                          [&](std::size_t i)
-                          {
-                              const std::int32_t place = scratch.graph.flying[i];
-                              std::int32_t& flight = scratch.graph.flight[static_cast<std::size_t>(place)];
-                              if (is_crowd(tally_of(scratch, place).unloaded) && !is_fast_mover(body_at(place)))
-                                  scratch.graph.grounded[static_cast<std::size_t>(place)] = std::exchange(flight, earthbound);
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
+                           [&](std::size_t i)
+                           {
+                               const std::int32_t place = scratch.graph.flying[i];
+                               std::int32_t& flight = scratch.graph.flight[static_cast<std::size_t>(place)];
+                               if (is_crowd(tally_of(scratch, place).unloaded) && !is_fast_mover(body_at(place)))
+                                   scratch.graph.could_fly[static_cast<std::size_t>(place)] = std::exchange(flight, solver_owned);
+                           });
         std::erase_if(scratch.graph.flying,
-                      [&](std::int32_t place) { return scratch.graph.flight[static_cast<std::size_t>(place)] == earthbound; });
+                      [&](std::int32_t place) { return scratch.graph.flight[static_cast<std::size_t>(place)] == solver_owned; });
         for (const std::int32_t place : scratch.graph.flying)
             ++tally_of(scratch, place).fliers;
     }
@@ -120,7 +120,7 @@ public:
     {
         if (!may_have_soft_joints(scratch.graph.joint_edges.size()))
             return;
-        for (const ContactEdge& l : scratch.graph.links)
+        for (const ContactEdge& l : scratch.graph.edges)
         {
             if (!l.has(edge_flag::solved))
                 continue;
@@ -161,12 +161,12 @@ public:
         ctx.report.islands = static_cast<int>(scratch.graph.tallies.size());
         if (scratch.solver.islands.size() == scratch.graph.tallies.size())
             return;
-        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
-                          [&](std::size_t place)
-                          {
-                              std::int32_t& u = scratch.graph.island_of[place];
-                              u = u == none ? none : island_of_group[static_cast<std::size_t>(u)];
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
+                           [&](std::size_t place)
+                           {
+                               std::int32_t& u = scratch.graph.island_of[place];
+                               u = u == none ? none : island_of_group[static_cast<std::size_t>(u)];
+                           });
     }
 
     struct Batch
@@ -179,13 +179,13 @@ public:
     void find_isolated()
     {
         set_size(scratch.graph.is_isolated, state.awake_bodies.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
-                          [&](std::size_t i)
-                          {
-                              const std::int32_t place = scratch.graph.flying[i];
-                              const bool isolated = tally_of(scratch, place).bodies == 1 && is_isolated(place);
-                              scratch.graph.is_isolated[static_cast<std::size_t>(place)] = isolated ? 1 : 0;
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
+                           [&](std::size_t i)
+                           {
+                               const std::int32_t place = scratch.graph.flying[i];
+                               const bool isolated = tally_of(scratch, place).bodies == 1 && is_isolated(place);
+                               scratch.graph.is_isolated[static_cast<std::size_t>(place)] = isolated ? 1 : 0;
+                           });
     }
 
     [[nodiscard]] bool is_isolated(std::int32_t place) const
@@ -208,7 +208,7 @@ public:
         for (const int index : contacts_of(state, body))
         {
             const Contact& contact = state.contacts[index];
-            if (contact.manifold.count > 0 || !tells_apart(contact) || (contact.flags & contact_flag::trigger) != 0)
+            if (contact.manifold.count > 0 || !means_apart(contact) || (contact.flags & contact_flag::trigger) != 0)
                 return false;
         }
         return true;
@@ -258,12 +258,12 @@ public:
                 tally(scratch, numbers[u]).bodies += old.bodies;
         }
         scratch.graph.tallies.resize(static_cast<std::size_t>(count));
-        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
-                          [&](std::size_t place)
-                          {
-                              std::int32_t& island = scratch.graph.island_of[place]; // kinematic bodies have none
-                              island = island == none ? none : numbers[static_cast<std::size_t>(island)];
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
+                           [&](std::size_t place)
+                           {
+                               std::int32_t& island = scratch.graph.island_of[place]; // kinematic bodies have none
+                               island = island == none ? none : numbers[static_cast<std::size_t>(island)];
+                           });
     }
 
     // Bodies in flight meet things at their own time; a constraint would stop them early.
@@ -273,22 +273,22 @@ public:
     }
     [[nodiscard]] bool in_flight(std::int32_t place) const
     {
-        return place >= 0 && scratch.graph.flight[static_cast<std::size_t>(place)] != earthbound;
+        return place >= 0 && scratch.graph.flight[static_cast<std::size_t>(place)] != solver_owned;
     }
 
     // On all threads: what follows goes by these alone.
     void find_islands_of_edges()
     {
-        set_size(scratch.graph.island_of_edge, scratch.graph.links.size());
+        set_size(scratch.graph.island_of_edge, scratch.graph.edges.size());
         using Some = std::vector<KinematicMeeting>;
-        const std::span<Some> parts = find_in_parts(
-            ctx.scene.def.tasks, scratch.graph.links.size(), edges_per_task, scratch.graph.meetings_with_kinematic_of_task,
+        const std::span<Some> parts = find_in_chunks(
+            ctx.scene.def.tasks, scratch.graph.edges.size(), edges_per_task, scratch.graph.meetings_with_kinematic_of_task,
             [&](std::size_t first, std::size_t last, Some& meetings)
             {
                 meetings.clear();
                 for (std::size_t i = first; i < last; ++i)
                 {
-                    const ContactEdge& l = scratch.graph.links[i];
+                    const ContactEdge& l = scratch.graph.edges[i];
                     const std::int32_t island = scratch.graph.island_of_edge[i] = island_of_constraint(l);
                     const std::int32_t kinematic = std::min(l.a, l.b); // if either is
                     if (kinematic < none && island != none)
@@ -299,7 +299,7 @@ public:
         for (const Some& some : parts)
             append_all(scratch.graph.meetings_with_kinematic, some);
         std::ranges::sort(scratch.graph.meetings_with_kinematic, {},
-                          [](const KinematicMeeting& m) { return std::pair(m.island, m.link); });
+                          [](const KinematicMeeting& m) { return std::pair(m.island, m.edge); });
     }
 
     void sort_joints()
@@ -366,11 +366,11 @@ void build_island_graph(StepContext& ctx)
     IslandGraph graph(ctx);
     graph.join_islands();
     run_both(ctx.scene.def.tasks, [&] { graph.number_islands(); }, [&] { graph.sort_by_cell(); });
-    graph.ground_crowds();
+    graph.keep_crowds_from_flight();
     while (join_deflected(ctx))
     {
         graph.renumber_islands();
-        graph.ground_crowds();
+        graph.keep_crowds_from_flight();
     }
     graph.count_contacts();
     find_subdivisions(ctx);

@@ -48,7 +48,7 @@ public:
     void forget_bodies()
     {
         scratch.graph.flight.clear();
-        scratch.graph.grounded.clear();
+        scratch.graph.could_fly.clear();
         scratch.graph.is_loaded.clear();
         scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hung = false;
         for (const std::int32_t body :
@@ -66,21 +66,21 @@ public:
         const std::size_t count = state.awake_bodies.size();
         scratch.graph.placed.insert(scratch.graph.placed.end(), state.awake_bodies.begin() + static_cast<std::ptrdiff_t>(first),
                                     state.awake_bodies.end());
-        scratch.graph.flight.resize(count, earthbound);
-        scratch.graph.grounded.resize(count, earthbound);
+        scratch.graph.flight.resize(count, solver_owned);
+        scratch.graph.could_fly.resize(count, solver_owned);
         scratch.graph.is_loaded.resize(first); // but for nobody's
         scratch.graph.is_loaded.resize(count + 1);
-        for_each_in_parts(ctx.scene.def.tasks, count - first, bodies_per_task,
-                          [&](std::size_t k)
-                          {
-                              const std::size_t i = first + k;
-                              prefetch_hinge_of(i + prefetch_distance);
-                              const int body = state.awake_bodies[i];
-                              note_place(body, static_cast<std::int32_t>(i));
-                              note_uneven(body);
-                              if (ctx.scene.def.continuous)
-                                  scratch.graph.flight[i] = kind_of_flight(body);
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, count - first, bodies_per_task,
+                           [&](std::size_t k)
+                           {
+                               const std::size_t i = first + k;
+                               prefetch_hinge_of(i + prefetch_distance);
+                               const int body = state.awake_bodies[i];
+                               note_place(body, static_cast<std::int32_t>(i));
+                               note_uneven(body);
+                               if (ctx.scene.def.continuous)
+                                   scratch.graph.flight[i] = kind_of_flight(body);
+                           });
     }
 
     // A body that a contact loads does not fly. No branch asks which do: it would be guessed wrong.
@@ -92,10 +92,10 @@ public:
         {
             const bool loaded = scratch.graph.is_loaded[i] != 0;
             const std::int32_t flight = scratch.graph.flight[i];
-            scratch.graph.grounded[i] = loaded ? flight : scratch.graph.grounded[i];
-            scratch.graph.flight[i] = loaded ? earthbound : flight;
+            scratch.graph.could_fly[i] = loaded ? flight : scratch.graph.could_fly[i];
+            scratch.graph.flight[i] = loaded ? solver_owned : flight;
             scratch.graph.flying[count] = static_cast<std::int32_t>(i);
-            count += scratch.graph.flight[i] != earthbound ? 1 : 0;
+            count += scratch.graph.flight[i] != solver_owned ? 1 : 0;
         }
         scratch.graph.flying.resize(count);
     }
@@ -113,16 +113,16 @@ public:
         using Some = std::vector<JointEdge>;
         const auto joints = static_cast<std::size_t>(state.joints.capacity());
         const std::span<Some> parts =
-            find_in_parts(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.graph.joints_of_task,
-                          [&](std::size_t first, std::size_t last, Some& some)
-                          {
-                              some.clear();
-                              for (auto j = static_cast<int>(first); j < static_cast<int>(last); ++j)
-                              {
-                                  if (state.joints.is_live(j))
-                                      gather_joint(j, some);
-                              }
-                          });
+            find_in_chunks(ctx.scene.def.tasks, joints, part_of(joints, joints_per_task), scratch.graph.joints_of_task,
+                           [&](std::size_t first, std::size_t last, Some& some)
+                           {
+                               some.clear();
+                               for (auto j = static_cast<int>(first); j < static_cast<int>(last); ++j)
+                               {
+                                   if (state.joints.is_live(j))
+                                       gather_joint(j, some);
+                               }
+                           });
         if (parts.size() == 1)
         {
             scratch.graph.joint_edges.swap(parts[0]);
@@ -162,12 +162,12 @@ private:
     [[nodiscard]] std::int32_t kind_of_flight(int body) const
     {
         if (state.bodies[body].type != BodyType::Dynamic)
-            return earthbound;
+            return solver_owned;
         const std::int32_t kind = flight_of(state, body);
-        if (kind == earthbound || kind == none)
+        if (kind == solver_owned || kind == none)
             return kind;
         if (!is_closed(ctx, kind, body))
-            return earthbound;
+            return solver_owned;
         std::atomic_ref(scratch.graph.has_hung).store(true, std::memory_order_relaxed);
         return kind;
     }
@@ -178,7 +178,7 @@ private:
         return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
     }
 
-    void gather_joint(int index, std::vector<JointEdge>& links) const
+    void gather_joint(int index, std::vector<JointEdge>& edges) const
     {
         const JointRecord& joint = state.joints[index];
         const auto place = [&](int body) { return body == none ? none : place_of(scratch, body); };
@@ -188,22 +188,22 @@ private:
         const std::int32_t b = place(joint.body_b);
         if ((a < 0 && b < 0) || !takes_part(joint.body_a, a) || !takes_part(joint.body_b, b))
             return;
-        JointEdge& link = links.emplace_back();
-        link.joint = index;
-        link.a = a;
-        link.b = b;
-        link.hinge = fits_joint_lane(joint);
-        link.holds = only_holds(joint);
-        link.damped = loses_energy(joint);
-        link.binds = !link.holds && joint.kind != JointType::Spring;
-        link.flies = may_fly(a) || may_fly(b);
+        JointEdge& edge = edges.emplace_back();
+        edge.joint = index;
+        edge.a = a;
+        edge.b = b;
+        edge.hinge = fits_joint_lane(joint);
+        edge.holds = only_holds(joint);
+        edge.damped = loses_energy(joint);
+        edge.binds = !edge.holds && joint.kind != JointType::Spring;
+        edge.flies = may_fly(a) || may_fly(b);
     }
 
     // About a hinge to the world.
     [[nodiscard]] bool may_fly(std::int32_t place) const
     {
-        return place >= 0 && (scratch.graph.flight[static_cast<std::size_t>(place)] != earthbound ||
-                              scratch.graph.grounded[static_cast<std::size_t>(place)] != earthbound);
+        return place >= 0 && (scratch.graph.flight[static_cast<std::size_t>(place)] != solver_owned ||
+                              scratch.graph.could_fly[static_cast<std::size_t>(place)] != solver_owned);
     }
 
     StepContext& ctx;
@@ -219,17 +219,17 @@ std::int32_t flight_about_hinge(const SceneState& state, int body)
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
     const int edge = record.first_joint;
     if (record.joint_count != 1)
-        return earthbound;
+        return solver_owned;
     const JointRecord& joint = state.joints[edge >> 1];
     const int other = joint.body_a == body ? joint.body_b : joint.body_a;
     const bool hinged = joint.kind == JointType::Revolute && !joint.enable_motor && joint.hertz == 0 &&
                         (other == none || state.bodies[other].type == BodyType::Static) && sim.inverse_inertia > 0;
     if (!hinged)
-        return earthbound;
+        return solver_owned;
     // A body that may not move along is held twice: it turns only if the pivot is its center of mass.
     const Vec2 anchor = joint.body_a == body ? joint.anchor_a : joint.anchor_b;
     const bool centered = anchor == sim.local_center;
-    return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : earthbound;
+    return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : solver_owned;
 }
 
 void forget_bodies(StepContext& ctx) { EdgeGathering(ctx).forget_bodies(); }

@@ -28,7 +28,7 @@ void gather_joints(StepContext& ctx);
     const BodyRecord& record = state.bodies[body];
     if (record.first_joint != none)
         return flight_about_hinge(state, body);
-    return record.has_finite_mass ? none : earthbound;
+    return record.has_finite_mass ? none : solver_owned;
 }
 
 /// Of a body, as in Link.

@@ -13,10 +13,10 @@ namespace {
 
 constexpr int enough_soft_joints = 8;
 constexpr float calm_swing = 0.1f; // rad, in a step
-constexpr int edges_to_a_part = 2048;
-constexpr int edges_to_a_huge_part = 8192; // their constraints stay in a cache from solving to relaxing
-constexpr int few_parts = 16;              // their constraints stay in the cache that processors share
-constexpr int most_parts = plane_cells;    // of the plane
+constexpr int edges_to_a_partition = 2048;
+constexpr int edges_to_a_huge_partition = 8192; // their constraints stay in a cache from solving to relaxing
+constexpr int few_partitions = 16;              // their constraints stay in the cache that processors share
+constexpr int most_partitions = plane_cells;    // of the plane
 constexpr int joint_blocks_worth_threads =
     1536; // with fewer, waiting at the end of each color costs more than a second thread gains
 constexpr int blocks_in_caches = 8'192;
@@ -86,13 +86,13 @@ bool solves_all_joints_directly(const IslandPolicy& policy, int rows, bool some_
 
 int partitions_of(const IslandPolicy& policy, int bodies, int edges)
 {
-    const int few = std::min(edges / edges_to_a_part, few_parts);
-    const int many = std::min({edges / edges_to_a_huge_part, bodies / bodies_to_a_cell, most_parts});
+    const int few = std::min(edges / edges_to_a_partition, few_partitions);
+    const int many = std::min({edges / edges_to_a_huge_partition, bodies / bodies_to_a_cell, most_partitions});
     const int parts = std::max(few, many);
     return policy.wide_contacts && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
-bool are_many(int partitions) { return partitions > few_parts; }
+bool are_many(int partitions) { return partitions > few_partitions; }
 
 bool is_worth_all_threads(int partitions, int wide_joint_blocks)
 {

@@ -31,7 +31,7 @@ struct IslandTally
     std::int32_t damped = 0;       ///< joints that brake or damp what they hold
     bool hangs = false;            ///< a joint holds to what does not move
     std::int32_t subdivisions = 1; ///< of each sub-step, as what turns in it asks for
-    float longest_way = 0;         ///< m in this step, of its fliers that may meet something
+    float longest_path = 0;        ///< m in this step, of its fliers that may meet something
 };
 
 struct IslandPolicy

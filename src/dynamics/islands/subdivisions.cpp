@@ -35,8 +35,8 @@ public:
                               std::any_of(scratch.graph.tallies.begin(), scratch.graph.tallies.end(),
                                           [](const IslandTally& t) { return follows_turning_contacts(t.bodies); });
         if (may_turn)
-            for_each_in_parts(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
-                              [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
+            for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
+                               [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
         find_swings();
         for (std::size_t i = 0; i < scratch.graph.joint_edges.size(); ++i)
         {
@@ -88,13 +88,14 @@ private:
     void find_swings()
     {
         set_size(scratch.graph.swings, scratch.graph.joint_edges.size());
-        for_each_in_parts(ctx.scene.def.tasks, scratch.graph.joint_edges.size(), joints_per_task,
-                          [&](std::size_t i)
-                          {
-                              const JointEdge& j = scratch.graph.joint_edges[i];
-                              const bool is_followed = follows_swinging_joints(tally(scratch, island_of_edge(scratch, j)).bodies);
-                              scratch.graph.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
-                          });
+        for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.joint_edges.size(), joints_per_task,
+                           [&](std::size_t i)
+                           {
+                               const JointEdge& j = scratch.graph.joint_edges[i];
+                               const bool is_followed =
+                                   follows_swinging_joints(tally(scratch, island_of_edge(scratch, j)).bodies);
+                               scratch.graph.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
+                           });
     }
 
     // How fast a joint's arms turn, in rad/s.

@@ -32,8 +32,8 @@ struct ContactEdge
     std::int32_t a = none; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
     std::int32_t b = none;
     // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
-    std::uint16_t flags = 0; ///< see packed_flags
-    std::uint16_t bin = 0;   ///< where lanes are given out, by color, points and place; of constraints the color
+    std::uint16_t flags = 0;  ///< see packed_flags
+    std::uint16_t bucket = 0; ///< where lanes are given out, by color, points and place; of constraints the color
 
     [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
     [[nodiscard]] int points() const { return flags >> 6 & 3; }
@@ -51,7 +51,7 @@ static_assert(sizeof(ContactEdge) == 16);
 /// What a task has found.
 struct EdgesOfTask
 {
-    std::vector<ContactEdge> links; ///< room for more than there are
+    std::vector<ContactEdge> edges; ///< room for more than there are
     std::size_t count = 0;
     std::size_t first = 0;      ///< where they go among all
     std::size_t to_compare = 0; ///< so many are of the last step, but for those that have been found
@@ -59,7 +59,7 @@ struct EdgesOfTask
     bool stay = false; ///< they are what they were
 };
 
-inline constexpr std::int32_t earthbound = -2; ///< in Scratch::flight
+inline constexpr std::int32_t solver_owned = -2; ///< in Scratch::flight
 
 /// Joint of a dynamic body, or of two, that takes part in a step.
 struct JointEdge
@@ -80,7 +80,7 @@ struct JointEdge
 struct KinematicMeeting
 {
     std::int32_t island;
-    std::int32_t link;
+    std::int32_t edge;
     std::int32_t place; ///< of the body, in awake_bodies
 };
 
@@ -114,7 +114,7 @@ struct GraphWorkspace
     std::vector<std::int32_t> island_of_edge; ///< none: it gets no constraint
     std::vector<std::int32_t> flight;         ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
     std::vector<std::int32_t> flying;         ///< places where that is not earthbound
-    std::vector<std::int32_t> grounded;       ///< the same of what could fly but bears or is borne by something
+    std::vector<std::int32_t> could_fly;      ///< the same of what could fly but bears or is borne by something
     std::vector<std::uint8_t> is_loaded;      ///< by a contact, by place in awake_bodies; the last is nobody's
     std::vector<std::uint8_t> is_isolated;    ///< of what flies, by place in awake_bodies: nothing is near
     std::vector<std::uint8_t> may_be_struck;  ///< by what flies, by place in awake_bodies
@@ -122,7 +122,7 @@ struct GraphWorkspace
     bool has_hung = false;                    ///< of what may fly, something hangs on a hinge
     bool has_uneven = false;                  ///< a body that moves more easily along one axis is awake
     std::vector<EdgesOfTask> edges_of_task;
-    std::vector<ContactEdge> links;
+    std::vector<ContactEdge> edges;
     std::vector<std::vector<JointEdge>> joints_of_task;
     std::vector<JointEdge> joint_edges;
     std::vector<IslandTally> tallies;

@@ -96,8 +96,8 @@ public:
         ++m_color;
         for (const std::int32_t contact : m_state.awake_contacts)
             place(contact);
-        sort_by(m_state.awake_bodies.size(), [this](const ContactPlace& p) { return body_of(p); });
-        sort_by(m_color + 1, [](const ContactPlace& p) { return p.color; });
+        sort_by(m_state.awake_bodies.size(), [this](const ContactRank& p) { return body_of(p); });
+        sort_by(m_color + 1, [](const ContactRank& p) { return p.color; });
         order_equals();
     }
 
@@ -118,7 +118,7 @@ public:
         slots.clear();
         make_room(slots, m_order.size());
         m_moved_to.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
-        for (const ContactPlace& p : m_order)
+        for (const ContactRank& p : m_order)
             m_moved_to[as_index(p.contact)] = p.contact;
         for (std::size_t slot = 0; slot < m_moved_to.size(); ++slot)
         {
@@ -138,21 +138,21 @@ private:
     void find_bodies()
     {
         m_bodies.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
-        for_each_in_parts(m_tasks, m_state.awake_contacts.size(), contacts_per_task,
-                          [&](std::size_t i)
-                          {
-                              const std::int32_t contact = m_state.awake_contacts[i];
-                              const Contact& c = m_state.contacts[contact];
-                              const std::int32_t body = is_moving_dynamic(m_state, c.body_a) ? c.body_a : c.body_b;
-                              m_bodies[as_index(contact)] = std::max(m_state.bodies[body].awake_index, 0);
-                          });
+        for_each_in_chunks(m_tasks, m_state.awake_contacts.size(), contacts_per_task,
+                           [&](std::size_t i)
+                           {
+                               const std::int32_t contact = m_state.awake_contacts[i];
+                               const Contact& c = m_state.contacts[contact];
+                               const std::int32_t body = is_moving_dynamic(m_state, c.body_a) ? c.body_a : c.body_b;
+                               m_bodies[as_index(contact)] = std::max(m_state.bodies[body].awake_index, 0);
+                           });
     }
 
     // Of links that are solved one colour after the other.
-    void place(std::span<const std::int32_t> links)
+    void place(std::span<const std::int32_t> edges)
     {
         m_last = {};
-        for (const std::int32_t i : links)
+        for (const std::int32_t i : edges)
         {
             if (i != none)
                 place(m_scratch.layout.solved_edges[static_cast<std::size_t>(i)]);
@@ -177,7 +177,7 @@ private:
     }
 
     // Of what has been placed.
-    [[nodiscard]] std::uint32_t body_of(const ContactPlace& p) const
+    [[nodiscard]] std::uint32_t body_of(const ContactRank& p) const
     {
         return static_cast<std::uint32_t>(~m_bodies[as_index(p.contact)]);
     }
@@ -188,12 +188,12 @@ private:
     {
         std::vector<std::int32_t>& starts = m_scratch.order;
         starts.assign(keys + 1, 0);
-        for (const ContactPlace& p : m_order)
+        for (const ContactRank& p : m_order)
             ++starts[key(p) + 1];
         for (std::size_t k = 0; k < keys; ++k)
             starts[k + 1] += starts[k];
         set_size(m_sorted, m_order.size());
-        for (const ContactPlace& p : m_order)
+        for (const ContactRank& p : m_order)
             m_sorted[static_cast<std::size_t>(starts[key(p)]++)] = p;
         m_order.swap(m_sorted);
     }
@@ -205,8 +205,8 @@ private:
         {
             const std::uint32_t body = body_of(*first);
             const auto last = std::find_if(first + 1, m_order.end(),
-                                           [&](const ContactPlace& p) { return p.color != first->color || body_of(p) != body; });
-            std::sort(first, last, [](const ContactPlace& a, const ContactPlace& b) { return a.contact < b.contact; });
+                                           [&](const ContactRank& p) { return p.color != first->color || body_of(p) != body; });
+            std::sort(first, last, [](const ContactRank& a, const ContactRank& b) { return a.contact < b.contact; });
             first = last;
         }
     }
@@ -232,20 +232,20 @@ private:
                           break;
                       }
                   });
-        run_parts(m_tasks, slots.size(), contacts_per_task,
-                  [&](std::size_t first, std::size_t last)
-                  {
-                      for (std::size_t i = first; i < last; ++i)
-                      {
-                          prefetch_named(std::span(slots).subspan(i, last - i));
-                          Contact& contact = m_state.contacts[slots[i]];
-                          contact.awake_index = static_cast<std::int32_t>(i);
-                          contact.color = none;
-                          rename_edges(contact);
-                          if (contact.pair != none)
-                              m_state.box_pairs[as_index(contact.pair)].contact = slots[i];
-                      }
-                  });
+        run_chunks(m_tasks, slots.size(), contacts_per_task,
+                   [&](std::size_t first, std::size_t last)
+                   {
+                       for (std::size_t i = first; i < last; ++i)
+                       {
+                           prefetch_named(std::span(slots).subspan(i, last - i));
+                           Contact& contact = m_state.contacts[slots[i]];
+                           contact.awake_index = static_cast<std::int32_t>(i);
+                           contact.color = none;
+                           rename_edges(contact);
+                           if (contact.pair != none)
+                               m_state.box_pairs[as_index(contact.pair)].contact = slots[i];
+                       }
+                   });
     }
 
     // First a later contact, then what it names.
@@ -318,12 +318,12 @@ private:
                     rename_edges(m_state.contacts[i]);
             }
         }
-        for_each_in_parts(m_tasks, static_cast<std::size_t>(m_state.bodies.capacity()), contacts_per_task,
-                          [&](std::size_t i)
-                          {
-                              if (m_state.bodies.is_live(static_cast<int>(i)))
-                                  rename(m_state.bodies[static_cast<int>(i)].first_contact);
-                          });
+        for_each_in_chunks(m_tasks, static_cast<std::size_t>(m_state.bodies.capacity()), contacts_per_task,
+                           [&](std::size_t i)
+                           {
+                               if (m_state.bodies.is_live(static_cast<int>(i)))
+                                   rename(m_state.bodies[static_cast<int>(i)].first_contact);
+                           });
     }
 
     void rename_edges(Contact& contact) const
@@ -343,8 +343,8 @@ private:
 
     SceneState& m_state;
     Scratch& m_scratch;
-    std::vector<ContactPlace>& m_order;
-    std::vector<ContactPlace>& m_sorted;
+    std::vector<ContactRank>& m_order;
+    std::vector<ContactRank>& m_sorted;
     std::vector<std::int32_t>& m_bodies;   ///< by contact slot, while the order is found
     std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, once it is
     const TaskHooks& m_tasks;

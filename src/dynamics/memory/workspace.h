@@ -10,7 +10,7 @@
 namespace carom::internal {
 
 /// Where a contact should stand among the awake ones.
-struct ContactPlace
+struct ContactRank
 {
     std::uint32_t color; ///< counted over all islands
     std::int32_t contact;
@@ -18,8 +18,8 @@ struct ContactPlace
 
 struct ReorderWorkspace
 {
-    std::vector<ContactPlace> contact_order; ///< what tidy() makes of them
-    std::vector<ContactPlace> sorted_contacts;
+    std::vector<ContactRank> contact_order; ///< what tidy() makes of them
+    std::vector<ContactRank> sorted_contacts;
     std::vector<std::int32_t> moved_to;    ///< by contact slot
     std::vector<std::int32_t> move_cycles; ///< see reorder.cpp
     HilbertOrder plane_order;              ///< of the awake bodies

@@ -52,12 +52,12 @@ bool loose_stay(const StepContext& ctx)
 {
     const std::vector<std::int32_t>& loose = ctx.scratch.cached_graph.loose;
     std::atomic<bool> stay{true};
-    for_each_in_parts(ctx.scene.def.tasks, loose.size(), contacts_per_task,
-                      [&](std::size_t i)
-                      {
-                          if (stay.load(std::memory_order_relaxed) && !look_at_loose(ctx, loose[i]))
-                              stay.store(false, std::memory_order_relaxed);
-                      });
+    for_each_in_chunks(ctx.scene.def.tasks, loose.size(), contacts_per_task,
+                       [&](std::size_t i)
+                       {
+                           if (stay.load(std::memory_order_relaxed) && !look_at_loose(ctx, loose[i]))
+                               stay.store(false, std::memory_order_relaxed);
+                       });
     return stay;
 }
 
@@ -97,14 +97,14 @@ bool constraints_are_unchanged(const StepContext& ctx)
         if (is_shared(island))
             WorkerTeam::run(
                 ctx.scene.def.tasks, [&](WorkerTeam& team)
-                { contact_bins(ctx.scratch, island).all(team, [&](int first, int last) { follow(island, first, last); }); });
+                { contact_buckets(ctx.scratch, island).all(team, [&](int first, int last) { follow(island, first, last); }); });
     }
-    for_each_in_parts(ctx.scene.def.tasks, islands.size(), islands_per_task,
-                      [&](std::size_t u)
-                      {
-                          if (!is_shared(islands[u]))
-                              follow(islands[u], 0, islands[u].wide_count);
-                      });
+    for_each_in_chunks(ctx.scene.def.tasks, islands.size(), islands_per_task,
+                       [&](std::size_t u)
+                       {
+                           if (!is_shared(islands[u]))
+                               follow(islands[u], 0, islands[u].wide_count);
+                       });
     return stay;
 }
 
@@ -160,7 +160,7 @@ void cache_constraints(StepContext& ctx)
     const auto may_stay = [&](const ContactEdge& l)
     { return !l.has(edge_flag::solved) || (l.has(edge_flag::plain) && leans_on_statics(ctx.state, l)); };
     kept.constraints_apart = ctx.state.joints.count() == 0 && !scratch.graph.has_kinematic && !scratch.solver.islands.empty() &&
-                             std::ranges::all_of(scratch.graph.links, may_stay);
+                             std::ranges::all_of(scratch.graph.edges, may_stay);
     if (!kept.constraints_apart)
         return;
     kept.contacts = ctx.state.awake_contacts;

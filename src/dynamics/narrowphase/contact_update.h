@@ -40,7 +40,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
 {
     const BoxPath& a = state.broad_phase.path(contact.shape_a);
     const BoxPath& b = state.broad_phase.path(contact.shape_b);
-    return length(b.shift - a.shift) + a.any_way + b.any_way;
+    return length(b.shift - a.shift) + a.any_path + b.any_path;
 }
 
 /// Its manifold at the start of the step, and what others must hear of. Writes to this contact alone.
@@ -61,7 +61,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
 }
 
 /// Without points its shapes are apart.
-[[nodiscard]] inline bool tells_apart(const Contact& contact)
+[[nodiscard]] inline bool means_apart(const Contact& contact)
 {
     return (contact.flags & (contact_flag::plain | contact_flag::of_union)) == contact_flag::plain;
 }
@@ -69,7 +69,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
 /// On the ways that both set out on they do not meet within the step.
 [[nodiscard]] inline bool stays_apart(const StepContext& ctx, const Contact& contact)
 {
-    return tells_apart(contact) &&
+    return means_apart(contact) &&
            (contact.manifold.count == 0 ||
             least_separation(contact.manifold) > relative_motion(ctx.state, contact) + 0.1f * ctx.scene.tolerances.speculation);
 }

@@ -34,7 +34,7 @@ Vec2 place_of(const BodySim& other, const BodySim& own) { return inverse_rotate(
 // How far any point of the other has moved against the edge's body since the manifold was found, and the cosine of the angle that it has turned.
 struct Moved
 {
-    float way;
+    float displacement;
     float cosine;
 };
 
@@ -56,9 +56,9 @@ Moved moved_since(const CachedManifold& kept, const BodySim& own, const BodySim&
 // their distance.
 float room(const CachedManifold& kept, const BodySim& own, const BodySim& other)
 {
-    const Vec2 way = place_of(other, own) - kept.center;
+    const Vec2 displacement = place_of(other, own) - kept.center;
     const Vec2 direction = kept.found.parting.direction;
-    const float gain = direction == Vec2{} ? -length(way) : dot(direction, way);
+    const float gain = direction == Vec2{} ? -length(displacement) : dot(direction, displacement);
     return kept.reach + gain - kept.found.parting.arm * chord_of(turned_since(kept, own, other));
 }
 
@@ -207,29 +207,29 @@ struct Facing
 };
 
 // Is the edge the one still that faces best? Surely where the lowest corner is outside and before it, and else for a while.
-bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved& moved, float longest_way)
+bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved& moved, float longest_path)
 {
     const bool is_outside = lowest.inside && lowest.separation + facing.radius > 0;
-    return is_outside || (moved.way < longest_way && moved.cosine > least_cosine);
+    return is_outside || (moved.displacement < longest_path && moved.cosine > least_cosine);
 }
 
 // One corner before the edge, the other too far away to be a second point.
-bool has_one_point(const CachedManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_way)
+bool has_one_point(const CachedManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_path)
 {
     const Facing::Foot near = facing.foot(0);
     const bool is_alone = facing.is_round() || facing.foot(1).separation > margin;
-    return near.inside && near.separation <= margin && is_alone && margin + moved.way <= kept.reach &&
-           is_best_still(facing, near, moved, longest_way);
+    return near.inside && near.separation <= margin && is_alone && margin + moved.displacement <= kept.reach &&
+           is_best_still(facing, near, moved, longest_path);
 }
 
 // Both corners before the edge, and no other has become one of them.
-bool has_two_points(const CachedManifold& kept, const Facing& facing, const Moved& moved, float longest_way)
+bool has_two_points(const CachedManifold& kept, const Facing& facing, const Moved& moved, float longest_path)
 {
     const Facing::Foot first = facing.foot(0);
     const Facing::Foot second = facing.foot(1);
     const Facing::Foot& lowest = second.separation < first.separation ? second : first;
-    return facing.meets() && (lowest.inside || !facing.is_steep()) && lowest.separation <= longest_way &&
-           moved.way <= kept.reach && is_best_still(facing, lowest, moved, longest_way);
+    return facing.meets() && (lowest.inside || !facing.is_steep()) && lowest.separation <= longest_path &&
+           moved.displacement <= kept.reach && is_best_still(facing, lowest, moved, longest_path);
 }
 
 // The way from one corner to the other that is nearest to it.
@@ -282,7 +282,7 @@ void follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, cons
 
 // Is what it found still what would be found?
 bool can_follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
-                float longest_way)
+                float longest_path)
 {
     if (!is_cached(contact))
         return false;
@@ -296,8 +296,8 @@ bool can_follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, 
     const bool of_b = caches_edge_of_b(contact);
     const Moved moved = of_b ? moved_since(kept, b, a) : moved_since(kept, a, b);
     const Facing facing(kept, a, b, of_b);
-    return contact.manifold.count == 1 ? has_one_point(kept, facing, moved, margin, longest_way)
-                                       : has_two_points(kept, facing, moved, longest_way);
+    return contact.manifold.count == 1 ? has_one_point(kept, facing, moved, margin, longest_path)
+                                       : has_two_points(kept, facing, moved, longest_path);
 }
 
 } // namespace

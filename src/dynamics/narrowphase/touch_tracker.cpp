@@ -26,8 +26,8 @@ void report_noted(StepContext& ctx, std::span<const std::int32_t> contacts, std:
 {
     const std::size_t first = events.size();
     set_size(events, first + contacts.size());
-    for_each_in_parts(ctx.scene.def.tasks, contacts.size(), events_per_task,
-                      [&](std::size_t i) { events[first + i] = make_event(ctx.state, ctx.state.contacts[contacts[i]]); });
+    for_each_in_chunks(ctx.scene.def.tasks, contacts.size(), events_per_task,
+                       [&](std::size_t i) { events[first + i] = make_event(ctx.state, ctx.state.contacts[contacts[i]]); });
     ctx.state.graph_dirty |= !contacts.empty();
 }
 
@@ -47,8 +47,9 @@ std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const Raw
     const SceneState& state = ctx.state;
     std::vector<std::uint8_t>& bounced = ctx.scratch.narrow.bounced;
     set_size(bounced, begins.size());
-    for_each_in_parts(ctx.scene.def.tasks, begins.size(), touches_per_task, [&](std::size_t i)
-                      { bounced[i] = begins[i].contact != none && has_bounced(ctx, state.contacts[begins[i].contact]) ? 1 : 0; });
+    for_each_in_chunks(
+        ctx.scene.def.tasks, begins.size(), touches_per_task, [&](std::size_t i)
+        { bounced[i] = begins[i].contact != none && has_bounced(ctx, state.contacts[begins[i].contact]) ? 1 : 0; });
     return bounced;
 }
 

@@ -443,12 +443,12 @@ void update_contacts(StepContext& ctx)
     const std::size_t count = state.awake_contacts.size();
     ContactEdges links(ctx, contacts_at_once);
     const std::span<ContactChanges> parts =
-        find_in_parts(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.narrow.changes_of_task,
-                      [&](std::size_t first, std::size_t last, ContactChanges& some)
-                      {
-                          ContactUpdate(ctx, first, last, some).run();
-                          links.ask(first, last, some.of_others);
-                      });
+        find_in_chunks(ctx.scene.def.tasks, count, contacts_at_once, ctx.scratch.narrow.changes_of_task,
+                       [&](std::size_t first, std::size_t last, ContactChanges& some)
+                       {
+                           ContactUpdate(ctx, first, last, some).run();
+                           links.ask(first, last, some.of_others);
+                       });
     std::vector<ContactChange>& changes = ctx.scratch.narrow.changes;
     std::vector<std::int32_t>& of_others = ctx.scratch.narrow.of_others;
     changes.clear();

@@ -66,7 +66,7 @@ private:
     {
         for (double t = 0; t < m_dt;)
         {
-            const double next = std::min(m_a.next_bend(t), m_b.next_bend(t));
+            const double next = std::min(m_a.next_curve(t), m_b.next_curve(t));
             const Part part = part_between(t, next);
             follow(part, next < m_dt ? is_inside(part, part.length) : is_inside(m_a.end(), m_b.end()));
             t = next;

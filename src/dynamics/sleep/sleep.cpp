@@ -183,25 +183,25 @@ private:
         m_sets.reset(count);
         set_size(m_is_tired, count);
         m_is_kept_awake.assign(count, 0);
-        for_each_in_parts(m_ctx.scene.def.tasks, count, bodies_per_task,
-                          [&](std::size_t i)
-                          {
-                              const auto body = static_cast<std::size_t>(m_state.awake_bodies[i]);
-                              m_is_tired[i] = m_state.sims[body].sleep_time >= time_to_sleep ? 1 : 0;
-                          });
+        for_each_in_chunks(m_ctx.scene.def.tasks, count, bodies_per_task,
+                           [&](std::size_t i)
+                           {
+                               const auto body = static_cast<std::size_t>(m_state.awake_bodies[i]);
+                               m_is_tired[i] = m_state.sims[body].sleep_time >= time_to_sleep ? 1 : 0;
+                           });
     }
 
     void join_at_contacts()
     {
-        for_each_in_parts(m_ctx.scene.def.tasks, m_state.awake_contacts.size(), contacts_per_task,
-                          [&](std::size_t i)
-                          {
-                              if (i + prefetch_distance < m_state.awake_contacts.size())
-                                  prefetch_line(&m_state.contacts[m_state.awake_contacts[i + prefetch_distance]]);
-                              const Contact& contact = m_state.contacts[m_state.awake_contacts[i]];
-                              if (touches(contact))
-                                  link(contact.body_a, contact.body_b);
-                          });
+        for_each_in_chunks(m_ctx.scene.def.tasks, m_state.awake_contacts.size(), contacts_per_task,
+                           [&](std::size_t i)
+                           {
+                               if (i + prefetch_distance < m_state.awake_contacts.size())
+                                   prefetch_line(&m_state.contacts[m_state.awake_contacts[i + prefetch_distance]]);
+                               const Contact& contact = m_state.contacts[m_state.awake_contacts[i]];
+                               if (touches(contact))
+                                   link(contact.body_a, contact.body_b);
+                           });
     }
 
     // On all threads.
@@ -252,17 +252,17 @@ void settle_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
     std::atomic<bool> any_tired{false};
-    for_each_in_parts(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
-                      [&](std::size_t i)
-                      {
-                          const std::int32_t body = state.awake_bodies[i];
-                          BodySim& sim = state.sims[static_cast<std::size_t>(body)];
-                          settle_or_stir(ctx, body, sim);
-                          if (sim.sleep_time >= time_to_sleep)
-                              raise(any_tired);
-                          sim.force = {};
-                          sim.torque = 0;
-                      });
+    for_each_in_chunks(ctx.scene.def.tasks, state.awake_bodies.size(), bodies_per_task,
+                       [&](std::size_t i)
+                       {
+                           const std::int32_t body = state.awake_bodies[i];
+                           BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+                           settle_or_stir(ctx, body, sim);
+                           if (sim.sleep_time >= time_to_sleep)
+                               raise(any_tired);
+                           sim.force = {};
+                           sim.torque = 0;
+                       });
     const bool looks = ctx.scene.def.sleeping && looks_for_islands(ctx);
     if (ctx.scratch.graph.has_kinematic)
         settle_kinematic_bodies(state, looks);

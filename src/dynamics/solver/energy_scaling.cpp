@@ -11,9 +11,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double energy_rounding = 2e-6; // of the energy, over a whole sub-step
-constexpr double noise_way = 0.05;       // of the slop, in a sub-step: what moves so far against the forces has gained nothing
-constexpr double rest_way = 0.004;       // and what has no energy: it may not creep
+constexpr double energy_rounding = 2e-6;    // of the energy, over a whole sub-step
+constexpr double noise_displacement = 0.05; // of the slop, in a sub-step: what moves so far against the forces has gained nothing
+constexpr double rest_displacement = 0.004; // and what has no energy: it may not creep
 
 bool decays(const StateConstants& c) { return c.linear_decay != 1 || c.angular_decay != 1; }
 
@@ -71,8 +71,8 @@ IslandEnergy::Drift IslandEnergy::drift_of(int index)
 IslandEnergy::Arm IslandEnergy::place_of(std::int32_t state)
 {
     const Arm& center = body(state).center;
-    const Vec2 way = m_view.states[state].delta_position;
-    return {center.x + as_double(way.x), center.y + as_double(way.y)};
+    const Vec2 displacement = m_view.states[state].delta_position;
+    return {center.x + as_double(displacement.x), center.y + as_double(displacement.y)};
 }
 
 // What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves
@@ -108,7 +108,7 @@ void IslandEnergy::scale(int index, bool exact)
     const bool may_rise = group.may_lose && work < 0 && missing < 0;
     const bool may_stay =
         !(exact && !group.is_carried) &&
-        missing >= -energy_rounding / m_subdivisions * std::fabs(group.of(group.first)) - noise_way * group.slop_work;
+        missing >= -energy_rounding / m_subdivisions * std::fabs(group.of(group.first)) - noise_displacement * group.slop_work;
     if (may_stay && !may_rise)
         return;
     Drift drift = drift_of(index);
@@ -118,8 +118,8 @@ void IslandEnergy::scale(int index, bool exact)
         drift.inertia = 0;
         inner = inner_energy(index, drift);
     }
-    if (const double rise = -(inner + missing) - group.push_out - rest_way * group.slop_work; may_rise && rise > 0)
-        hold_back(index, std::min(rise / -work, 1.0));
+    if (const double rise = -(inner + missing) - group.push_out - rest_displacement * group.slop_work; may_rise && rise > 0)
+        cut_speeds(index, std::min(rise / -work, 1.0));
     if (may_stay || !(inner > 0))
         return;
     const double by = std::sqrt(std::max(inner + missing, 0.0) / inner);
@@ -140,19 +140,19 @@ void IslandEnergy::scale(int index, bool exact)
 }
 
 // Bodies that go against the forces without energy for it go so much less far.
-void IslandEnergy::hold_back(int index, double share)
+void IslandEnergy::cut_speeds(int index, double share)
 {
-    m_has_held_back = true;
+    m_has_cut_speeds = true;
     const bool is_carried = m_groups[static_cast<std::size_t>(index)].is_carried;
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
     {
         if (body(i).group == index)
-            hold_back_body(i, static_cast<float>(1 - share), is_carried);
+            cut_speed(i, static_cast<float>(1 - share), is_carried);
     }
 }
 
 // Its own way is that against the carrier, which takes it along.
-void IslandEnergy::hold_back_body(std::int32_t state, float rest, bool is_carried)
+void IslandEnergy::cut_speed(std::int32_t state, float rest, bool is_carried)
 {
     BodyState& s = m_view.states[state];
     const Body& b = body(state);

@@ -43,7 +43,7 @@ void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, co
 }
 
 // The island's g-th.
-void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
+void fill_block(const StepContext& ctx, const Island& island, std::int32_t g)
 {
     const Scratch& scratch = ctx.scratch;
     const std::int32_t first_lane = (island.first_wide + g) * lane_count;
@@ -53,14 +53,14 @@ void fill_group(const StepContext& ctx, const Island& island, std::int32_t g)
     for (int i = 0; i < lane_count; ++i)
     {
         prefetch_lane(ctx, as_index(first_lane + i) + 2 * prefetch_distance);
-        const std::int32_t link = scratch.layout.lane_edges[as_index(first_lane + i)];
-        if (link == none)
+        const std::int32_t edge = scratch.layout.lane_edges[as_index(first_lane + i)];
+        if (edge == none)
         {
             constraint.a.v[i] = constraint.b.v[i] = island.first_state;
             notes.contact.v[i] = none;
             continue;
         }
-        const ContactEdge& l = scratch.layout.solved_edges[as_index(link)];
+        const ContactEdge& l = scratch.layout.solved_edges[as_index(edge)];
         constraint.a.v[i] = l.a;
         constraint.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
@@ -96,47 +96,47 @@ void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t 
     }
 }
 
-void fill_joint_group(const StepContext& ctx, WideJoint& group)
+void fill_joint_block(const StepContext& ctx, WideJoint& block)
 {
-    wide_kernels().fill_joints(group, &ctx.state.joints[0], ctx.state.sims.data(), ctx.state.turns.data(),
+    wide_kernels().fill_joints(block, &ctx.state.joints[0], ctx.state.sims.data(), ctx.state.turns.data(),
                                ctx.scratch.solver.constants.data(), ctx.h);
 }
 
-void fill_joint_groups(const StepContext& ctx, const Island& island, int first, int last)
+void fill_joint_blocks(const StepContext& ctx, const Island& island, int first, int last)
 {
     const auto lanes =
         std::span(ctx.scratch.layout.joint_lanes).subspan(as_index(island.first_joint_lane), as_index(island.joint_lane_count));
-    const auto of_group = [&](int g)
+    const auto of_block = [&](int g)
     { return std::ranges::lower_bound(lanes, (island.first_wide_joint + g) * lane_count, {}, &JointLane::lane); };
-    auto l = of_group(first);
+    auto l = of_block(first);
     for (int g = island.first_wide_joint + first; g < island.first_wide_joint + last; ++g)
     {
-        WideJoint& group = ctx.scratch.solver.wide_joints[as_index(g)];
-        std::ranges::fill(group.a.v, island.first_state);
-        std::ranges::fill(group.b.v, island.first_state);
-        std::ranges::fill(group.joint.v, none);
+        WideJoint& block = ctx.scratch.solver.wide_joints[as_index(g)];
+        std::ranges::fill(block.a.v, island.first_state);
+        std::ranges::fill(block.b.v, island.first_state);
+        std::ranges::fill(block.joint.v, none);
         for (; l != lanes.end() && l->lane / lane_count == g; ++l)
         {
             prefetch_hinge(ctx.state, {l, lanes.end()});
             const int i = l->lane % lane_count;
-            group.a.v[i] = l->place.a;
-            group.b.v[i] = l->place.b;
-            group.joint.v[i] = l->place.joint;
-            group.turns = l->bin % 2; // the same in all lanes
+            block.a.v[i] = l->place.a;
+            block.b.v[i] = l->place.b;
+            block.joint.v[i] = l->place.joint;
+            block.turns = l->bucket % 2; // the same in all lanes
         }
-        fill_joint_group(ctx, group);
+        fill_joint_block(ctx, block);
     }
 }
 
-void follow_joint_groups(const StepContext& ctx, const Island& island, int first, int last)
+void follow_joint_blocks(const StepContext& ctx, const Island& island, int first, int last)
 {
-    for (WideJoint& group :
+    for (WideJoint& block :
          std::span(ctx.scratch.solver.wide_joints).subspan(as_index(island.first_wide_joint + first), as_index(last - first)))
     {
-        if (group.turns == 0)
-            wide_kernels().follow_joints(group, ctx.state.sims.data());
+        if (block.turns == 0)
+            wide_kernels().follow_joints(block, ctx.state.sims.data());
         else
-            fill_joint_group(ctx, group);
+            fill_joint_block(ctx, block);
     }
 }
 
@@ -157,23 +157,23 @@ void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     const StepContext island_ctx = island.policy.subdivisions > 1 ? subdivided(ctx, island.policy.subdivisions) : ctx;
     if (!ctx.scratch.cached_graph.constraints_are_unchanged)
-        contact_bins(ctx.scratch, island).for_each(team, [&](int g) { fill_group(island_ctx, island, g); });
+        contact_buckets(ctx.scratch, island).for_each(team, [&](int g) { fill_block(island_ctx, island, g); });
     for_each_place(team, island.first_constraint, island.constraint_count,
                    [&](std::int32_t i) { fill_constraint(island_ctx, island, i); });
     for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i)
                    {
-                       const JointPlace& place = ctx.scratch.layout.joint_places[as_index(i)];
+                       const SolvedJoint& place = ctx.scratch.layout.joints_outside_lanes[as_index(i)];
                        ctx.scratch.solver.joints[as_index(i)] = prepare_joint(island_ctx, island, place);
                    });
-    joint_bins(ctx.scratch, island)
+    joint_buckets(ctx.scratch, island)
         .all(team,
              [&](int first, int last)
              {
                  if (ctx.scratch.cached_graph.hinges_are_unchanged)
-                     follow_joint_groups(island_ctx, island, first, last);
+                     follow_joint_blocks(island_ctx, island, first, last);
                  else
-                     fill_joint_groups(island_ctx, island, first, last);
+                     fill_joint_blocks(island_ctx, island, first, last);
              });
 }
 
@@ -182,7 +182,7 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
     Scratch& scratch = ctx.scratch;
     WideContact* const constraints = scratch.solver.wide_contacts.data() + island.wide_store;
     WideContactNotes* const notes = scratch.solver.wide_notes.data() + island.wide_store;
-    contact_bins(scratch, island)
+    contact_buckets(scratch, island)
         .for_each(team,
                   [&](int g)
                   {
@@ -197,7 +197,7 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
                    [&](std::int32_t i) { commit_constraint(ctx.state, scratch.solver.constraints[as_index(i)]); });
     for_each_place(team, island.first_joint, island.joint_count,
                    [&](std::int32_t i) { commit_joint(ctx, scratch.solver.joints[as_index(i)]); });
-    joint_bins(scratch, island)
+    joint_buckets(scratch, island)
         .for_each(team,
                   [&](int g)
                   {

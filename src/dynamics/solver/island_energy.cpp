@@ -84,7 +84,7 @@ void IslandEnergy::begin(const SolverView& view, const StepContext& ctx, std::sp
     m_subdivisions = island.policy.subdivisions;
     m_first = island.first_state + 1;
     m_count = std::min(island.dynamic_count, most_bodies);
-    m_has_held_back = false;
+    m_has_cut_speeds = false;
     m_all_driven = all_driven();
     if (m_all_driven)
         return;
@@ -179,20 +179,21 @@ IslandEnergy::Energy IslandEnergy::work_on(std::int32_t state)
     const BodyState& s = m_view.states[state];
     const StateConstants& c = m_view.constants[state];
     const Body& b = body(state);
-    const Vec2 way = s.delta_position - b.position;
+    const Vec2 displacement = s.delta_position - b.position;
     const Rotation turn = s.delta_rotation * carom::inverse(b.rotation);
     const auto work = [&](double x, double y, double w)
     {
         return b.mass_x * as_double(c.acceleration.x) * x + b.mass_y * as_double(c.acceleration.y) * y +
                b.inertia * as_double(c.angular_acceleration) * w;
     };
-    Energy energy{work(as_double(way.x), as_double(way.y), as_double(turn.s)), 0};
+    Energy energy{work(as_double(displacement.x), as_double(displacement.y), as_double(turn.s)), 0};
     if (!has_carrier())
         return energy;
     const Arm arm = arm_of(state);
     const Motion frame = carried_motion({0.5 * (arm.x + b.arm.x), 0.5 * (arm.y + b.arm.y)});
     const double h = as_double(m_view.h);
-    energy.carried = work(as_double(way.x) - h * frame.x, as_double(way.y) - h * frame.y, as_double(turn.s) - h * frame.w);
+    energy.carried =
+        work(as_double(displacement.x) - h * frame.x, as_double(displacement.y) - h * frame.y, as_double(turn.s) - h * frame.w);
     return energy;
 }
 

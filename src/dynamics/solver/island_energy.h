@@ -28,7 +28,7 @@ public:
     /// At the end. `exact`: the joints were solved to the end; else they may only have put in too much.
     void restore(bool exact);
     /// It has moved bodies.
-    [[nodiscard]] bool has_held_back() const { return m_has_held_back; }
+    [[nodiscard]] bool has_cut_speeds() const { return m_has_cut_speeds; }
 
 private:
     /// Energies against what stands and against the carrier.
@@ -144,8 +144,8 @@ private:
     void add_springs(double sign);
     [[nodiscard]] double inner_energy(int group, const Drift& drift); ///< against the motion of the whole
     void scale(int group, bool exact);
-    void hold_back(int group, double share);
-    void hold_back_body(std::int32_t state, float rest, bool is_carried);
+    void cut_speeds(int group, double share);
+    void cut_speed(std::int32_t state, float rest, bool is_carried);
     [[nodiscard]] Arm place_of(std::int32_t state);
     [[nodiscard]] Drift drift_of(int group);
     [[nodiscard]] Motion frame_of(const Group& group, const Drift& drift, std::int32_t state);
@@ -157,7 +157,7 @@ private:
     float m_rest_speed = 0;
     int m_subdivisions = 1;
     bool m_all_driven = false; ///< nothing to watch
-    bool m_has_held_back = false;
+    bool m_has_cut_speeds = false;
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
     std::int32_t m_carrier = none; ///< state of the one kinematic body that moves

@@ -95,10 +95,10 @@ private:
     void substep(int k)
     {
         apply_force_laws(m_work.ctx, m_work.island, k, m_work.output);
-        raise_fast(m_work.ctx, m_work.island, k, m_work.output);
+        take_off_fast_movers(m_work.ctx, m_work.island, k, m_work.output);
         if (is_airborne())
         {
-            fly_alone(k);
+            advance_airborne(k);
             return;
         }
         note_approaches(bouncing());
@@ -106,7 +106,7 @@ private:
         begin_energy();
         integrate_velocities(m_work, m_contacts.begin_substep(k));
         warm_start();
-        m_recomputed.predict_bends();
+        m_recomputed.predict_curvatures();
         goes_by_partition() ? advance_by_partition(k) : advance(k);
         bounce(k);
         finish_substep(k);
@@ -130,8 +130,8 @@ private:
     [[nodiscard]] bool goes_by_partition() const
     {
         const Island& island = m_work.island;
-        return island.parts > 0 && m_work.joints.empty() && island.wide_joint_count == 0 && m_work.constraints.empty() &&
-               m_work.late_constraints().empty() && !island.traced && (are_many(island.parts) || !m_work.has_fliers());
+        return island.partitions > 0 && m_work.joints.empty() && island.wide_joint_count == 0 && m_work.constraints.empty() &&
+               m_work.late_constraints().empty() && !island.traced && (are_many(island.partitions) || !m_work.has_fliers());
     }
 
     void advance_by_partition(int k)
@@ -153,7 +153,7 @@ private:
     }
 
     // What lands on the way is the solver's from there on.
-    void fly_alone(int k)
+    void advance_airborne(int k)
     {
         advance_fliers(m_work.ctx, m_work.island, k, m_work.output, m_work.team);
         if (!is_airborne())
@@ -264,7 +264,7 @@ private:
     {
         if (!kicked)
             m_energy.restore(m_joints.are_direct());
-        if (m_energy.has_held_back())
+        if (m_energy.has_cut_speeds())
             m_joints.place();
     }
 

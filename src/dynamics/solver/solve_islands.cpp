@@ -21,39 +21,40 @@ namespace carom::internal {
 namespace {
 
 // A parabola and an even turn: in double, rounded once. Damping acts after each sub-step, as on everything else.
-void fall(const StepContext& ctx, std::int32_t index)
+void advance_free_fall(const StepContext& ctx, std::int32_t index)
 {
     BodyState& s = ctx.scratch.solver.states[static_cast<std::size_t>(index)];
     const StateConstants& c = ctx.scratch.solver.constants[static_cast<std::size_t>(index)];
     const double h = static_cast<double>(ctx.h);
     const auto sum = [&](float& speed, float acceleration, float decay)
     {
-        double way = 0;
+        double displacement = 0;
         auto v = static_cast<double>(speed);
         for (int k = 0; k < ctx.substeps; ++k)
         {
             const double after = static_cast<double>(decay) * (v + h * static_cast<double>(acceleration));
-            way += h * (after - 0.5 * h * static_cast<double>(acceleration)); // the mean of the velocities before and after
+            displacement +=
+                h * (after - 0.5 * h * static_cast<double>(acceleration)); // the mean of the velocities before and after
             v = after;
         }
         speed = static_cast<float>(v);
-        return static_cast<float>(way);
+        return static_cast<float>(displacement);
     };
     s.delta_position.x = sum(s.velocity.x, c.acceleration.x, c.linear_decay);
     s.delta_position.y = sum(s.velocity.y, c.acceleration.y, c.linear_decay);
     turn_from_start(s, static_cast<double>(sum(s.angular_velocity, c.angular_acceleration, c.angular_decay)));
 }
 
-void fall(const StepContext& ctx, const Island& island)
+void advance_free_fall(const StepContext& ctx, const Island& island)
 {
     for (std::int32_t s = island.first_state + 1; s <= island.first_state + island.dynamic_count; ++s)
-        fall(ctx, s);
+        advance_free_fall(ctx, s);
 }
 
 void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, WorkerTeam& team)
 {
     const Island& island = ctx.scratch.solver.islands[u];
-    if (glide(ctx, island, ctx.scratch.solver.outputs[u]))
+    if (fly_whole_step(ctx, island, ctx.scratch.solver.outputs[u]))
         return;
     fill_island(ctx, island, team);
     solve_island(ctx, island, ctx.scratch.solver.outputs[u], energy, team);
@@ -94,18 +95,18 @@ void form_batches(Scratch& scratch)
         most = 0;
         bodies = 0;
     }
-    std::int32_t groups = store + large;
+    std::int32_t blocks = store + large;
     for (Island& island : scratch.solver.islands)
     {
         island.wide_store += is_shared(island) ? store : 0; // the large ones come behind
         if (scratch.cached_graph.constraints_apart)
         {
             island.wide_store = island.first_wide;
-            groups = island.first_wide + island.wide_count;
+            blocks = island.first_wide + island.wide_count;
         }
     }
-    scratch.solver.wide_contacts.make_room(static_cast<std::size_t>(groups));
-    scratch.solver.wide_notes.make_room(static_cast<std::size_t>(groups));
+    scratch.solver.wide_contacts.make_room(static_cast<std::size_t>(blocks));
+    scratch.solver.wide_notes.make_room(static_cast<std::size_t>(blocks));
     set_size(scratch.solver.struck, scratch.solver.wide_contacts.size());
 }
 
@@ -130,7 +131,7 @@ void solve_batch(const StepContext& ctx, int batch)
     {
         const Island& island = scratch.solver.islands[u];
         if (island.policy.free_fall)
-            fall(ctx, island);
+            advance_free_fall(ctx, island);
         else if (!is_shared(island))
             solve(ctx, u, energy, alone);
     }

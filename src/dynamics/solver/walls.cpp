@@ -85,10 +85,10 @@ void Walls::guard_wide_core(const WideCore& core) const
         push_out(a_gives ? constraint.a.v[i] : constraint.b.v[i], (a_gives ? -depth : depth) * n);
 }
 
-void Walls::push_out(std::int32_t state, Vec2 way) const
+void Walls::push_out(std::int32_t state, Vec2 displacement) const
 {
     BodyState& body = m_view.states[state];
-    body.delta_position += way;
+    body.delta_position += displacement;
     body.flags |= body_flag::pressed;
 }
 

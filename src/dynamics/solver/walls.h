@@ -36,7 +36,7 @@ private:
     int guard_constraints(float part) const;
     bool guard_core(const ContactConstraint& constraint, float part) const;
     void guard_wide_core(const WideCore& core) const;
-    void push_out(std::int32_t state, Vec2 way) const;
+    void push_out(std::int32_t state, Vec2 displacement) const;
 
     const SolverView& m_view;
     Constraints m_constraints;

@@ -56,14 +56,14 @@ struct Island
     std::int32_t first_impact_constraint = 0; ///< constraints that bear nothing yet and may be hit
     std::int32_t impact_constraint_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_bin =
-        0; ///< of its wide contact constraints, part by part, in Scratch::bin_starts; and where the last ends
-    std::int32_t bin_count = 0; ///< of each part, and of what crosses from one to another: two to a color
-    std::int32_t parts = 0;     ///< of the plane, that all threads solve side by side
+    std::int32_t first_bucket =
+        0; ///< of its wide contact constraints, part by part, in Scratch::bucket_starts; and where the last ends
+    std::int32_t bucket_count = 0; ///< of each part, and of what crosses from one to another: two to a color
+    std::int32_t partitions = 0;        ///< of the plane, that all threads solve side by side
     std::int32_t first_joint_lane = 0;
     std::int32_t joint_lane_count = 0;
-    std::int32_t first_joint_bin = 0;
-    std::int32_t joint_bin_count = 0; ///< two to a color
+    std::int32_t first_joint_bucket = 0;
+    std::int32_t joint_bucket_count = 0; ///< two to a color
     IslandPolicy policy;
     bool traced = false;     ///< paths of some of its bodies are recorded
     bool all_direct = false; ///< all of its joints are solved at once
@@ -78,7 +78,7 @@ struct WideCore
     float depth;         ///< to which it may go
 };
 
-inline constexpr int bins_to_a_part = 2 * color_limit;
+inline constexpr int buckets_to_a_partition = 2 * color_limit;
 
 /// An impulse on a body of another island, or one asleep: it takes effect at the end of the step.
 struct DeferredImpulse
@@ -144,7 +144,7 @@ struct IslandOutput : ImpactReport
     std::vector<ImpactReport> reports_of_parts; ///< of the plane, empty but for while threads tell
     std::vector<std::int32_t> deflected;        ///< fliers off the way they set out on, in order
     std::vector<Reach> reaches;                 ///< of each of these
-    std::vector<HoldSet> hold_sets;             ///< of fliers that something has held
+    std::vector<RestingContacts> resting_sets;  ///< of fliers that something has held
     std::vector<PathPiece> path;                ///< of traced bodies, of each in the order of time
     std::vector<std::int32_t> last_piece;       ///< of each state of the island; empty before the first
     std::vector<RecordedPose> poses;            ///< after each sub-step, when asked for
@@ -178,9 +178,9 @@ struct SolverWorkspace
     BlankArray<WideContact> wide_contacts;
     BlankArray<WideContactNotes> wide_notes; ///< of each
     std::vector<std::uint8_t> struck;        ///< lanes of each of these, as the kernels find them
-    std::vector<std::int32_t> bin_starts;    ///< groups of wide contact constraints, from the island's first on
-    std::vector<std::int32_t> joint_bin_starts;
-    std::vector<std::uint16_t> parts; ///< of the states of islands that have some
+    std::vector<std::int32_t> bucket_starts; ///< groups of wide contact constraints, from the island's first on
+    std::vector<std::int32_t> joint_bucket_starts;
+    std::vector<std::uint16_t> partition_of; ///< of the states of islands that have some
     std::vector<WideJoint> wide_joints;
     std::vector<JointWork> joints;
     std::vector<WideCore> cores;

@@ -62,14 +62,14 @@ std::int32_t turns_across(Rotation before, Rotation after)
 
 } // namespace
 
-std::int32_t whole_turns(Rotation before, Rotation after, double way)
+std::int32_t whole_turns(Rotation before, Rotation after, double displacement)
 {
-    return nearest_turns(way - (angle_of(after) - angle_of(before)));
+    return nearest_turns(displacement - (angle_of(after) - angle_of(before)));
 }
 
-void count_turns(std::int32_t& turns, Rotation before, Rotation after, double way)
+void count_turns(std::int32_t& turns, Rotation before, Rotation after, double displacement)
 {
-    add_turns(turns, turns_by(before, after, way));
+    add_turns(turns, turns_by(before, after, displacement));
 }
 
 void count_turns(std::int32_t& turns, Rotation before, Rotation after)

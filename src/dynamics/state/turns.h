@@ -11,13 +11,13 @@
 namespace carom::internal {
 
 /// As turns_by, of any two rotations.
-[[nodiscard]] std::int32_t whole_turns(Rotation before, Rotation after, double way);
+[[nodiscard]] std::int32_t whole_turns(Rotation before, Rotation after, double displacement);
 
 /// The whole turns that the angles of two rotations leave out when a body turns by `way` from one to the other, rad.
-[[nodiscard]] inline std::int32_t turns_by(Rotation before, Rotation after, double way)
+[[nodiscard]] inline std::int32_t turns_by(Rotation before, Rotation after, double displacement)
 {
-    const bool is_far_from_pi = before.c >= 0 && after.c >= 0 && std::fabs(way) < 3;
-    return is_far_from_pi ? 0 : whole_turns(before, after, way);
+    const bool is_far_from_pi = before.c >= 0 && after.c >= 0 && std::fabs(displacement) < 3;
+    return is_far_from_pi ? 0 : whole_turns(before, after, displacement);
 }
 
 /// Within a step: by an angle, rad.
@@ -36,7 +36,7 @@ inline void turn_from_start(BodyState& s, double angle)
 }
 
 /// Adds to the turns of a body those between two rotations by `way`, rad.
-void count_turns(std::int32_t& turns, Rotation before, Rotation after, double way);
+void count_turns(std::int32_t& turns, Rotation before, Rotation after, double displacement);
 /// The same by the shortest way.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after);
 /// The same of a step that has been solved.

@@ -65,10 +65,10 @@ std::vector<std::int32_t> groups_of_parts(Scene& scene)
     const internal::Scratch& scratch = scene.data().scratch;
     const internal::Island& island = *std::ranges::max_element(scratch.solver.islands, {}, &internal::Island::edge_count);
     std::vector<std::int32_t> groups;
-    for (int part = 0; part < island.parts; ++part)
+    for (int part = 0; part < island.partitions; ++part)
     {
-        const auto starts = scratch.solver.bin_starts.begin() + island.first_bin + part * island.bin_count;
-        groups.push_back(starts[island.bin_count] - starts[0]);
+        const auto starts = scratch.solver.bucket_starts.begin() + island.first_bucket + part * island.bucket_count;
+        groups.push_back(starts[island.bucket_count] - starts[0]);
     }
     return groups;
 }
@@ -164,8 +164,8 @@ TEST(DynamicsLargeIsland, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThread
         ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash()) << "step " << i;
         const internal::Scratch& scratch = scenes[0].data().scratch;
         ASSERT_TRUE(std::ranges::any_of(scratch.solver.islands,
-                                        [](const internal::Island& island) { return internal::are_many(island.parts); }));
-        EXPECT_GT(std::ranges::count(scratch.solver.parts, 31), 1000) << "the last part";
+                                        [](const internal::Island& island) { return internal::are_many(island.partitions); }));
+        EXPECT_GT(std::ranges::count(scratch.solver.partition_of, 31), 1000) << "the last part";
         if (i == 0)
         {
             EXPECT_GE(scenes[0].report().flight_impacts, 20);

@@ -192,11 +192,11 @@ TEST(DynamicsPolicy, ABallThatFallsLandsWhicheverWayItIsSolved)
     expect_the_same(build, 3, 0.01);
 }
 
-std::vector<BodyId> hanging_chain(Scene& scene, int links)
+std::vector<BodyId> hanging_chain(Scene& scene, int edges)
 {
     std::vector<BodyId> bodies;
     BodyId before = add_static(scene, Circle{.radius = 0.1f}).body;
-    for (int i = 0; i < links; ++i)
+    for (int i = 0; i < edges; ++i)
     {
         const double y = -0.25 - 0.5 * i;
         bodies.push_back(add_dynamic(scene, {0.0, y}, box(0.05f, 0.2f)).body);

@@ -91,16 +91,16 @@ public:
     template <class BoxOf>
     void refit(const TaskHooks& tasks, const BoxOf& box_of)
     {
-        for_each_in_parts(tasks, m_levels[0].size(), blocks_per_task,
-                          [&](std::size_t k)
-                          {
-                              const std::size_t end = std::min((k + 1) * arity, m_items.size());
-                              for (std::size_t i = k * arity; i < end; ++i)
-                              {
-                                  if (m_items[i] >= 0)
-                                      m_levels[0][k].set(static_cast<int>(i % arity), box_of(m_items[i]));
-                              }
-                          });
+        for_each_in_chunks(tasks, m_levels[0].size(), blocks_per_task,
+                           [&](std::size_t k)
+                           {
+                               const std::size_t end = std::min((k + 1) * arity, m_items.size());
+                               for (std::size_t i = k * arity; i < end; ++i)
+                               {
+                                   if (m_items[i] >= 0)
+                                       m_levels[0][k].set(static_cast<int>(i % arity), box_of(m_items[i]));
+                               }
+                           });
         build_levels();
     }
 

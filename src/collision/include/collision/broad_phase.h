@@ -25,8 +25,8 @@ enum class Layer : std::int8_t
 struct BoxPath
 {
     FloatBox box{};
-    Vec2 shift{};      ///< of the whole box, along its path
-    float any_way = 0; ///< how far any point of it may come beside that
+    Vec2 shift{};       ///< of the whole box, along its path
+    float any_path = 0; ///< how far any point of it may come beside that
 };
 
 /// What sets an item apart from those with a box that meet what they touch.
@@ -36,14 +36,14 @@ struct ItemTraits
     bool unbounded = false; ///< a half-space
 };
 
-[[nodiscard]] inline F4 swept(F4 box, Vec2 way, float any_way)
+[[nodiscard]] inline F4 swept(F4 box, Vec2 displacement, float any_path)
 {
-    const F4 shift = four_of(way.x, way.y, way.x, way.y);
-    return grown(box + low_and_high(least(shift, F4{}), greatest(shift, F4{})), any_way);
+    const F4 shift = four_of(displacement.x, displacement.y, displacement.x, displacement.y);
+    return grown(box + low_and_high(least(shift, F4{}), greatest(shift, F4{})), any_path);
 }
 
 /// The box around all that it covers.
-[[nodiscard]] inline FloatBox swept(const BoxPath& p) { return box_of(swept(load4(&p.box.lx), p.shift, p.any_way)); }
+[[nodiscard]] inline FloatBox swept(const BoxPath& p) { return box_of(swept(load4(&p.box.lx), p.shift, p.any_path)); }
 
 /// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.
 [[nodiscard]] inline float least_gap(const BoxPath& a, const BoxPath& b)
@@ -54,11 +54,11 @@ struct ItemTraits
     const F4 low = low_halves(from, to) + least(d, F4{});
     const F4 gap = low - high_halves(to, from);
     const F4 by_axis = greatest(gap, swapped_halves(gap));
-    return first_lane(greatest(by_axis, swapped_neighbours(by_axis))) - (a.any_way + b.any_way);
+    return first_lane(greatest(by_axis, swapped_neighbours(by_axis))) - (a.any_path + b.any_path);
 }
 
 /// All that decides about an item's pairs.
-struct alignas(64) BoxPlace
+struct alignas(64) SweptBox
 {
     BoxPath path{};
     Layer layer = Layer::None;
@@ -66,7 +66,7 @@ struct alignas(64) BoxPlace
     FloatBox box{};
     FloatBox before{};
 };
-static_assert(sizeof(BoxPlace) == 64);
+static_assert(sizeof(SweptBox) == 64);
 
 /// Eight neighbours of the moving layer, when pairs were last looked for.
 struct BlockPast
@@ -114,9 +114,9 @@ public:
     }
 
     /// For kernels that write its path.
-    [[nodiscard]] BoxPlace& place(int item) { return m_places[static_cast<std::size_t>(item)]; }
+    [[nodiscard]] SweptBox& place(int item) { return m_places[static_cast<std::size_t>(item)]; }
     /// By item.
-    [[nodiscard]] const BoxPlace* places() const { return m_places.data(); }
+    [[nodiscard]] const SweptBox* places() const { return m_places.data(); }
     [[nodiscard]] const FloatBox& box(int item) const { return m_places[static_cast<std::size_t>(item)].box; }
     [[nodiscard]] bool has(int item) const
     {
@@ -127,14 +127,14 @@ public:
     [[nodiscard]] const FloatBox& box_before(int item) const { return m_places[static_cast<std::size_t>(item)].before; }
     [[nodiscard]] bool has_changed(int item) const
     {
-        const BoxPlace& p = m_places[static_cast<std::size_t>(item)];
+        const SweptBox& p = m_places[static_cast<std::size_t>(item)];
         return p.box.lx != p.before.lx || p.box.ly != p.before.ly || p.box.ux != p.before.ux || p.box.uy != p.before.uy;
     }
     void renew(int item) { m_places[static_cast<std::size_t>(item)].before = {}; }
     /// Pairs have been looked for.
     void settle(int item)
     {
-        BoxPlace& p = m_places[static_cast<std::size_t>(item)];
+        SweptBox& p = m_places[static_cast<std::size_t>(item)];
         p.before = p.box;
     }
 
@@ -282,7 +282,7 @@ private:
     void merge_recent(Forest& forest);
     void rebuild(const TaskHooks& tasks, Forest& forest, std::size_t from_tree);
 
-    std::vector<BoxPlace> m_places;
+    std::vector<SweptBox> m_places;
     std::vector<Leaf> m_leaves;        ///< by item, as the places
     std::vector<FilterBits> m_filters; ///< by item
     Forest m_forests[2];

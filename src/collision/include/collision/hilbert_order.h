@@ -31,13 +31,13 @@ public:
         const float width = std::fmax(around.ux - around.lx, around.uy - around.ly);
         const float scale = width > 0 ? 65535 / width : 0;
         set_size(m_keys, count);
-        for_each_in_parts(tasks, count, points_per_task,
-                          [&](std::size_t i)
-                          {
-                              const Vec2 p = at(i);
-                              const std::uint32_t code = along_curve(cell(p.x, around.lx, scale), cell(p.y, around.ly, scale));
-                              m_keys[i] = {code, static_cast<std::uint32_t>(i)};
-                          });
+        for_each_in_chunks(tasks, count, points_per_task,
+                           [&](std::size_t i)
+                           {
+                               const Vec2 p = at(i);
+                               const std::uint32_t code = along_curve(cell(p.x, around.lx, scale), cell(p.y, around.ly, scale));
+                               m_keys[i] = {code, static_cast<std::uint32_t>(i)};
+                           });
         radix_sort();
     }
 
@@ -56,16 +56,16 @@ private:
     FloatBox bounds_of(const TaskHooks& tasks, std::size_t count, const At& at)
     {
         FloatBox all;
-        for (const FloatBox& some : find_in_parts(tasks, count, points_per_task, m_bounds,
-                                                  [&](std::size_t first, std::size_t last, FloatBox& around)
-                                                  {
-                                                      around = {};
-                                                      for (std::size_t i = first; i < last; ++i)
-                                                      {
-                                                          const Vec2 p = at(i);
-                                                          around = unite(around, {p.x, p.y, p.x, p.y});
-                                                      }
-                                                  }))
+        for (const FloatBox& some : find_in_chunks(tasks, count, points_per_task, m_bounds,
+                                                   [&](std::size_t first, std::size_t last, FloatBox& around)
+                                                   {
+                                                       around = {};
+                                                       for (std::size_t i = first; i < last; ++i)
+                                                       {
+                                                           const Vec2 p = at(i);
+                                                           around = unite(around, {p.x, p.y, p.x, p.y});
+                                                       }
+                                                   }))
             all = unite(all, some);
         return all;
     }

@@ -83,7 +83,7 @@ inline constexpr double nearly_touch = 1e-3;
 
 /// What touches and presses is taken in blows: as fast as what presses makes it in `wait` seconds, but no slower than `least_blow` unless it would
 /// come deeper than `depth` for that.
-struct Press
+struct MicroCollision
 {
     double wait = 0;
     double least_blow = 0; ///< m/s
@@ -91,7 +91,7 @@ struct Press
 };
 
 /// How fast the gap closes by then, or once it is pressed as deep as nearly_touch; acceleration of the gap as in Touch.
-[[nodiscard]] double pressed_speed(double acceleration, const Press& press, double length);
+[[nodiscard]] double pressed_speed(double acceleration, const MicroCollision& press, double length);
 
 struct FlushNeighbours;
 
@@ -109,7 +109,7 @@ struct Flush
 /// `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look. Adds the looks taken to `looks`.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach,
-                                               const Press& press = {}, const ProbeSet& held = {}, Axis axis = {},
+                                               const MicroCollision& press = {}, const ProbeSet& held = {}, Axis axis = {},
                                                const Flush& flush = {}, std::int64_t* looks = nullptr);
 
 /// True where nothing of the two can meet in that time: along an axis from a to b they stay apart. False says nothing.

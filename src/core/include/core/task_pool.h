@@ -47,7 +47,7 @@ void run_both(const TaskHooks& hooks, const One& one, const Other& other)
 
 /// Calls work(first, last) for parts of 0 ... count, a task each.
 template <class Work>
-void run_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, const Work& work)
+void run_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part, const Work& work)
 {
     run_tasks(hooks, static_cast<int>((count + part - 1) / part),
               [&](int task)
@@ -59,26 +59,26 @@ void run_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, cons
 
 /// Calls visit(i) for each of 0 ... count, a part of them to a task.
 template <class Visit>
-void for_each_in_parts(const TaskHooks& hooks, std::size_t count, std::size_t part, const Visit& visit)
+void for_each_in_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part, const Visit& visit)
 {
-    run_parts(hooks, count, part,
-              [&](std::size_t first, std::size_t last)
-              {
-                  for (std::size_t i = first; i < last; ++i)
-                      visit(i);
-              });
+    run_chunks(hooks, count, part,
+               [&](std::size_t first, std::size_t last)
+               {
+                   for (std::size_t i = first; i < last; ++i)
+                       visit(i);
+               });
 }
 
 /// Calls work(first, last, found) for parts of 0 ... count; what each finds stands in the order of the parts. Results keep their memory: the span
 /// holds those of this call, not cleared.
 template <class Found, class Work>
-[[nodiscard]] std::span<Found> find_in_parts(const TaskHooks& hooks, std::size_t count, std::size_t part,
-                                             std::vector<Found>& results, const Work& work)
+[[nodiscard]] std::span<Found> find_in_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part,
+                                              std::vector<Found>& results, const Work& work)
 {
     const std::size_t parts = (count + part - 1) / part;
     if (results.size() < parts)
         results.resize(parts);
-    run_parts(hooks, count, part, [&](std::size_t first, std::size_t last) { work(first, last, results[first / part]); });
+    run_chunks(hooks, count, part, [&](std::size_t first, std::size_t last) { work(first, last, results[first / part]); });
     return std::span(results).first(parts);
 }
 

@@ -8,8 +8,8 @@
 
 #include "dynamics/continuous/impact/impact.h"
 #include "dynamics/continuous/flight.h"
-#include "dynamics/continuous/hold.h"
 #include "dynamics/continuous/impact/impact_set.h"
+#include "dynamics/continuous/resting_contact.h"
 #include "dynamics/narrowphase/material.h"
 #include "dynamics/state/body_store.h"
 
@@ -30,7 +30,7 @@ constexpr double soon_turned = 0.5;           // rad
 
 ImpactSet::ImpactSet(const FlightSpan& span, Flier& first)
     : m_span(span), m_state(span.state), m_first(first),
-      m_renewed(first.held_count > 0 && first.event_shape == none && first.event_time == first.hold_until),
+      m_renewed(first.resting_count > 0 && first.event_shape == none && first.event_time == first.rests_until),
       m_time(first.event_time), m_origin(span.sim_of(first.body).center)
 {}
 
@@ -51,7 +51,7 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
     for (std::size_t i = 0; i < m_rows.size(); ++i)
         report_touch(i);
     report_blows();
-    hold_what_presses(changed);
+    let_rest_what_presses(changed);
     if (is_jammed)
         stop_until_next();
 }
@@ -98,8 +98,8 @@ Bounce ImpactSet::law(int index, double u)
             bounce.kick = kick(s, speed);
     }
     // What is held elsewhere may press here.
-    const double pressing = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_held, row), 0.0});
-    const double rest = std::max({hop_speed(s, pressing), last_bounces(row, pressing, bounce.restitution),
+    const double resting_forces = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_resting, row), 0.0});
+    const double rest = std::max({hop_speed(s, resting_forces), last_bounces(row, resting_forces, bounce.restitution),
                                   both_have_finite_mass(row) ? blow_of(s) : 0}) +
                         m_span.least_approach;
     if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
@@ -111,19 +111,19 @@ Bounce ImpactSet::law(int index, double u)
 }
 
 // A hop this slow is none: it is over within a sub-step, and low. What turns fast has accelerations that last no sub-step.
-double ImpactSet::hop_speed(const Source& s, double pressing) const
+double ImpactSet::hop_speed(const Source& s, double resting_forces) const
 {
-    const double within_time = 0.5 * pressing * m_span.h;
+    const double within_time = 0.5 * resting_forces * m_span.h;
     const bool is_limit = s.own == none;
-    return is_limit ? within_time : std::min(within_time, std::sqrt(2 * pressing * low_hop * size_of(s)));
+    return is_limit ? within_time : std::min(within_time, std::sqrt(2 * resting_forces * low_hop * size_of(s)));
 }
 
 // A blow this slow is the last: it and all lower bounces after it are over within a sub-step, and before the bodies have turned to press elsewhere.
-double ImpactSet::last_bounces(const ImpactRow& row, double pressing, double restitution) const
+double ImpactSet::last_bounces(const ImpactRow& row, double resting_forces, double restitution) const
 {
     const auto turning = [&](int member) { return std::fabs(m_members[static_cast<std::size_t>(member)].path.w); };
     const double time = std::min(m_span.h, soon_turned / std::max({turning(row.a), turning(row.b), 1e-300}));
-    return 0.5 * pressing * time * (1 - restitution);
+    return 0.5 * resting_forces * time * (1 - restitution);
 }
 
 // They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.
@@ -140,7 +140,7 @@ double ImpactSet::size_of(const Source& s) const
 // As fast as what presses two that both give way is let become.
 double ImpactSet::blow_of(const Source& s) const
 {
-    const Press press = m_span.press(m_state.shapes[s.own].body, m_state.shapes[s.other].body);
+    const MicroCollision press = m_span.press(m_state.shapes[s.own].body, m_state.shapes[s.other].body);
     return pressed_speed(s.touch.acceleration, press, size_of(s));
 }
 
@@ -169,7 +169,7 @@ void ImpactSet::note_stopped_joints()
     {
         const std::int32_t a = m_members[static_cast<std::size_t>(r.a)].state;
         const std::int32_t b = m_members[static_cast<std::size_t>(r.b)].state;
-        if (r.kind == ImpactRow::Kind::Hold && r.energy_lost != 0)
+        if (r.kind == ImpactRow::Kind::RestingContact && r.energy_lost != 0)
             m_span.output.stopped_joints.push_back({a != none ? a : b, r.energy_lost});
     }
 }
@@ -187,7 +187,7 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
         return;
     if (m.flier != nullptr)
         deflect(*m.flier, now, struck);
-    else if (Flier* f = grounded(m); f != nullptr && is_fast(m_span, *f, now.vx, now.vy, now.w))
+    else if (Flier* f = could_fly(m); f != nullptr && is_fast(m_span, *f, now.vx, now.vy, now.w))
     {
         take_off(m_span, *f, m_time);
         m.flier = f;
@@ -204,7 +204,7 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
 }
 
 // What the solver has now but could fly.
-Flier* ImpactSet::grounded(const Member& m) const
+Flier* ImpactSet::could_fly(const Member& m) const
 {
     const std::int32_t f = m.state == none ? none : m_span.scratch.flight.flier_of_state[static_cast<std::size_t>(m.state)];
     return f == none ? nullptr : &m_span.scratch.flight.fliers[static_cast<std::size_t>(f)];

@@ -1,7 +1,7 @@
 // Who takes part in an impact: from what touches first through everything that touches it at that moment.
 
-#include "dynamics/continuous/hold.h"
 #include "dynamics/continuous/impact/impact_set.h"
+#include "dynamics/continuous/resting_contact.h"
 #include "dynamics/narrowphase/flush_pair.h"
 #include "dynamics/narrowphase/material.h"
 #include "dynamics/solver/joint/joint_solver.h"
@@ -33,7 +33,7 @@ void ImpactSet::gather()
 }
 
 // Thrown off its way a body may be held by what it has no contact with.
-void ImpactSet::look_again(Hold h)
+void ImpactSet::look_again(RestingContact h)
 {
     const auto is_it = [&](const Source& s)
     { return (s.own == h.own && s.other == h.other) || (s.own == h.other && s.other == h.own); };
@@ -62,8 +62,8 @@ int ImpactSet::member_of(int body)
     Member m;
     m.body = body;
     ImpactBody b;
-    ImpactBody held;
-    std::vector<Hold> released;
+    ImpactBody resting;
+    std::vector<RestingContact> released;
     if (body != none)
     {
         m.state = m_span.state_in_island(body);
@@ -72,10 +72,10 @@ int ImpactSet::member_of(int body)
         {
             if (!is_capped(m_span, *m.flier))
                 advance(m_span, *m.flier, m_time);
-            released.assign(m_span.holds_of(*m.flier).begin(), m_span.holds_of(*m.flier).end());
-            held = {.vx = m.flier->ax, .vy = m.flier->ay, .w = m.flier->alpha};
-            release_holds(m_span, *m.flier, m_time);
-            held = {.vx = held.vx - m.flier->ax, .vy = held.vy - m.flier->ay, .w = held.w - m.flier->alpha};
+            released.assign(m_span.resting_contacts_of(*m.flier).begin(), m_span.resting_contacts_of(*m.flier).end());
+            resting = {.vx = m.flier->ax, .vy = m.flier->ay, .w = m.flier->alpha};
+            release_resting_contacts(m_span, *m.flier, m_time);
+            resting = {.vx = resting.vx - m.flier->ax, .vy = resting.vy - m.flier->ay, .w = resting.w - m.flier->alpha};
             m.changed = !released.empty();
         }
         m.path = path_from(m_span, body, m_time, m_origin);
@@ -86,10 +86,10 @@ int ImpactSet::member_of(int body)
     }
     m_members.push_back(m);
     m_bodies.push_back(b);
-    m_held.push_back(held);
+    m_resting.push_back(resting);
     const int index = static_cast<int>(m_members.size()) - 1;
     // What was held takes part: it is held anew, or let go on both sides.
-    for (const Hold& h : released)
+    for (const RestingContact& h : released)
     {
         m_released.push_back(h);
         const auto other = static_cast<std::size_t>(member_of(m_state.shapes[h.other].body));
@@ -157,7 +157,7 @@ void ImpactSet::add_joints(int body)
         for (const JointRow& r : rows.holds())
         {
             ImpactRow row;
-            row.kind = ImpactRow::Kind::Hold;
+            row.kind = ImpactRow::Kind::RestingContact;
             row.a = a;
             row.b = b;
             row.nx = static_cast<double>(r.d.x);
@@ -228,13 +228,13 @@ double ImpactSet::nearness(int member, std::int32_t own, std::int32_t other, int
 {
     const bool solved = m_members[static_cast<std::size_t>(member)].flier == nullptr &&
                         m_span.flier_at(m_span.state_in_island(other_body)) == nullptr;
-    return solved || was_held(own, other) ? still_held : touching;
+    return solved || was_resting(own, other) ? still_rests : touching;
 }
 
-bool ImpactSet::was_held(std::int32_t own, std::int32_t other) const
+bool ImpactSet::was_resting(std::int32_t own, std::int32_t other) const
 {
-    return std::any_of(m_released.begin(), m_released.end(),
-                       [&](const Hold& h) { return (h.own == own && h.other == other) || (h.own == other && h.other == own); });
+    return std::any_of(m_released.begin(), m_released.end(), [&](const RestingContact& h)
+                       { return (h.own == own && h.other == other) || (h.own == other && h.other == own); });
 }
 
 ImpactRow ImpactSet::row_of(const Touch& t, int a, int b) const

@@ -12,7 +12,7 @@
 namespace carom::internal {
 
 /// Of the size: what was held or is in the solver's hands touches with its overlap or gap.
-inline constexpr double still_held = 1e-3;
+inline constexpr double still_rests = 1e-3;
 
 class ImpactSet
 {
@@ -48,7 +48,7 @@ private:
     void gather();
     [[nodiscard]] std::int32_t contact_between(std::int32_t own, std::int32_t other) const;
     int member_of(int body);
-    void look_again(Hold h);
+    void look_again(RestingContact h);
     void set_masses(const Member& m, ImpactBody& b) const;
     void expand(int index);
     void add_joints(int body);
@@ -56,7 +56,7 @@ private:
     [[nodiscard]] bool is_known(int contact) const;
     void add_touches(int member, std::int32_t own, std::int32_t other, std::int32_t contact);
     [[nodiscard]] double nearness(int member, std::int32_t own, std::int32_t other, int other_body) const;
-    [[nodiscard]] bool was_held(std::int32_t own, std::int32_t other) const;
+    [[nodiscard]] bool was_resting(std::int32_t own, std::int32_t other) const;
     [[nodiscard]] ImpactRow row_of(const Touch& t, int a, int b) const;
     void add_limits(int index);
     void add_limit(int index, double turn);
@@ -65,8 +65,8 @@ private:
     void stop_until_next();
     void note_before();
     Bounce law(int index, double u);
-    [[nodiscard]] double hop_speed(const Source& s, double pressing) const;
-    [[nodiscard]] double last_bounces(const ImpactRow& row, double pressing, double restitution) const;
+    [[nodiscard]] double hop_speed(const Source& s, double resting_forces) const;
+    [[nodiscard]] double last_bounces(const ImpactRow& row, double resting_forces, double restitution) const;
     [[nodiscard]] bool is_small_blow(const ImpactRow& row, const Source& s, double u) const;
     [[nodiscard]] double size_of(const Source& s) const;
     [[nodiscard]] double blow_of(const Source& s) const;
@@ -74,7 +74,7 @@ private:
     double kick(Source& s, float speed);
     void note_stopped_joints();
     void write_back(std::size_t i, std::vector<std::int32_t>& changed);
-    [[nodiscard]] Flier* grounded(const Member& m) const;
+    [[nodiscard]] Flier* could_fly(const Member& m) const;
     void deflect(Flier& f, const ImpactBody& now, bool struck) const;
     void defer(int index) const;
 
@@ -82,7 +82,7 @@ private:
     class Jam;
     [[nodiscard]] bool unite_jammed();
 
-    // What the user hears: impact_tell.cpp
+    // What the user hears: impact_report.cpp
     /// A blow of one contact, or of both that two flat faces have.
     struct Strike
     {
@@ -100,17 +100,17 @@ private:
     [[nodiscard]] bool own_is_a(const Source& s) const;
     [[nodiscard]] ImpactEvent event_of(const Strike& strike) const;
 
-    // What goes on pressing: impact_hold.cpp
-    void hold_what_presses(std::vector<std::int32_t>& changed);
+    // What goes on pressing: impact_rest.cpp
+    void let_rest_what_presses(std::vector<std::int32_t>& changed);
     [[nodiscard]] bool has_stopped(std::size_t i);
     [[nodiscard]] bool both_have_finite_mass(const ImpactRow& row) const;
     void rest_on_each_other(const ImpactRow& row, const Source& s);
     void accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const;
     [[nodiscard]] double slip_acceleration(std::size_t i) const;
     [[nodiscard]] double gap_acceleration(std::size_t i);
-    void hold(const Pressing& p);
-    void add_hold(Flier& f, const Hold& h) const;
-    void set_hold_time(std::size_t i);
+    void resting_contact(const RestingForce& p);
+    void add_resting_contact(Flier& f, const RestingContact& h) const;
+    void set_resting_time(std::size_t i);
 
     const FlightSpan& m_span;
     SceneState& m_state;
@@ -118,11 +118,11 @@ private:
     bool m_renewed; ///< a hold, and nothing strikes
     double m_time;
     Position m_origin;
-    std::vector<Hold> m_released{};
+    std::vector<RestingContact> m_released{};
     std::vector<Member> m_members{}; ///< beside m_bodies
     std::vector<ImpactBody> m_bodies{};
-    std::vector<ImpactBody> m_held{}; ///< what held them up to now, as accelerations
-    std::vector<Source> m_sources{};  ///< beside m_rows
+    std::vector<ImpactBody> m_resting{}; ///< what held them up to now, as accelerations
+    std::vector<Source> m_sources{};     ///< beside m_rows
     std::vector<ImpactRow> m_rows{};
     std::vector<Blow> m_blows{};
 };

@@ -140,7 +140,7 @@ private:
         if (!(k > 0))
             return;
         double impulse = d.impulse - (rate_along(m_change, row(d), n) - d.wanted) / k;
-        if (row(d).kind != ImpactRow::Kind::Hold)
+        if (row(d).kind != ImpactRow::Kind::RestingContact)
             impulse = std::max(impulse, 0.0);
         set(d, impulse, k);
     }
@@ -324,7 +324,7 @@ double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& row
     double greatest = 0;
     for (const ImpactRow& row : rows)
     {
-        if (row.kind != ImpactRow::Kind::Hold)
+        if (row.kind != ImpactRow::Kind::RestingContact)
             greatest = std::max(greatest, -gap_rate(bodies, row));
     }
     return greatest;
@@ -344,7 +344,7 @@ bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::App
     for (std::size_t i = 0; i < impact.rows.size(); ++i)
     {
         const ImpactRow& row = impact.rows[i];
-        if (row.kind == ImpactRow::Kind::Hold)
+        if (row.kind == ImpactRow::Kind::RestingContact)
         {
             demands.push_back({static_cast<int>(i)});
             continue;
@@ -399,7 +399,7 @@ void rub(Bodies& bodies, std::vector<ImpactRow>& rows)
 }
 
 // Friction of what presses: towards no slip at the end of the time looked at.
-void rub_pressed(Bodies& accelerations, const std::vector<ImpactRow>& rows, Pressing& p)
+void rub_resting(Bodies& accelerations, const std::vector<ImpactRow>& rows, RestingForce& p)
 {
     const ImpactRow& row = rows[static_cast<std::size_t>(p.row)];
     const Direction t = tangent_of(row);
@@ -414,12 +414,12 @@ constexpr int round_limit = 64;
 constexpr int one_by_one = 8; // rounds in which only what approaches is asked: more, and they pass it to and fro
 
 // Joints that the solver pulls together close at some rate; kept through an impact, it would do work.
-void stop_holds(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
+void stop_resting(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
 {
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-        if (rows[i].kind == ImpactRow::Kind::Hold)
+        if (rows[i].kind == ImpactRow::Kind::RestingContact)
             demands.push_back({static_cast<int>(i), -gap_rate(bodies, rows[i])});
     }
     if (!demands.empty())
@@ -447,7 +447,7 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
 {
     Impact impact{bodies, rows, least, work, blows};
     const BounceLaw still = [](int, double) { return Bounce{}; };
-    stop_holds(bodies, rows, work);
+    stop_resting(bodies, rows, work);
     int round = 0;
     while (round < round_limit && reflect_once(impact, law) && !work.is_spent())
         ++round;
@@ -475,10 +475,10 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
     return !work.is_spent();
 }
 
-void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vector<Pressing>& pressing)
+void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vector<RestingForce>& resting_forces)
 {
     std::vector<Demand> demands;
-    for (const Pressing& p : pressing)
+    for (const RestingForce& p : resting_forces)
         demands.push_back({p.row, -p.gap});
     Passes passes(accelerations, rows);
     for (int pass = 0; pass < pass_limit; ++pass)
@@ -486,13 +486,13 @@ void press(Bodies& accelerations, const std::vector<ImpactRow>& rows, std::vecto
         passes.worst = 0;
         for (std::size_t i = 0; i < demands.size();)
             i += passes.take(demands, i);
-        for (std::size_t i = 0; i < pressing.size(); ++i)
+        for (std::size_t i = 0; i < resting_forces.size(); ++i)
         {
-            Pressing& p = pressing[i];
+            RestingForce& p = resting_forces[i];
             p.force = demands[i].impulse;
             if (pass < passes_with_rising_friction)
                 p.limit = rows[static_cast<std::size_t>(p.row)].friction * p.force;
-            rub_pressed(accelerations, rows, p);
+            rub_resting(accelerations, rows, p);
         }
         if (passes.worst <= 1e-10)
             return;

@@ -35,8 +35,8 @@ struct ImpactRow
     enum class Kind : std::uint8_t
     {
         Contact,
-        Limit, ///< of a joint: pushes and never pulls, no friction
-        Hold,  ///< of a joint: its rate stays what it is
+        Limit,          ///< of a joint: pushes and never pulls, no friction
+        RestingContact, ///< of a joint: its rate stays what it is
     } kind = Kind::Contact;
     int a = 0;
     int b = 0;
@@ -107,7 +107,7 @@ struct ImpactWork
                            ImpactWork& work, std::vector<Blow>& blows);
 
 /// How a row that no longer parts would accelerate without the forces asked for.
-struct Pressing
+struct RestingForce
 {
     int row = 0;
     double gap = 0; ///< acceleration of the gap
@@ -120,7 +120,7 @@ struct Pressing
 
 /// Contact forces of what presses, with friction: fills in the forces and adds what they do to `accelerations` (bodies whose velocities are
 /// accelerations; those that are not to give way have no inverse mass).
-void press(std::vector<ImpactBody>& accelerations, const std::vector<ImpactRow>& rows, std::vector<Pressing>& pressing);
+void press(std::vector<ImpactBody>& accelerations, const std::vector<ImpactRow>& rows, std::vector<RestingForce>& resting_forces);
 
 /// Rate of the gap, and of b's surface against a's along the tangent.
 [[nodiscard]] double gap_rate(const std::vector<ImpactBody>& bodies, const ImpactRow& row);

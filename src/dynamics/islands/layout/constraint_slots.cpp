@@ -24,8 +24,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t most_tasks = 64;   // of an island: each counts all of its bins
-constexpr std::uint16_t no_part = 65535; // of what does not give way
+constexpr std::size_t most_tasks = 64;        // of an island: each counts all of its bins
+constexpr std::uint16_t no_partition = 65535; // of what does not give way
 
 class ConstraintSlots
 {
@@ -40,7 +40,7 @@ public:
         m_island.first_wide = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size()) / lane_count;
         m_island.first_core = static_cast<std::int32_t>(m_scratch.solver.cores.size());
         m_is_uniform = m_island.policy.wide_contacts && is_uniform(m_ctx, m_island);
-        find_parts();
+        find_partitions();
         name_copies();
         const std::span<SlotsOfTask> tasks = count_edges();
         color_new_constraints(tasks);
@@ -60,20 +60,20 @@ private:
     // --- parts of the plane -----------------------------------------------------------------------------------------------------------
 
     // Of whole cells of the plane, and about as much work to each.
-    void find_parts()
+    void find_partitions()
     {
-        if (m_island.parts == 0)
+        if (m_island.partitions == 0)
             return;
-        std::fill_n(m_scratch.solver.parts.begin() + m_island.first_state, m_island.state_count, no_part);
+        std::fill_n(m_scratch.solver.partition_of.begin() + m_island.first_state, m_island.state_count, no_partition);
         const std::vector<CellOfIsland>& cells = find_cells();
         std::int64_t all = 0;
         for (const CellOfIsland& cell : cells)
             all += cell.work;
         std::int64_t before = 0;
-        auto to = m_scratch.solver.parts.begin() + m_island.first_state + 1;
+        auto to = m_scratch.solver.partition_of.begin() + m_island.first_state + 1;
         for (const CellOfIsland& cell : cells)
         {
-            to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_island.parts / all));
+            to = std::fill_n(to, cell.states, static_cast<std::uint16_t>((before + cell.work / 2) * m_island.partitions / all));
             before += cell.work;
         }
     }
@@ -82,7 +82,7 @@ private:
     [[nodiscard]] const std::vector<CellOfIsland>& find_cells() const
     {
         using Some = std::vector<CellOfIsland>;
-        const std::span<Some> tasks = find_in_parts(
+        const std::span<Some> tasks = find_in_chunks(
             m_ctx.scene.def.tasks, as_index(m_island.dynamic_count), bodies_per_task, m_scratch.layout.cells_of_task,
             [&](std::size_t first, std::size_t last, Some& cells)
             {
@@ -115,17 +115,17 @@ private:
     // As many constraints as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
     [[nodiscard]] std::int64_t work_of(int body) const
     {
-        return are_many(m_island.parts) ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
+        return are_many(m_island.partitions) ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
     }
 
     // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
-    [[nodiscard]] int part_of(const ContactEdge& l) const
+    [[nodiscard]] int partition_of(const ContactEdge& l) const
     {
-        if (m_island.parts == 0)
+        if (m_island.partitions == 0)
             return 0;
-        const std::uint16_t a = m_scratch.solver.parts[as_index(l.a)];
-        const std::uint16_t b = m_scratch.solver.parts[as_index(l.b)];
-        return a == b || b == no_part ? a : a == no_part ? b : m_island.parts;
+        const std::uint16_t a = m_scratch.solver.partition_of[as_index(l.a)];
+        const std::uint16_t b = m_scratch.solver.partition_of[as_index(l.b)];
+        return a == b || b == no_partition ? a : a == no_partition ? b : m_island.partitions;
     }
 
     // --- states -----------------------------------------------------------------------------------------------------------------------
@@ -149,7 +149,7 @@ private:
 
     // --- colours and counts -----------------------------------------------------------------------------------------------------------
 
-    [[nodiscard]] std::span<ContactEdge> links() const
+    [[nodiscard]] std::span<ContactEdge> edges() const
     {
         return std::span(m_scratch.layout.solved_edges).subspan(as_index(m_island.first_edge), as_index(m_island.edge_count));
     }
@@ -157,32 +157,32 @@ private:
     // A small island is one task.
     [[nodiscard]] std::size_t edges_of_task() const
     {
-        return m_island.parts > 0 ? std::max(edges_per_task, links().size() / most_tasks)
-                                  : std::max<std::size_t>(links().size(), 1);
+        return m_island.partitions > 0 ? std::max(edges_per_task, edges().size() / most_tasks)
+                                       : std::max<std::size_t>(edges().size(), 1);
     }
 
     // They name states from here on.
     [[nodiscard]] std::span<SlotsOfTask> count_edges()
     {
-        return find_in_parts(m_ctx.scene.def.tasks, std::max<std::size_t>(links().size(), 1), edges_of_task(),
-                             m_scratch.layout.slots_of_task,
-                             [&](std::size_t first, std::size_t last, SlotsOfTask& some)
-                             {
-                                 some.lanes.resize(std::max(some.lanes.size(), as_index((m_island.parts + 1) * bins_to_a_part)));
-                                 some.uncolored.clear();
-                                 some.cores.clear();
-                                 some.colors = 0;
-                                 for (std::size_t i = first; i < std::min(last, links().size()); ++i)
-                                 {
-                                     ContactEdge& l = links()[i];
-                                     l.a = state_at(l.a);
-                                     l.b = state_at(l.b);
-                                     if (l.color() == none || l.color() == color_limit)
-                                         some.uncolored.push_back(static_cast<std::int32_t>(i));
-                                     else
-                                         count(l, some);
-                                 }
-                             });
+        return find_in_chunks(
+            m_ctx.scene.def.tasks, std::max<std::size_t>(edges().size(), 1), edges_of_task(), m_scratch.layout.slots_of_task,
+            [&](std::size_t first, std::size_t last, SlotsOfTask& some)
+            {
+                some.lanes.resize(std::max(some.lanes.size(), as_index((m_island.partitions + 1) * buckets_to_a_partition)));
+                some.uncolored.clear();
+                some.cores.clear();
+                some.colors = 0;
+                for (std::size_t i = first; i < std::min(last, edges().size()); ++i)
+                {
+                    ContactEdge& l = edges()[i];
+                    l.a = state_at(l.a);
+                    l.b = state_at(l.b);
+                    if (l.color() == none || l.color() == color_limit)
+                        some.uncolored.push_back(static_cast<std::int32_t>(i));
+                    else
+                        count(l, some);
+                }
+            });
     }
 
     void color_new_constraints(std::span<SlotsOfTask> tasks)
@@ -192,7 +192,7 @@ private:
             for (std::size_t u = 0; u < some.uncolored.size(); ++u)
             {
                 prefetch_uncolored(some.uncolored, u);
-                ContactEdge& l = links()[as_index(some.uncolored[u])];
+                ContactEdge& l = edges()[as_index(some.uncolored[u])];
                 Contact& contact = m_state.contacts[l.contact];
                 take_color(m_state, contact);
                 l.flags = packed_flags(l.flags & edge_flag::all, l.points(), contact.color);
@@ -207,7 +207,7 @@ private:
     [[gnu::always_inline]] void prefetch_uncolored(std::span<const std::int32_t> uncolored, std::size_t u) const
     {
         const auto contact_of = [&](std::size_t i) -> const Contact&
-        { return m_state.contacts[links()[as_index(uncolored[i])].contact]; };
+        { return m_state.contacts[edges()[as_index(uncolored[i])].contact]; };
         if (u + 2 * prefetch_distance < uncolored.size())
             prefetch_line(&contact_of(u + 2 * prefetch_distance));
         if (u + prefetch_distance >= uncolored.size())
@@ -222,15 +222,15 @@ private:
         const bool in_lane = m_island.policy.wide_contacts && color != color_limit && l.has(edge_flag::plain) &&
                              (m_is_uniform || give_evenly(m_ctx, l));
         l.flags = static_cast<std::uint16_t>(l.flags | (in_lane ? edge_flag::in_lane : 0));
-        l.bin = static_cast<std::uint16_t>(in_lane ? bin_of(l) : color);
+        l.bucket = static_cast<std::uint16_t>(in_lane ? bucket_of(l) : color);
         ++some.place_for(l);
         some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
     }
 
     // Of a lane, by part, color and number of points.
-    [[nodiscard]] int bin_of(const ContactEdge& l) const
+    [[nodiscard]] int bucket_of(const ContactEdge& l) const
     {
-        return part_of(l) * bins_to_a_part + 2 * l.color() + (l.points() == 2 ? 0 : 1);
+        return partition_of(l) * buckets_to_a_partition + 2 * l.color() + (l.points() == 2 ? 0 : 1);
     }
 
     // --- places -----------------------------------------------------------------------------------------------------------------------
@@ -243,22 +243,22 @@ private:
             colors |= some.colors;
         m_island.colors = static_cast<std::int32_t>(std::bit_width(colors));
         auto lane = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size());
-        m_island.first_bin = static_cast<std::int32_t>(m_scratch.solver.bin_starts.size());
-        m_island.bin_count = 2 * m_island.colors;
-        for (std::int32_t part = 0; part <= m_island.parts; ++part)
+        m_island.first_bucket = static_cast<std::int32_t>(m_scratch.solver.bucket_starts.size());
+        m_island.bucket_count = 2 * m_island.colors;
+        for (std::int32_t partition = 0; partition <= m_island.partitions; ++partition)
         {
-            for (std::int32_t bin = 0; bin < m_island.bin_count; ++bin)
+            for (std::int32_t bucket = 0; bucket < m_island.bucket_count; ++bucket)
             {
-                m_scratch.solver.bin_starts.push_back(lane / lane_count - m_island.first_wide);
+                m_scratch.solver.bucket_starts.push_back(lane / lane_count - m_island.first_wide);
                 give_out(
-                    tasks, [&](SlotsOfTask& some) -> std::int32_t& { return some.lanes[as_index(part * bins_to_a_part + bin)]; },
-                    lane);
+                    tasks, [&](SlotsOfTask& some) -> std::int32_t&
+                    { return some.lanes[as_index(partition * buckets_to_a_partition + bucket)]; }, lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
         }
-        m_scratch.solver.bin_starts.push_back(lane / lane_count - m_island.first_wide);
+        m_scratch.solver.bucket_starts.push_back(lane / lane_count - m_island.first_wide);
         auto constraint = m_island.first_constraint;
-        for_each_constraint_bin(
+        for_each_constraint_bucket(
             [&](int color)
             {
                 give_out(tasks, [&](SlotsOfTask& some) -> std::int32_t& { return some.constraints[color]; }, constraint);
@@ -277,7 +277,7 @@ private:
     }
 
     template <class Visit>
-    void for_each_constraint_bin(const Visit& visit) const
+    void for_each_constraint_bucket(const Visit& visit) const
     {
         for (int color = 0; color < m_island.colors; ++color)
             visit(color);
@@ -286,18 +286,18 @@ private:
 
     void place(std::size_t first, SlotsOfTask& some)
     {
-        for (std::size_t i = first; i < std::min(first + edges_of_task(), links().size()); ++i)
+        for (std::size_t i = first; i < std::min(first + edges_of_task(), edges().size()); ++i)
         {
-            const ContactEdge& l = links()[i];
+            const ContactEdge& l = edges()[i];
             const std::int32_t at = some.place_for(l)++;
             (l.has(edge_flag::in_lane) ? m_scratch.layout.lane_edges : m_scratch.layout.constraint_edges)[as_index(at)] =
                 m_island.first_edge + static_cast<std::int32_t>(i);
             if (l.has(edge_flag::in_lane) && l.points() > 0)
                 add_core(l, at, some);
         }
-        for (std::int32_t part = 0; part <= m_island.parts; ++part)
-            std::fill_n(some.lanes.begin() + part * bins_to_a_part, m_island.bin_count, 0);
-        for_each_constraint_bin([&](int color) { some.constraints[color] = 0; });
+        for (std::int32_t partition = 0; partition <= m_island.partitions; ++partition)
+            std::fill_n(some.lanes.begin() + partition * buckets_to_a_partition, m_island.bucket_count, 0);
+        for_each_constraint_bucket([&](int color) { some.constraints[color] = 0; });
     }
 
     // Balls and bodies in joints have a core against walls.
@@ -342,7 +342,7 @@ void sort_edges(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     sort_by_island(
-        {}, scratch, scratch.graph.links, scratch.layout.solved_edges, edges_per_task,
+        {}, scratch, scratch.graph.edges, scratch.layout.solved_edges, edges_per_task,
         [&](std::size_t i) { return scratch.graph.island_of_edge[i]; },
         [](Island& island, int first, int count)
         {
@@ -354,16 +354,16 @@ void sort_edges(StepContext& ctx)
 void place_constraints_of_small_islands(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    set_size(scratch.solver.parts, scratch.solver.state_bodies.size());
+    set_size(scratch.solver.partition_of, scratch.solver.state_bodies.size());
     scratch.layout.constraint_edges.clear();
     scratch.layout.lane_edges.clear();
     scratch.solver.impact_constraints.clear();
     scratch.solver.cores.clear();
-    scratch.solver.bin_starts.clear();
+    scratch.solver.bucket_starts.clear();
     for (Island& island : scratch.solver.islands)
     {
-        island.parts = partitions_of(island.policy, island.dynamic_count, island.edge_count);
-        if (island.parts == 0)
+        island.partitions = partitions_of(island.policy, island.dynamic_count, island.edge_count);
+        if (island.partitions == 0)
             ConstraintSlots(ctx, island).find();
     }
 }
@@ -372,7 +372,7 @@ void place_constraints_of_large_islands(StepContext& ctx)
 {
     for (Island& island : ctx.scratch.solver.islands)
     {
-        if (island.parts > 0)
+        if (island.partitions > 0)
             ConstraintSlots(ctx, island).find();
     }
 }

@@ -115,8 +115,8 @@ public:
     void make_room()
     {
         set_size(m_scratch.solver.constraints, m_scratch.layout.constraint_edges.size());
-        set_size(m_scratch.solver.joints, m_scratch.layout.joint_places.size());
-        set_size(m_scratch.solver.wide_joints, as_index(m_groups));
+        set_size(m_scratch.solver.joints, m_scratch.layout.joints_outside_lanes.size());
+        set_size(m_scratch.solver.wide_joints, as_index(m_blocks));
     }
 
     // What held each state when the constraints were placed holds it still.
@@ -138,12 +138,12 @@ private:
     template <class IsBound>
     void unbind_those(const IsBound& is_bound)
     {
-        for_each_in_parts(m_ctx.scene.def.tasks, m_scratch.solver.states.size(), places_per_task,
-                          [&](std::size_t s)
-                          {
-                              if (is_bound(s))
-                                  m_scratch.solver.states[s].flags &= ~body_flag::unbound;
-                          });
+        for_each_in_chunks(m_ctx.scene.def.tasks, m_scratch.solver.states.size(), places_per_task,
+                           [&](std::size_t s)
+                           {
+                               if (is_bound(s))
+                                   m_scratch.solver.states[s].flags &= ~body_flag::unbound;
+                           });
     }
 
     [[nodiscard]] int state_tasks() const { return tasks_for(static_cast<std::int32_t>(m_scratch.solver.state_bodies.size())); }
@@ -208,17 +208,17 @@ private:
         if (island.policy.free_fall)
             return;
         const std::int32_t kind = m_scratch.graph.flight[as_index(place)];
-        const std::int32_t could = m_scratch.graph.grounded[as_index(place)];
+        const std::int32_t could = m_scratch.graph.could_fly[as_index(place)];
         const int body = m_state.awake_bodies[as_index(place)];
         const std::int32_t s = m_scratch.solver.state_of[as_index(place)];
-        if (kind != earthbound)
+        if (kind != solver_owned)
         {
             ++m_ctx.report.flight_bodies;
             if (kind != none)
                 forget_impulses(m_state.joints[kind]);
             m_scratch.layout.flier_seeds.push_back({s, body, kind, false});
         }
-        else if (could != earthbound && (island.policy.exact_impacts || may_take_off(place, could)))
+        else if (could != solver_owned && (island.policy.exact_impacts || may_take_off(place, could)))
         {
             m_scratch.layout.flier_seeds.push_back({s, body, could, true});
         }
@@ -319,12 +319,12 @@ private:
 
     void place_joints()
     {
-        m_scratch.layout.joint_places.clear();
+        m_scratch.layout.joints_outside_lanes.clear();
         m_scratch.layout.joint_lanes.clear();
-        m_scratch.solver.joint_bin_starts.clear();
+        m_scratch.solver.joint_bucket_starts.clear();
         m_scratch.layout.bound_by_joint.assign(m_scratch.solver.state_bodies.size(), 0);
         set_size(m_scratch.layout.joint_colors, m_scratch.solver.state_bodies.size());
-        m_groups = 0;
+        m_blocks = 0;
         for (Island& island : m_scratch.solver.islands)
             place_joints_of(island);
     }
@@ -333,8 +333,8 @@ private:
     void let_drift(Island& island)
     {
         const auto places =
-            std::span(m_scratch.layout.joint_places).subspan(as_index(island.first_joint), as_index(island.joint_count));
-        const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const JointPlace& place)
+            std::span(m_scratch.layout.joints_outside_lanes).subspan(as_index(island.first_joint), as_index(island.joint_count));
+        const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const SolvedJoint& place)
                                          { return sum + most_rows_of(m_state.joints[place.joint]); });
         island.all_direct =
             island.joint_count > 0 && solves_all_joints_directly(island.policy, rows, island.wide_joint_count > 0);
@@ -361,8 +361,8 @@ private:
     {
         const bool wide = island.policy.wide_joints;
         const bool uniform = wide && is_uniform(m_ctx, island);
-        island.first_joint = static_cast<std::int32_t>(m_scratch.layout.joint_places.size());
-        island.first_wide_joint = m_groups;
+        island.first_joint = static_cast<std::int32_t>(m_scratch.layout.joints_outside_lanes.size());
+        island.first_wide_joint = m_blocks;
         if (wide)
             std::fill_n(m_scratch.layout.joint_colors.begin() + island.first_state, island.state_count, 0);
         const std::size_t first_lane = m_scratch.layout.joint_lanes.size();
@@ -370,21 +370,21 @@ private:
         {
             const JointEdge& j = m_scratch.graph.solved_joints[as_index(i)];
             const StatePair states = m_scratch.layout.joint_states[as_index(i)];
-            const JointPlace joint = {j.joint, states.a, states.b};
+            const SolvedJoint joint = {j.joint, states.a, states.b};
             if (!wide || !place_joint_in_lane(island, j, joint, uniform))
-                m_scratch.layout.joint_places.push_back(joint);
+                m_scratch.layout.joints_outside_lanes.push_back(joint);
             if (j.binds)
                 m_scratch.layout.bound_by_joint[as_index(states.a)] = m_scratch.layout.bound_by_joint[as_index(states.b)] = 1;
         }
-        group_joints(island, first_lane);
+        block_joints(island, first_lane);
         island.first_joint_lane = static_cast<std::int32_t>(first_lane);
         island.joint_lane_count = static_cast<std::int32_t>(m_scratch.layout.joint_lanes.size() - first_lane);
-        island.joint_count = static_cast<std::int32_t>(m_scratch.layout.joint_places.size()) - island.first_joint;
-        island.wide_joint_count = m_groups - island.first_wide_joint;
+        island.joint_count = static_cast<std::int32_t>(m_scratch.layout.joints_outside_lanes.size()) - island.first_joint;
+        island.wide_joint_count = m_blocks - island.first_wide_joint;
     }
 
     // Finds its colour; false where it must stand alone.
-    bool place_joint_in_lane(const Island& island, const JointEdge& j, const JointPlace& joint, bool uniform)
+    bool place_joint_in_lane(const Island& island, const JointEdge& j, const SolvedJoint& joint, bool uniform)
     {
         if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, joint)))
             return false;
@@ -396,54 +396,54 @@ private:
     }
 
     // By counting; those of a bin stay in order.
-    void sort_by_bin(std::size_t first)
+    void sort_by_bucket(std::size_t first)
     {
         std::vector<JointLane>& lanes = m_scratch.layout.joint_lanes;
         if (lanes.size() == first)
             return;
         std::int32_t starts[2 * color_limit + 1] = {};
         for (std::size_t i = first; i < lanes.size(); ++i)
-            ++starts[lanes[i].bin + 1];
-        for (int bin = 0; bin < 2 * color_limit; ++bin)
-            starts[bin + 1] += starts[bin];
+            ++starts[lanes[i].bucket + 1];
+        for (int bucket = 0; bucket < 2 * color_limit; ++bucket)
+            starts[bucket + 1] += starts[bucket];
         std::vector<JointLane>& sorted = m_scratch.layout.sorted_lanes;
         set_size(sorted, lanes.size() - first);
         for (std::size_t i = first; i < lanes.size(); ++i)
-            sorted[as_index(starts[lanes[i].bin]++)] = lanes[i];
+            sorted[as_index(starts[lanes[i].bucket]++)] = lanes[i];
         std::copy(sorted.begin(), sorted.end(), lanes.begin() + static_cast<std::ptrdiff_t>(first));
     }
 
     // Sorted by bin, eight by eight; each learns its lane.
-    void group_joints(Island& island, std::size_t first)
+    void block_joints(Island& island, std::size_t first)
     {
         const auto begin = m_scratch.layout.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
-        sort_by_bin(first);
-        island.first_joint_bin = static_cast<std::int32_t>(m_scratch.solver.joint_bin_starts.size());
-        std::int32_t bin = none;
+        sort_by_bucket(first);
+        island.first_joint_bucket = static_cast<std::int32_t>(m_scratch.solver.joint_bucket_starts.size());
+        std::int32_t bucket = none;
         int lane = 0;
-        std::int32_t next_bin = 0; // to begin
+        std::int32_t next_bucket = 0; // to begin
         for (auto l = begin; l != m_scratch.layout.joint_lanes.end(); ++l)
         {
-            for (; next_bin <= l->bin; ++next_bin)
-                m_scratch.solver.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
-            if (l->bin != bin || lane == lane_count)
+            for (; next_bucket <= l->bucket; ++next_bucket)
+                m_scratch.solver.joint_bucket_starts.push_back(m_blocks - island.first_wide_joint);
+            if (l->bucket != bucket || lane == lane_count)
             {
-                ++m_groups;
+                ++m_blocks;
                 lane = 0;
             }
-            bin = l->bin;
-            l->lane = (m_groups - 1) * lane_count + lane++;
+            bucket = l->bucket;
+            l->lane = (m_blocks - 1) * lane_count + lane++;
         }
-        for (; next_bin % 2 != 0; ++next_bin)
-            m_scratch.solver.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
-        m_scratch.solver.joint_bin_starts.push_back(m_groups - island.first_wide_joint);
-        island.joint_bin_count = next_bin;
+        for (; next_bucket % 2 != 0; ++next_bucket)
+            m_scratch.solver.joint_bucket_starts.push_back(m_blocks - island.first_wide_joint);
+        m_scratch.solver.joint_bucket_starts.push_back(m_blocks - island.first_wide_joint);
+        island.joint_bucket_count = next_bucket;
     }
 
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    std::int32_t m_groups = 0; ///< of wide joints
+    std::int32_t m_blocks = 0; ///< of wide joints
 };
 
 } // namespace

@@ -40,16 +40,16 @@ void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<
                     std::size_t items_per_task, const IslandOf& island_of, const SetRange& set_range)
 {
     using Runs = std::vector<IslandRun>;
-    const std::span<Runs> parts =
-        find_in_parts(tasks, items.size(), items_per_task, scratch.layout.runs_of_task,
-                      [&](std::size_t first, std::size_t last, Runs& runs)
-                      {
-                          runs.clear();
-                          for_each_run(first, last, island_of, [&](const IslandRun& run) { append(runs, run); });
-                      });
+    const std::span<Runs> partitions =
+        find_in_chunks(tasks, items.size(), items_per_task, scratch.layout.runs_of_task,
+                       [&](std::size_t first, std::size_t last, Runs& runs)
+                       {
+                           runs.clear();
+                           for_each_run(first, last, island_of, [&](const IslandRun& run) { append(runs, run); });
+                       });
     std::vector<std::int32_t>& starts = scratch.layout.island_starts;
     starts.assign(scratch.solver.islands.size() + 1, 0);
-    for (const Runs& runs : parts)
+    for (const Runs& runs : partitions)
     {
         for (const IslandRun& run : runs)
             starts[static_cast<std::size_t>(run.island) + 1] += run.count;
@@ -59,17 +59,17 @@ void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<
         set_range(scratch.solver.islands[u], starts[u], starts[u + 1]);
         starts[u + 1] += starts[u];
     }
-    for (Runs& runs : parts)
+    for (Runs& runs : partitions)
     {
         for (IslandRun& run : runs)
             run.sorted_first = std::exchange(starts[static_cast<std::size_t>(run.island)],
                                              starts[static_cast<std::size_t>(run.island)] + run.count);
     }
     set_size(sorted, static_cast<std::size_t>(starts[scratch.solver.islands.empty() ? 0 : scratch.solver.islands.size() - 1]));
-    run_tasks(tasks, static_cast<int>(parts.size()),
+    run_tasks(tasks, static_cast<int>(partitions.size()),
               [&](int task)
               {
-                  for (const IslandRun& run : parts[static_cast<std::size_t>(task)])
+                  for (const IslandRun& run : partitions[static_cast<std::size_t>(task)])
                       std::ranges::copy(run.of(items), sorted.begin() + run.sorted_first);
               });
 }

@@ -24,7 +24,7 @@ struct SlotsOfTask
 
     [[nodiscard]] std::int32_t& place_for(const ContactEdge& l)
     {
-        return l.has(edge_flag::in_lane) ? lanes[l.bin] : constraints[l.bin];
+        return l.has(edge_flag::in_lane) ? lanes[l.bucket] : constraints[l.bucket];
     }
 };
 
@@ -52,7 +52,7 @@ struct IslandRun
 };
 
 /// A joint and the states of its bodies.
-struct JointPlace
+struct SolvedJoint
 {
     std::int32_t joint;
     std::int32_t a;
@@ -62,9 +62,9 @@ struct JointPlace
 /// A hinge among the wide ones.
 struct JointLane
 {
-    std::int32_t bin;  ///< by color, and by whether it does something about its angle
-    std::int32_t lane; ///< group * lane_count + lane
-    JointPlace place;
+    std::int32_t bucket; ///< by color, and by whether it does something about its angle
+    std::int32_t lane;   ///< group * lane_count + lane
+    SolvedJoint place;
 };
 
 /// A body that flies in this step, or may take off.
@@ -121,7 +121,7 @@ struct LayoutWorkspace
     std::vector<SlotsOfTask> slots_of_task;
     std::vector<std::uint64_t> joint_colors;  ///< by state: a bit for each that its hinges in lanes have
     std::vector<std::uint8_t> bound_by_joint; ///< by state
-    std::vector<JointPlace> joint_places;
+    std::vector<SolvedJoint> joints_outside_lanes;
     std::vector<JointLane> joint_lanes;
     std::vector<JointLane> sorted_lanes;
     std::vector<FlierSeed> flier_seeds;

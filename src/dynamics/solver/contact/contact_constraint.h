@@ -17,7 +17,7 @@ struct ConstraintPoint
     Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
     Vec2 rb0{};
     float base = 0; ///< separation = base + n · (relative displacement of the anchors)
-    float predicted_bend =
+    float predicted_curvature =
         0; ///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
     float normal_impulse = 0;
     float tangent_impulse = 0;

@@ -23,7 +23,7 @@ ContactPasses::ContactPasses(SolvedIsland& work)
       m_softness{
           work.ctx.h,         work.view.inverse_h, work.view.push_speed, work.ctx.contact_softness, work.ctx.static_softness,
           work.ctx.rest_speed},
-      m_partitions(contact_bins(work.scratch, work.island)),
+      m_partitions(contact_buckets(work.scratch, work.island)),
       m_notes_bodies(work.island.wide_count > 0 && work.island.joint_count == 0 && work.island.wide_joint_count == 0)
 {}
 
@@ -65,36 +65,38 @@ void ContactPasses::solve_by_partition()
     const auto relax = [this](int first, int last) { relax_lanes(first, last); };
     integrate_positions(m_work, island.first_state + 1 + island.dynamic_count,
                         island.first_state + island.state_count); // kinematic
-    const auto parts =
-        std::span(m_work.scratch.solver.parts).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
+    const auto partitions =
+        std::span(m_work.scratch.solver.partition_of).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
     const Walls walls = this->walls();
     m_partitions.crossing(m_work.team, solve);
     m_partitions.in_parts(m_work.team,
-                          [&](int part)
+                          [&](int partition)
                           {
-                              const auto states = std::ranges::equal_range(parts, static_cast<std::uint16_t>(part));
-                              const auto first = static_cast<int>(states.begin() - parts.begin()) + island.first_state + 1;
-                              m_partitions.of_part(part, solve);
+                              const auto states = std::ranges::equal_range(partitions, static_cast<std::uint16_t>(partition));
+                              const auto first = static_cast<int>(states.begin() - partitions.begin()) + island.first_state + 1;
+                              m_partitions.of_part(partition, solve);
                               integrate_positions(m_work, first, first + static_cast<int>(states.size()));
-                              m_partitions.of_part(part, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
-                              m_partitions.of_part(part, relax);
+                              m_partitions.of_part(partition, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
+                              m_partitions.of_part(partition, relax);
                           });
     m_partitions.crossing(m_work.team, relax);
 }
 
 void ContactPasses::relax_struck()
 {
-    std::vector<std::int32_t>& parts = m_work.output.struck_states;
-    if (parts.empty() && m_work.late_constraints().empty())
+    std::vector<std::int32_t>& partitions = m_work.output.struck_states;
+    if (partitions.empty() && m_work.late_constraints().empty())
         return;
-    std::ranges::transform(parts, parts.begin(),
-                           [&](std::int32_t state) { return m_work.scratch.solver.parts[as_index(state)]; });
-    std::erase_if(parts, [&](std::int32_t part) { return part >= m_work.island.parts; }); // of bodies of infinite mass
-    std::ranges::sort(parts);
-    parts.erase(std::ranges::unique(parts).begin(), parts.end());
+    std::ranges::transform(partitions, partitions.begin(),
+                           [&](std::int32_t state) { return m_work.scratch.solver.partition_of[as_index(state)]; });
+    std::erase_if(partitions,
+                  [&](std::int32_t partition) { return partition >= m_work.island.partitions; }); // of bodies of infinite mass
+    std::ranges::sort(partitions);
+    partitions.erase(std::ranges::unique(partitions).begin(), partitions.end());
     const auto relax = [this](int first, int last) { relax_again(first, last); };
     m_partitions.crossing(m_work.team, relax);
-    m_work.team.in_pieces(static_cast<int>(parts.size()), false, [&](int i) { m_partitions.of_part(parts[as_index(i)], relax); });
+    m_work.team.in_pieces(static_cast<int>(partitions.size()), false,
+                          [&](int i) { m_partitions.of_part(partitions[as_index(i)], relax); });
     solve_contact_constraints(m_work.view, m_work.late_constraints(), false);
 }
 
@@ -120,7 +122,7 @@ void ContactPasses::take_from_sums(int first, int last) const
 }
 
 // Blocks of one bin.
-WideBin ContactPasses::lanes(int first, int last) const
+WideBucket ContactPasses::lanes(int first, int last) const
 {
     return {m_wide + first, m_notes + first, last - first, are_constraints_far(m_work.island)};
 }
@@ -142,7 +144,7 @@ void ContactPasses::relax_lanes(int first, int last)
 // partitions it would cost too much.
 void ContactPasses::relax_deep_overlaps()
 {
-    if (std::exchange(m_is_deep, 0) == 0 || m_work.island.parts > 0)
+    if (std::exchange(m_is_deep, 0) == 0 || m_work.island.partitions > 0)
         return;
     for (int i = 0; i < passes_of_deep_overlaps; ++i)
     {

@@ -40,7 +40,7 @@ public:
     [[nodiscard]] bool notes_bodies() const { return m_notes_bodies; }
 
 private:
-    [[nodiscard]] WideBin lanes(int first, int last) const;
+    [[nodiscard]] WideBucket lanes(int first, int last) const;
     void solve_lanes(int first, int last) const;
     void relax_lanes(int first, int last);
     void relax_again(int first, int last);

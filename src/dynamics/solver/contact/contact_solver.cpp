@@ -7,7 +7,7 @@
 // Apart (C > 0) the bias is C / h: the bodies may close the gap in this sub-step but not more. Overlapping, it is the soft constraint's
 // bias_rate C, no faster than the push speed. Friction: |tangent impulse| <= mu normal impulse, towards the surface speed.
 //
-// Constraints of round shapes in small islands also carry predicted_bend: what the straight-line prediction of C misses over the sub-step because
+// Constraints of round shapes in small islands also carry predicted_curvature: what the straight-line prediction of C misses over the sub-step because
 // the surfaces curve. It is corrected rigidly, C / h style; with the fresh normal of the relaxation that makes the pair of passes the
 // RATTLE integrator, which neither gains nor loses energy around a curve.
 
@@ -83,11 +83,11 @@ void solve_friction(const Pair& pair, const ContactConstraint& constraint, Const
     const float separation = constraint_separation(view, constraint, p);
     if (!use_bias)
         return {std::max(separation, 0.0f) * view.inverse_h, 1, 0};
-    const float ahead = separation + p.predicted_bend;
+    const float ahead = separation + p.predicted_curvature;
     if (ahead > 0)
         return {ahead * view.inverse_h, 1, 0};
     const float soft = std::max(constraint.softness.bias_rate * std::min(separation, 0.0f), -view.push_speed);
-    const float bent = soft + (separation > 0 ? ahead : p.predicted_bend) * view.inverse_h;
+    const float bent = soft + (separation > 0 ? ahead : p.predicted_curvature) * view.inverse_h;
     if (constraint.refreshed)
         return {bent, 1, 0};
     return {bent, constraint.softness.mass_scale, constraint.softness.impulse_scale};

@@ -13,8 +13,8 @@ class Partitions
 {
 public:
     /// `bins` of each part, and of what crosses.
-    Partitions(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t parts, std::int32_t bins)
-        : m_starts(starts.data() + first), m_parts(parts), m_bins(bins)
+    Partitions(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t partitions, std::int32_t buckets)
+        : m_starts(starts.data() + first), m_parts(partitions), m_buckets(buckets)
     {}
 
     /// Calls pass(first, last) for groups of one bin, of which no two share a body that gives way. What threads do side by side shares none either.
@@ -22,25 +22,25 @@ public:
     void by_color(WorkerTeam& team, const Pass& pass)
     {
         crossing(team, pass);
-        in_parts(team, [&](int part) { of_part(part, pass); });
+        in_parts(team, [&](int partition) { of_part(partition, pass); });
     }
 
     /// Of what crosses from one part to another.
     template <class Pass>
     void crossing(WorkerTeam& team, const Pass& pass) const
     {
-        for (int bin = m_parts * m_bins; bin < (m_parts + 1) * m_bins; ++bin)
-            share_bin(team, bin, pass);
+        for (int bucket = m_parts * m_buckets; bucket < (m_parts + 1) * m_buckets; ++bucket)
+            share_bucket(team, bucket, pass);
     }
 
     /// Of one part.
     template <class Pass>
-    void of_part(int part, const Pass& pass) const
+    void of_part(int partition, const Pass& pass) const
     {
-        for (int bin = part * m_bins; bin < (part + 1) * m_bins; ++bin)
+        for (int bucket = partition * m_buckets; bucket < (partition + 1) * m_buckets; ++bucket)
         {
-            if (start(bin) < start(bin + 1))
-                pass(start(bin), start(bin + 1));
+            if (start(bucket) < start(bucket + 1))
+                pass(start(bucket), start(bucket + 1));
         }
     }
 
@@ -61,11 +61,11 @@ public:
             if (first < last)
                 pass(first, last);
         };
-        const int crossing = m_parts * m_bins;
-        const int end = crossing + m_bins;
-        if (m_parts == 0 || start(end) < enough_groups)
+        const int crossing = m_parts * m_buckets;
+        const int end = crossing + m_buckets;
+        if (m_parts == 0 || start(end) < enough_blocks)
         {
-            team.share(start(end), enough_groups, those);
+            team.share(start(end), enough_blocks, those);
             return;
         }
         constexpr int quarters = 4; // of a part: nobody waits long for the last
@@ -74,8 +74,8 @@ public:
         team.in_pieces(quarters * m_parts, false,
                        [&](int piece)
                        {
-                           const int part = piece / quarters;
-                           slice(start(part * m_bins), start((part + 1) * m_bins), piece % quarters, quarters);
+                           const int partition = piece / quarters;
+                           slice(start(partition * m_buckets), start((partition + 1) * m_buckets), piece % quarters, quarters);
                            slice(start(crossing), start(end), piece, quarters * m_parts);
                        });
     }
@@ -84,8 +84,9 @@ public:
     template <class Work>
     int by_part(WorkerTeam& team, const Work& work) const
     {
-        team.in_pieces(m_parts, false, [&](int part) { work(start(part * m_bins), start((part + 1) * m_bins), part); });
-        return start(m_parts * m_bins);
+        team.in_pieces(m_parts, false,
+                       [&](int partition) { work(start(partition * m_buckets), start((partition + 1) * m_buckets), partition); });
+        return start(m_parts * m_buckets);
     }
 
     /// Calls visit(group), mostly by the member that solves it.
@@ -95,48 +96,51 @@ public:
         all(team,
             [&](int first, int last)
             {
-                for (int group = first; group < last; ++group)
-                    visit(group);
+                for (int block = first; block < last; ++block)
+                    visit(block);
             });
     }
 
 private:
-    static constexpr int enough_groups = 24; // to share
+    static constexpr int enough_blocks = 24; // to share
 
     // All members take some of one bin's groups.
     template <class Pass>
-    void share_bin(WorkerTeam& team, int bin, const Pass& pass) const
+    void share_bucket(WorkerTeam& team, int bucket, const Pass& pass) const
     {
-        team.share(start(bin + 1) - start(bin), enough_groups,
+        team.share(start(bucket + 1) - start(bucket), enough_blocks,
                    [&](int first, int last)
                    {
                        if (first < last)
-                           pass(start(bin) + first, start(bin) + last);
+                           pass(start(bucket) + first, start(bucket) + last);
                    });
     }
 
-    [[nodiscard]] int start(int bin) const { return m_starts[bin]; }
+    [[nodiscard]] int start(int bucket) const { return m_starts[bucket]; }
 
     const std::int32_t* m_starts; ///< and where the last ends
     int m_parts;
-    int m_bins;
+    int m_buckets;
     bool m_backwards = false;
 };
 
 /// All threads solve it together.
-[[nodiscard]] inline bool is_shared(const Island& island) { return is_worth_all_threads(island.parts, island.wide_joint_count); }
+[[nodiscard]] inline bool is_shared(const Island& island)
+{
+    return is_worth_all_threads(island.partitions, island.wide_joint_count);
+}
 
 /// Its constraints come from memory.
 [[nodiscard]] inline bool are_constraints_far(const Island& island) { return is_beyond_caches(island.wide_count); }
 
-[[nodiscard]] inline Partitions contact_bins(const Scratch& scratch, const Island& island)
+[[nodiscard]] inline Partitions contact_buckets(const Scratch& scratch, const Island& island)
 {
-    return {scratch.solver.bin_starts, island.first_bin, island.parts, island.bin_count};
+    return {scratch.solver.bucket_starts, island.first_bucket, island.partitions, island.bucket_count};
 }
 
-[[nodiscard]] inline Partitions joint_bins(const Scratch& scratch, const Island& island)
+[[nodiscard]] inline Partitions joint_buckets(const Scratch& scratch, const Island& island)
 {
-    return {scratch.solver.joint_bin_starts, island.first_joint_bin, 0, island.joint_bin_count};
+    return {scratch.solver.joint_bucket_starts, island.first_joint_bucket, 0, island.joint_bucket_count};
 }
 
 } // namespace carom::internal

@@ -66,7 +66,7 @@ inline void follow_closely(const Contact& contact, const Island& island, Contact
 /// islands such contacts have constraints without points, that are looked at anew.
 [[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Island& island)
 {
-    return island.policy.recomputes_contacts && !tells_apart(contact) && (contact.flags & contact_flag::round) == 0;
+    return island.policy.recomputes_contacts && !means_apart(contact) && (contact.flags & contact_flag::round) == 0;
 }
 
 /// All impulses of the last sub-step, for a sub-step of another length.

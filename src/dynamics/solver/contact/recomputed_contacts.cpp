@@ -76,19 +76,19 @@ void RecomputedContacts::add_constraint_beyond_seam(int index, int body, std::in
 }
 
 // The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
-void RecomputedContacts::predict_bends()
+void RecomputedContacts::predict_curvatures()
 {
-    m_work.for_each_constraint([this](ContactConstraint& constraint) { predict_bend(constraint); });
+    m_work.for_each_constraint([this](ContactConstraint& constraint) { predict_curvature(constraint); });
 }
 
-void RecomputedContacts::predict_bend(ContactConstraint& constraint) const
+void RecomputedContacts::predict_curvature(ContactConstraint& constraint) const
 {
     if (constraint.followed != 0 && is_carried(constraint))
         predict_turn(constraint);
     if (constraint.refreshed == 0 || constraint.count != 1)
         return;
     ConstraintPoint& p = constraint.points[0];
-    p.predicted_bend = 0;
+    p.predicted_curvature = 0;
     const BodyState& a = m_work.view.states[constraint.a];
     const BodyState& b = m_work.view.states[constraint.b];
     const float now = constraint_separation(m_work.view, constraint, p);
@@ -99,7 +99,7 @@ void RecomputedContacts::predict_bend(ContactConstraint& constraint) const
     if (ahead.count != 1 || dot(ahead.normal, constraint.n) < 0.5f)
         return;
     const Vec2 v = b.velocity + cross(b.angular_velocity, p.rb) - a.velocity - cross(a.angular_velocity, p.ra);
-    p.predicted_bend = ahead.points[0].separation - (now + m_work.ctx.h * dot(v, constraint.n));
+    p.predicted_curvature = ahead.points[0].separation - (now + m_work.ctx.h * dot(v, constraint.n));
 }
 
 // By a kinematic body that turns.
@@ -121,8 +121,8 @@ void RecomputedContacts::predict_turn(ContactConstraint& constraint) const
     {
         ConstraintPoint& p = constraint.points[i];
         const Vec2 v = b.velocity + cross(wb, p.rb) - a.velocity - cross(wa, p.ra);
-        p.predicted_bend = turning * (wa * wa * dot(constraint.n, p.ra) - wb * wb * dot(constraint.n, p.rb) +
-                                      (wa + wb) * dot(perp(constraint.n), v));
+        p.predicted_curvature = turning * (wa * wa * dot(constraint.n, p.ra) - wb * wb * dot(constraint.n, p.rb) +
+                                           (wa + wb) * dot(perp(constraint.n), v));
     }
 }
 

@@ -14,7 +14,7 @@ public:
     /// Constraints without points, for pieces of chains and arcs that a body may come to face within the step.
     void add_constraints_beyond_seams();
     /// The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
-    void predict_bends();
+    void predict_curvatures();
     /// At the poses that have been reached.
     void recompute();
 
@@ -26,7 +26,7 @@ private:
     };
 
     void add_constraint_beyond_seam(int index, int body, std::int32_t own);
-    void predict_bend(ContactConstraint& constraint) const;
+    void predict_curvature(ContactConstraint& constraint) const;
     [[nodiscard]] bool is_carried(const ContactConstraint& constraint) const;
     void predict_turn(ContactConstraint& constraint) const;
     void follow(ContactConstraint& constraint);

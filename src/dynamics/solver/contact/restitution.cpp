@@ -63,17 +63,17 @@ private:
         find_struck_lanes();
         if (m_output.struck_lanes.size() < enough_lanes)
         {
-            bounce_groups(0, m_island.wide_count, k, m_output);
+            bounce_blocks(0, m_island.wide_count, k, m_output);
             return;
         }
         std::vector<ImpactReport>& in_parts = m_output.reports_of_parts;
-        in_parts.resize(std::max(in_parts.size(), as_index(m_island.parts)));
-        const int crossing =
-            contact_bins(m_scratch, m_island)
-                .by_part(team, [&](int first, int last, int part) { bounce_groups(first, last, k, in_parts[as_index(part)]); });
-        for (ImpactReport& told : std::span(in_parts).first(as_index(m_island.parts)))
+        in_parts.resize(std::max(in_parts.size(), as_index(m_island.partitions)));
+        const int crossing = contact_buckets(m_scratch, m_island)
+                                 .by_part(team, [&](int first, int last, int partition)
+                                          { bounce_blocks(first, last, k, in_parts[as_index(partition)]); });
+        for (ImpactReport& told : std::span(in_parts).first(as_index(m_island.partitions)))
             take(told);
-        bounce_groups(crossing, m_island.wide_count, k, m_output);
+        bounce_blocks(crossing, m_island.wide_count, k, m_output);
     }
 
     void find_struck_lanes()
@@ -99,7 +99,7 @@ private:
         told.kicked_shapes.clear();
     }
 
-    void bounce_groups(int first, int last, int k, ImpactReport& told)
+    void bounce_blocks(int first, int last, int k, ImpactReport& told)
     {
         const std::span<const std::int32_t> lanes = m_output.struck_lanes;
         for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(lanes, first * lane_count) - lanes.begin());

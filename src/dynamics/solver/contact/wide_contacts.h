@@ -67,7 +67,7 @@ struct alignas(64) WideContactNotes
 inline constexpr std::int32_t most_near_constraints = 8'192;
 
 /// Groups that have as many points each, and no two share a body that gives way.
-struct WideBin
+struct WideBucket
 {
     WideContact* constraints;
     WideContactNotes* notes;

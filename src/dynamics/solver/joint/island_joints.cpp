@@ -16,7 +16,7 @@ namespace carom::internal {
 IslandJoints::IslandJoints(SolvedIsland& work)
     : m_work(work), m_wide(work.scratch.solver.wide_joints.data() + work.island.first_wide_joint),
       m_softness{work.view.inverse_h, make_softness(work.ctx.joint_hertz, 0, work.ctx.h)},
-      m_bins(joint_bins(work.scratch, work.island))
+      m_buckets(joint_buckets(work.scratch, work.island))
 {
     if (work.joints.empty())
         return;
@@ -43,8 +43,8 @@ void IslandJoints::warm_start()
 {
     if (!m_work.joints.empty())
         warm_start_joints(m_work.view, m_work.ctx.state, m_work.joints, direct());
-    m_bins.by_color(m_work.team,
-                    [&](int first, int last) { m_kernels.warm_start_joints(m_wide + first, last - first, m_work.view.states); });
+    m_buckets.by_color(m_work.team, [&](int first, int last)
+                       { m_kernels.warm_start_joints(m_wide + first, last - first, m_work.view.states); });
 }
 
 void IslandJoints::solve(bool use_bias, bool is_last)
@@ -53,8 +53,8 @@ void IslandJoints::solve(bool use_bias, bool is_last)
         solve_joints(m_work.view, m_work.ctx.state, m_work.joints, direct(), m_work.ctx.joint_hertz, use_bias);
     m_softness.share = is_last ? 1 : 0;
     const auto pass = use_bias ? m_kernels.solve_joints : m_kernels.relax_joints;
-    m_bins.by_color(m_work.team,
-                    [&](int first, int last) { pass(m_wide + first, last - first, m_work.view.states, m_softness); });
+    m_buckets.by_color(m_work.team,
+                       [&](int first, int last) { pass(m_wide + first, last - first, m_work.view.states, m_softness); });
 }
 
 void IslandJoints::bounce_off_limits(bool contacts_have_bounced)

@@ -47,7 +47,7 @@ private:
     SolvedIsland& m_work;
     WideJoint* m_wide;
     JointSoftness m_softness;
-    Partitions m_bins;
+    Partitions m_buckets;
     const WideKernels& m_kernels = wide_kernels();
 };
 

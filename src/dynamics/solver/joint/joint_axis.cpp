@@ -78,11 +78,11 @@ AxisPiece AxisLaw::neighbour(const AxisPiece& piece, const AxisPiece& towards) c
 {
     const int from = place_of(piece);
     const int to = place_of(towards);
-    const int way = from < to ? 1 : -1;
+    const int displacement = from < to ? 1 : -1;
     int place = from;
     while (place != to)
     {
-        place += way;
+        place += displacement;
         if (place != to && has_piece_at(place))
             return piece_at(place, towards.spring);
     }
@@ -141,11 +141,11 @@ AxisImpulses AxisLaw::split(const AxisPiece& piece, double impulse, double rate)
     return of;
 }
 
-double AxisActs::comes_beyond(double way) const
+double AxisActs::comes_beyond(double displacement) const
 {
     const auto beyond = [](float error, double towards) { return towards - std::max(static_cast<double>(error), 0.0); };
-    const double lower = has_lower && !soft_limits ? beyond(lower_error, -way) : 0;
-    const double upper = has_upper && !soft_limits ? beyond(upper_error, way) : 0;
+    const double lower = has_lower && !soft_limits ? beyond(lower_error, -displacement) : 0;
+    const double upper = has_upper && !soft_limits ? beyond(upper_error, displacement) : 0;
     return std::max({lower, upper, 0.0});
 }
 

@@ -132,7 +132,7 @@ struct AxisActs
 
     [[nodiscard]] bool any() const { return has_spring || has_lower || has_upper || most > 0; }
     /// How far a way along the axis leads beyond a rigid stop, or farther beyond it.
-    [[nodiscard]] double comes_beyond(double way) const;
+    [[nodiscard]] double comes_beyond(double displacement) const;
     /// For the mean rate over the sub-step to come: all of it.
     [[nodiscard]] AxisLaw law_ahead(const AxisSpring& own, float h) const;
     /// For the rate at the pose reached: motor and rigid stops, which are left at the speeds `bounce`. A stop that bears is reached.

@@ -106,7 +106,7 @@ JointArms joint_arms(const SceneState& state, const JointRecord& joint)
     return arms;
 }
 
-JointWork prepare_joint(const StepContext& ctx, const Island& island, const JointPlace& place)
+JointWork prepare_joint(const StepContext& ctx, const Island& island, const SolvedJoint& place)
 {
     const JointRecord& joint = ctx.state.joints[place.joint];
     JointWork work;

@@ -17,7 +17,7 @@ struct JointArms
 };
 [[nodiscard]] JointArms joint_arms(const SceneState& state, const JointRecord& joint);
 
-[[nodiscard]] JointWork prepare_joint(const StepContext& ctx, const Island& island, const JointPlace& place);
+[[nodiscard]] JointWork prepare_joint(const StepContext& ctx, const Island& island, const SolvedJoint& place);
 
 void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct);
 /// What joints hold is solved directly where that is ready, else a row at a time.

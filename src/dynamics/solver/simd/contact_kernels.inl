@@ -84,16 +84,16 @@ CAROM_INLINE void fetch(const WideContact* constraints, const WideContactNotes* 
 
 // Calls pass(constraint, F()) for groups of a bin, two at a time as long as there are two.
 template <class Pass>
-CAROM_INLINE void for_each_group(const WideBin& bin, const Pass& pass)
+CAROM_INLINE void for_each_block(const WideBucket& bucket, const Pass& pass)
 {
-    for (std::int32_t i = 0; i < bin.count; i += 2)
+    for (std::int32_t i = 0; i < bucket.count; i += 2)
     {
-        if (bin.are_far)
-            fetch(bin.constraints + i, bin.notes + i);
-        if (i + 1 < bin.count)
-            pass(bin.constraints[i], F16());
+        if (bucket.are_far)
+            fetch(bucket.constraints + i, bucket.notes + i);
+        if (i + 1 < bucket.count)
+            pass(bucket.constraints[i], F16());
         else
-            pass(bin.constraints[i], F8());
+            pass(bucket.constraints[i], F8());
     }
 }
 
@@ -286,7 +286,7 @@ CAROM_INLINE F solve_friction(Group<F>& g, WidePoint& p, F friction)
 }
 
 template <class F, int points>
-CAROM_INLINE void solve_group(WideContact& constraint, BodyState* states, const WideSoftness& s)
+CAROM_INLINE void solve_block(WideContact& constraint, BodyState* states, const WideSoftness& s)
 {
     Group<F> g(constraint, states);
     const Soft<F> soft(g, s);
@@ -306,7 +306,7 @@ CAROM_INLINE F8 of_both(F8 x) { return x; }
 CAROM_INLINE F8 of_both(F16 x) { return least(first_eight(x), second_eight(x)); }
 
 template <class F, int points>
-CAROM_INLINE F8 relax_group(WideContact& constraint, BodyState* states, const WideSoftness& s)
+CAROM_INLINE F8 relax_block(WideContact& constraint, BodyState* states, const WideSoftness& s)
 {
     Group<F> g(constraint, states);
     const Displacement<F> d(constraint, g, states);
@@ -361,7 +361,7 @@ CAROM_INLINE std::uint8_t struck_lanes(const WideContact& constraint, WideContac
 }
 
 template <class F, int points>
-CAROM_INLINE void warm_start_group(WideContact& constraint, BodyState* states)
+CAROM_INLINE void warm_start_block(WideContact& constraint, BodyState* states)
 {
     Group<F> g(constraint, states);
     for (int i = 0; i < points; ++i)
@@ -373,47 +373,47 @@ CAROM_INLINE void warm_start_group(WideContact& constraint, BodyState* states)
 }
 
 template <int points>
-void solve_bin(WideBin bin, BodyState* states, WideSoftness s)
+void solve_bucket(WideBucket bucket, BodyState* states, WideSoftness s)
 {
-    for_each_group(bin, [&](WideContact& constraint, auto lanes) { solve_group<decltype(lanes), points>(constraint, states, s); });
+    for_each_block(bucket, [&](WideContact& constraint, auto lanes) { solve_block<decltype(lanes), points>(constraint, states, s); });
 }
 
 template <int points>
-float relax_bin(WideBin bin, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
+float relax_bucket(WideBucket bucket, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
 {
     F8 deepest = all(0);
-    for_each_group(bin, [&](WideContact& constraint, auto lanes)
-                   { deepest = least(deepest, relax_group<decltype(lanes), points>(constraint, states, s)); });
-    for (int i = 0; i < bin.count; ++i)
-        struck[i] = struck_lanes<points>(bin.constraints[i], bin.notes[i], before, s.rest_speed);
+    for_each_block(bucket, [&](WideContact& constraint, auto lanes)
+                   { deepest = least(deepest, relax_block<decltype(lanes), points>(constraint, states, s)); });
+    for (int i = 0; i < bucket.count; ++i)
+        struck[i] = struck_lanes<points>(bucket.constraints[i], bucket.notes[i], before, s.rest_speed);
     LaneFloats of_lanes;
     store(of_lanes, deepest);
     return *std::min_element(std::begin(of_lanes.v), std::end(of_lanes.v));
 }
 
 template <int points>
-void warm_start_bin(WideBin bin, BodyState* states)
+void warm_start_bucket(WideBucket bucket, BodyState* states)
 {
-    bin.are_far = true; // the first walk over constraints that no near cache holds
-    for_each_group(bin, [&](WideContact& constraint, auto lanes) { warm_start_group<decltype(lanes), points>(constraint, states); });
+    bucket.are_far = true; // the first walk over constraints that no near cache holds
+    for_each_block(bucket, [&](WideContact& constraint, auto lanes) { warm_start_block<decltype(lanes), points>(constraint, states); });
 }
 
-void warm_start(const WideBin& bin, BodyState* states)
+void warm_start(const WideBucket& bucket, BodyState* states)
 {
-    const auto start_points = bin.notes->count == 2 ? warm_start_bin<2> : warm_start_bin<1>;
-    start_points(bin, states);
+    const auto start_points = bucket.notes->count == 2 ? warm_start_bucket<2> : warm_start_bucket<1>;
+    start_points(bucket, states);
 }
 
-void solve(const WideBin& bin, BodyState* states, const WideSoftness& s)
+void solve(const WideBucket& bucket, BodyState* states, const WideSoftness& s)
 {
-    const auto solve_points = bin.notes->count == 2 ? solve_bin<2> : solve_bin<1>;
-    solve_points(bin, states, s);
+    const auto solve_points = bucket.notes->count == 2 ? solve_bucket<2> : solve_bucket<1>;
+    solve_points(bucket, states, s);
 }
 
-float relax(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
+float relax(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
 {
-    const auto relax_points = bin.notes->count == 2 ? relax_bin<2> : relax_bin<1>;
-    return relax_points(bin, states, s, before, struck);
+    const auto relax_points = bucket.notes->count == 2 ? relax_bucket<2> : relax_bucket<1>;
+    return relax_points(bucket, states, s, before, struck);
 }
 
 } // namespace contacts

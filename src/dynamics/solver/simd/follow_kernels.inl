@@ -101,7 +101,7 @@ struct Two
 // How the other has moved against the own body since then.
 struct Change
 {
-    Arrow way; ///< of its center
+    Arrow displacement; ///< of its center
     F8 cosine, sine;
 
     CAROM_INLINE Change(const Two& two, const Arrow& center, const Turn& then)
@@ -109,7 +109,7 @@ struct Change
         const Turn& own = two.own;
         const Turn& other = two.other;
         const Turn now = {own.c * other.c + own.s * other.s, own.c * other.s - own.s * other.c};
-        way = {own.c * two.offset.x + own.s * two.offset.y - center.x, own.c * two.offset.y - own.s * two.offset.x - center.y};
+        displacement = {own.c * two.offset.x + own.s * two.offset.y - center.x, own.c * two.offset.y - own.s * two.offset.x - center.y};
         cosine = now.c * then.c + now.s * then.s;
         sine = now.s * then.c - now.c * then.s;
     }
@@ -166,7 +166,7 @@ struct Stand : Two
     F8 along[2];
     F8 end;
     F8 reach, radius;
-    F8 way; ///< how far any point of the other has moved against the edge's body since the manifold was found
+    F8 displacement; ///< how far any point of the other has moved against the edge's body since the manifold was found
     F8 cosine; ///< of the angle that it has turned
 
     CAROM_INLINE Stand(const Places& places, const Kept& kept, std::uint32_t edges_of_b)
@@ -186,7 +186,7 @@ struct Stand : Two
         }
         const F8 extent = lanes_from([&](int i) { return ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent; });
         const Change change(*this, kept.center, kept.rotation);
-        way = length_of(change.way) + extent * change.chord();
+        displacement = length_of(change.displacement) + extent * change.chord();
         cosine = change.cosine;
     }
 
@@ -249,14 +249,14 @@ struct Found
     Point points[2];
     F8 separation; ///< the least
     F8 second;     ///< of one point: of what would be another
-    F8 way, reach;
+    F8 displacement, reach;
     I8 holds; ///< what was kept is true still
 };
 
 CAROM_INLINE I8 is_best_still(const Stand& s, I8 inside, F8 lowest, const FollowedScene& scene)
 {
     const I8 is_outside = inside & (lowest + s.radius > all(0));
-    return is_outside | ((s.way < all(scene.sure_way)) & (s.cosine > all(scene.sure_cosine)));
+    return is_outside | ((s.displacement < all(scene.sure_displacement)) & (s.cosine > all(scene.sure_cosine)));
 }
 
 // What is known of eight contacts, as bits of lanes.
@@ -285,7 +285,7 @@ CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found
     p.b = select(lanes, {to.x - kept.last.y * n.x, to.y - kept.last.y * n.y}, p.b);
     p.separation = found.separation = select(lanes, separation, p.separation);
     found.second = select(lanes, all(3e38f), found.second);
-    found.way = select(lanes, all(0), found.way);
+    found.displacement = select(lanes, all(0), found.displacement);
     found.reach = select(lanes, all(3e38f), found.reach);
     found.holds = (found.holds & ~lanes) | (leads_out & lanes);
 }
@@ -293,18 +293,18 @@ CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found
 // Within which there are points: as margin_of in manifold_cache.cpp.
 CAROM_INLINE F8 margins_of(const LaneInts& contacts, const FollowedScene& scene)
 {
-    static_assert(offsetof(BoxPlace, path) == 0 && offsetof(BoxPath, shift) == 16 && offsetof(BoxPath, any_way) == 24);
-    F8 ax, ay, way_a, bx, by, way_b, unused;
+    static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, shift) == 16 && offsetof(BoxPath, any_path) == 24);
+    F8 ax, ay, displacement_a, bx, by, displacement_b, unused;
     const auto path_of = [&](std::int32_t shape) { return reinterpret_cast<const char*>(scene.boxes + shape) + 16; };
-    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_a); }, ax, ay, way_a, unused);
-    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_b); }, bx, by, way_b, unused);
-    return all(scene.speculation) + (length_of({bx - ax, by - ay}) + way_a + way_b);
+    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_a); }, ax, ay, displacement_a, unused);
+    gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_b); }, bx, by, displacement_b, unused);
+    return all(scene.speculation) + (length_of({bx - ax, by - ay}) + displacement_a + displacement_b);
 }
 
 // One point that gets no second, and is none that would not be found: as has_one_point in manifold_cache.cpp.
 CAROM_INLINE I8 are_alone(const Found& now, F8 margin, const FollowedScene& scene)
 {
-    return (margin + now.way < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
+    return (margin + now.displacement < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
 }
 
 template <int points>
@@ -314,7 +314,7 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
     const Stand stand(places, kept, kinds.edge_of_b);
     Found found;
     found.n = stand.n;
-    found.way = stand.way;
+    found.displacement = stand.displacement;
     found.reach = stand.reach;
     found.points[0] = follow_point(0, stand);
     found.points[1] = follow_point(1, stand);
@@ -325,7 +325,7 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
         const I8 second_is_lower = second < first;
         found.separation = select(second_is_lower, second, first);
         const I8 inside = (second_is_lower & found.points[1].inside) | (~second_is_lower & found.points[0].inside);
-        found.holds = stand.meets() & (inside | ~stand.is_steep()) & (found.separation < all(scene.sure_way)) & (found.way < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
+        found.holds = stand.meets() & (inside | ~stand.is_steep()) & (found.separation < all(scene.sure_displacement)) & (found.displacement < found.reach * scene.surely) & is_best_still(stand, inside, found.separation, scene);
         return found;
     }
     found.separation = first;
@@ -434,7 +434,7 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
     const Two two(places, lanes_of(lanes_with_flag(contacts, scene, contact_flag::edge_of_b)));
     const Change change(two, center, kept);
     const I8 any_direction = (direction.x == all(0)) & (direction.y == all(0));
-    const F8 gain = select(any_direction, -length_of(change.way), dot(direction, change.way));
+    const F8 gain = select(any_direction, -length_of(change.displacement), dot(direction, change.displacement));
     const F8 room = reach + gain - arm * change.chord();
     const F8 slack = rounding * (length_of(two.offset) + reach + arm);
     return bits(margins_of(contacts, scene) + slack < room);

@@ -13,7 +13,7 @@ namespace carom::internal {
 
 struct BodySim;
 struct BoxPair;
-struct BoxPlace;
+struct SweptBox;
 struct Contact;
 struct ContactImpulses;
 struct CachedManifold;
@@ -26,8 +26,8 @@ struct FollowedScene
     const BodySim* sims;
     const Contact* contacts;
     const CachedManifold* kept; ///< by contact
-    const BoxPlace* boxes;      ///< by shape
-    float sure_way;             ///< bodies that have moved less against each other are surely followed
+    const SweptBox* boxes;      ///< by shape
+    float sure_displacement;    ///< bodies that have moved less against each other are surely followed
     float surely;               ///< of a bound on the way: how far it is surely kept
     float sure_cosine;          ///< and have turned by an angle of at least this cosine
     float slop;
@@ -65,7 +65,7 @@ struct SeenPairs
 struct SweptEight
 {
     const BodySim* bodies[lane_count];
-    BoxPlace* places[lane_count];
+    SweptBox* places[lane_count];
     const Vec2* corners[lane_count];
     int corner_counts[lane_count];
     LaneFloats radii[2];       ///< of even corners, of odd ones: only of two corners they may differ
@@ -98,13 +98,14 @@ struct WideKernels
                  const StateConstants* constants);
     /// Effective masses anew, once lanes have been filled one by one.
     void (*prepare)(WideContact& constraint, std::int32_t points);
-    void (*warm_start)(const WideBin& bin, BodyState* states);
+    void (*warm_start)(const WideBucket& bucket, BodyState* states);
     /// One pass of sequential impulses; with bias the soft constraint also removes overlap, without it only stops approach and sums impulses.
-    void (*solve)(const WideBin& bin, BodyState* states, const WideSoftness& s);
+    void (*solve)(const WideBucket& bucket, BodyState* states, const WideSoftness& s);
     /// Also notes of each group which lanes have been struck, or have begun to touch and this is not yet told.
     /// A blow is told by the speeds that bodies had before.
     /// Returns the least separation, at most 0.
-    float (*relax)(const WideBin& bin, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck);
+    float (*relax)(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
+                   std::uint8_t* struck);
     /// Joints from their records, bodies, and the constants of their states, for sub-steps of h. `joints` has a, b, joint and turns of each lane.
     void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const std::int32_t* turns,
                         const StateConstants* constants, float h);
@@ -130,7 +131,7 @@ struct WideKernels
     /// Paths of bodies that move freely, into their places, and their boxes: as sweep_body in sweep.cpp. False where it must decide, one by one.
     bool (*sweep)(SweptEight& eight, const SweepStep& step);
     /// Of eight pairs what decides about their contacts, as update_of in pair_update.cpp has it for one.
-    void (*look_at_pairs)(const BoxPair* pairs, const BoxPlace* places, float box_margin, SeenPairs& seen);
+    void (*look_at_pairs)(const BoxPair* pairs, const SweptBox* places, float box_margin, SeenPairs& seen);
     /// Where boxes of block k have changed and overlap others that they did not before, each two once.
     void (*new_overlaps)(const MovingBlocks& blocks, std::int32_t k, const OverlapSink& sink);
 };

@@ -7,21 +7,21 @@ namespace pairs {
 struct Boxes
 {
     F8 lx, ly, ux, uy;                 ///< at the start of the step
-    F8 shift_x, shift_y, any_way;      ///< their paths in it
+    F8 shift_x, shift_y, any_path;      ///< their paths in it
     F8 fat_lx, fat_ly, fat_ux, fat_uy; ///< and the fat ones
     I8 kind;                           ///< layer and traits, a byte each
 
     template <class Item>
-    CAROM_INLINE Boxes(const BoxPlace* places, const Item& item)
+    CAROM_INLINE Boxes(const SweptBox* places, const Item& item)
     {
-        static_assert(offsetof(BoxPlace, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
-                      offsetof(BoxPath, any_way) == 24 && offsetof(BoxPlace, layer) == 28 && offsetof(BoxPlace, traits) == 29 &&
-                      offsetof(BoxPlace, box) == 32 && sizeof(Layer) == 1 && sizeof(ItemTraits) == 2);
+        static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
+                      offsetof(BoxPath, any_path) == 24 && offsetof(SweptBox, layer) == 28 && offsetof(SweptBox, traits) == 29 &&
+                      offsetof(SweptBox, box) == 32 && sizeof(Layer) == 1 && sizeof(ItemTraits) == 2);
         const auto at = [&](int offset)
         { return [&item, places, offset](int i) { return reinterpret_cast<const char*>(places + item(i)) + offset; }; };
         F8 kinds;
         gather4(at(0), lx, ly, ux, uy);
-        gather4(at(16), shift_x, shift_y, any_way, kinds);
+        gather4(at(16), shift_x, shift_y, any_path, kinds);
         gather4(at(32), fat_lx, fat_ly, fat_ux, fat_uy);
         kind = as_ints(kinds);
     }
@@ -34,10 +34,10 @@ CAROM_INLINE F8 least_gap(const Boxes& a, const Boxes& b)
     { return greatest(b_low + least(shift, all(0)) - a_high, a_low + least(-shift, all(0)) - b_high); };
     const F8 x = along(a.lx, a.ux, b.lx, b.ux, b.shift_x - a.shift_x);
     const F8 y = along(a.ly, a.uy, b.ly, b.uy, b.shift_y - a.shift_y);
-    return greatest(x, y) - (a.any_way + b.any_way);
+    return greatest(x, y) - (a.any_path + b.any_path);
 }
 
-void look_at_pairs(const BoxPair* eight, const BoxPlace* places, float box_margin, SeenPairs& seen)
+void look_at_pairs(const BoxPair* eight, const SweptBox* places, float box_margin, SeenPairs& seen)
 {
     const Boxes a(places, [&](int i) { return eight[i].a; });
     const Boxes b(places, [&](int i) { return eight[i].b; });

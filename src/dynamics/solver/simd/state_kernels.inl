@@ -32,20 +32,20 @@ std::int32_t move(BodyState* states, const StateConstants* constants, std::int32
         const I8 turns_little = (magnitude(angle) < all(0.25f)) & (p.c > all(-0.9f)); // counts no turn
         if (bits(flies | turns_little) != 0xff)
             break;
-        F8 way_x = h * v.x;
-        F8 way_y = h * v.y;
+        F8 displacement_x = h * v.x;
+        F8 displacement_y = h * v.y;
         if (bits(drifts) != 0)
         {
             F8 ax, ay, unused_linear, unused_angular;
             gather4([&](int i) { return reinterpret_cast<const char*>(constants + first + i) + 16; }, ax, ay, unused_linear,
                     unused_angular);
             const F8 half = all(0.5f * h * h);
-            way_x -= select(drifts, half * ax, all(0));
-            way_y -= select(drifts, half * ay, all(0));
+            displacement_x -= select(drifts, half * ax, all(0));
+            displacement_y -= select(drifts, half * ay, all(0));
         }
         const Turn turn = small_turn(angle);
         const I8 stays = flies | (v.w == all(0));
-        scatter4(pose_at, select(flies, p.x, p.x + way_x), select(flies, p.y, p.y + way_y),
+        scatter4(pose_at, select(flies, p.x, p.x + displacement_x), select(flies, p.y, p.y + displacement_y),
                  select(stays, p.c, turn.c * p.c - turn.s * p.s), select(stays, p.s, turn.s * p.c + turn.c * p.s));
     }
     return first;

@@ -14,7 +14,7 @@ CAROM_INLINE F8 length_of(F8 x, F8 y)
 struct Ways
 {
     F8 x, y;    ///< of their centers
-    F8 any_way; ///< of any point beside that, by turning and by the bend of its parabola
+    F8 any_path; ///< of any point beside that, by turning and by the bend of its parabola
     F8 motion;  ///< of any point
     I8 sound;
 
@@ -33,8 +33,8 @@ struct Ways
         y = dt * vy + dt * dt * (gravity_scale * step.gravity.y + inverse_mass_y * fy);
         const F8 angle = (magnitude(w) + dt * inverse_inertia * magnitude(torque)) * dt;
         const F8 bend = 0.5f * length_of(x - dt * vx, y - dt * vy);
-        any_way = extent * least(angle, all(2)) + bend;
-        motion = length_of(x, y) + any_way;
+        any_path = extent * least(angle, all(2)) + bend;
+        motion = length_of(x, y) + any_path;
         sound = motion + magnitude(w) + magnitude(torque) < all(1e15f);
     }
 };
@@ -92,40 +92,40 @@ CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
 }
 
 // What the boxes cover on their ways, and a margin.
-CAROM_INLINE Bounds swept(const Bounds& tight, const Ways& way, float margin)
+CAROM_INLINE Bounds swept(const Bounds& tight, const Ways& displacement, float margin)
 {
     const F8 none = all(0);
-    return {tight.lx + least(way.x, none) - way.any_way - margin, tight.ly + least(way.y, none) - way.any_way - margin,
-            tight.ux + greatest(way.x, none) + way.any_way + margin, tight.uy + greatest(way.y, none) + way.any_way + margin};
+    return {tight.lx + least(displacement.x, none) - displacement.any_path - margin, tight.ly + least(displacement.y, none) - displacement.any_path - margin,
+            tight.ux + greatest(displacement.x, none) + displacement.any_path + margin, tight.uy + greatest(displacement.y, none) + displacement.any_path + margin};
 }
 
-CAROM_INLINE void put_paths(const SweptEight& eight, const Bounds& tight, const Ways& way)
+CAROM_INLINE void put_paths(const SweptEight& eight, const Bounds& tight, const Ways& displacement)
 {
-    static_assert(offsetof(BoxPlace, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
-                  offsetof(BoxPath, any_way) == 24 && offsetof(BoxPlace, layer) == 28);
+    static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
+                  offsetof(BoxPath, any_path) == 24 && offsetof(SweptBox, layer) == 28);
     const auto at = [&](int offset) { return [&eight, offset](int i) { return reinterpret_cast<char*>(eight.places[i]) + offset; }; };
-    F8 unused_x, unused_y, unused_way, kinds;
-    gather4(at(16), unused_x, unused_y, unused_way, kinds);
+    F8 unused_x, unused_y, unused_displacement, kinds;
+    gather4(at(16), unused_x, unused_y, unused_displacement, kinds);
     scatter4(at(0), tight.lx, tight.ly, tight.ux, tight.uy);
-    scatter4(at(16), way.x, way.y, way.any_way, kinds);
+    scatter4(at(16), displacement.x, displacement.y, displacement.any_path, kinds);
 }
 
 bool sweep(SweptEight& eight, const SweepStep& step)
 {
-    const Ways way(eight.bodies, step);
-    if (bits(way.sound) != 0xff)
+    const Ways displacement(eight.bodies, step);
+    if (bits(displacement.sound) != 0xff)
         return false;
     const Bounds tight = tight_bounds(eight);
-    put_paths(eight, tight, way);
-    const Bounds needed = swept(tight, way, 0.25f * step.box_margin);
-    static_assert(offsetof(BoxPlace, box) == 32);
+    put_paths(eight, tight, displacement);
+    const Bounds needed = swept(tight, displacement, 0.25f * step.box_margin);
+    static_assert(offsetof(SweptBox, box) == 32);
     Bounds fat;
     gather4([&](int i) { return reinterpret_cast<const char*>(eight.places[i]) + 32; }, fat.lx, fat.ly, fat.ux, fat.uy);
     const I8 holds = (fat.lx <= needed.lx) & (fat.ly <= needed.ly) & (fat.ux >= needed.ux) & (fat.uy >= needed.uy);
     const F8 slack = all(8 * step.box_margin);
     const I8 too_wide = (fat.ux - fat.lx > (needed.ux - needed.lx) + slack) | (fat.uy - fat.ly > (needed.uy - needed.ly) + slack);
     eight.moved = bits(~holds | too_wide);
-    store(eight.motion, way.motion);
+    store(eight.motion, displacement.motion);
     store(eight.lx, needed.lx);
     store(eight.ly, needed.ly);
     store(eight.ux, needed.ux);

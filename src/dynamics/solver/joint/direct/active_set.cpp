@@ -144,9 +144,9 @@ void DirectSolve::give_known_impulses()
 double DirectSolve::rate_of_law(const Axis& axis) const
 {
     const Item& item = m_items[axis.item];
-    const double given_way =
+    const double given_displacement =
         m_matrix.weight(axis.row) * m_compliance * m_impulses[as_index(axis.row)] + softness(axis) * axis.before;
-    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_way;
+    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_displacement;
 }
 
 // False where all are where they should be.

@@ -197,8 +197,9 @@ void DirectSolve::note_errors_ahead()
             m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(r == 0 ? error.x : error.y);
         if (work.rows.has_axis())
         {
-            const float way = axis_coordinate(*item.record, joint_pose(work, a, b)) - axis_coordinate(*item.record, work.pose);
-            m_speeds[as_index(item.first_row + item.held)] = as_double(m_view.inverse_h) * as_double(way);
+            const float displacement =
+                axis_coordinate(*item.record, joint_pose(work, a, b)) - axis_coordinate(*item.record, work.pose);
+            m_speeds[as_index(item.first_row + item.held)] = as_double(m_view.inverse_h) * as_double(displacement);
         }
     }
 }
@@ -224,8 +225,8 @@ double DirectSolve::largest_error() const
         if (item.work->rows.has_axis())
         {
             double& largest = item.row(item.held).d == Vec2{} ? angle : length;
-            const double way = as_double(m_view.h) * m_speeds[as_index(item.first_row + item.held)];
-            largest = std::max(largest, as_double(m_view.inverse_h) * item.work->rows.acts.comes_beyond(way));
+            const double displacement = as_double(m_view.h) * m_speeds[as_index(item.first_row + item.held)];
+            largest = std::max(largest, as_double(m_view.inverse_h) * item.work->rows.acts.comes_beyond(displacement));
         }
     }
     const double in_arms = m_longest_arm > 0 ? length / as_double(m_longest_arm) : 0;

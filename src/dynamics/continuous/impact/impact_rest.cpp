@@ -1,7 +1,7 @@
 // What goes on pressing after an impact is held: by a force for the rest of the sub-step, where one of the two does not give way.
 
-#include "dynamics/continuous/hold.h"
 #include "dynamics/continuous/impact/impact_set.h"
+#include "dynamics/continuous/resting_contact.h"
 #include "dynamics/narrowphase/flush_pair.h"
 #include "dynamics/state/body_store.h"
 
@@ -12,15 +12,15 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double hold_turn = 0.05;       // rad: so far a hold is followed before it is looked at again
-constexpr double at_once = 0.002;        // of a sub-step
-constexpr double at_once_held = 0.01;    // for what was held already
-constexpr double least_hold = 1.0 / 256; // of a sub-step
+constexpr double resting_turn = 0.05;            // rad: so far a hold is followed before it is looked at again
+constexpr double at_once = 0.002;                // of a sub-step
+constexpr double at_once_held = 0.01;            // for what was held already
+constexpr double least_resting_time = 1.0 / 256; // of a sub-step
 
 } // namespace
 
 // Contacts that no longer part press, on all bodies of this island.
-void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
+void ImpactSet::let_rest_what_presses(std::vector<std::int32_t>& changed)
 {
     std::vector<ImpactBody> accelerations(m_bodies.size());
     for (std::size_t i = 0; i < m_members.size(); ++i)
@@ -30,28 +30,28 @@ void ImpactSet::hold_what_presses(std::vector<std::int32_t>& changed)
         accelerations[i] = m_bodies[i];
         accelerations[i].vx = accelerations[i].vy = accelerations[i].w = 0;
     }
-    std::vector<Pressing> pressing;
+    std::vector<RestingForce> resting_forces;
     for (std::size_t i = 0; i < m_rows.size(); ++i)
     {
-        if (m_rows[i].kind == ImpactRow::Kind::Hold || !has_stopped(i))
+        if (m_rows[i].kind == ImpactRow::Kind::RestingContact || !has_stopped(i))
             continue;
         if (both_have_finite_mass(m_rows[i]))
             rest_on_each_other(m_rows[i], m_sources[i]);
         else
-            pressing.push_back({static_cast<int>(i), gap_acceleration(i), slip_acceleration(i)});
+            resting_forces.push_back({static_cast<int>(i), gap_acceleration(i), slip_acceleration(i)});
     }
-    press(accelerations, m_rows, pressing);
+    press(accelerations, m_rows, resting_forces);
     for (Member& m : m_members)
     {
         if (m.flier != nullptr)
-            m.flier->hold_until = 1e300;
+            m.flier->rests_until = 1e300;
     }
-    for (const Pressing& p : pressing)
+    for (const RestingForce& p : resting_forces)
     {
         if (p.force <= 0)
             continue;
-        hold(p);
-        set_hold_time(static_cast<std::size_t>(p.row));
+        resting_contact(p);
+        set_resting_time(static_cast<std::size_t>(p.row));
     }
     for (std::size_t i = 0; i < m_members.size(); ++i)
         accelerate(m_members[i], accelerations[i], changed);
@@ -64,7 +64,7 @@ bool ImpactSet::has_stopped(std::size_t i)
     if (rate <= 2 * m_span.least_approach)
         return true;
     const Source& s = m_sources[i];
-    const double part = was_held(s.own, s.other) ? at_once_held : s.rests ? at_once : 0;
+    const double part = was_resting(s.own, s.other) ? at_once_held : s.rests ? at_once : 0;
     return part > 0 && rate < -part * m_span.h * gap_acceleration(i);
 }
 
@@ -139,7 +139,7 @@ double ImpactSet::gap_acceleration(std::size_t i)
     double g = 0;
     double nearest = 1e300;
     const FlushPair flush(m_state, s.other, s.own);
-    for (const Touch& t : touches_now(other_leaf, other, own_leaf, own, 2 * still_held * size, flush.flush()))
+    for (const Touch& t : touches_now(other_leaf, other, own_leaf, own, 2 * still_rests * size, flush.flush()))
     {
         const double d = length_of(t.x - s.touch.x, t.y - s.touch.y);
         if (d < nearest)
@@ -151,7 +151,7 @@ double ImpactSet::gap_acceleration(std::size_t i)
     return g;
 }
 
-void ImpactSet::hold(const Pressing& p)
+void ImpactSet::resting_contact(const RestingForce& p)
 {
     const ImpactRow& row = m_rows[static_cast<std::size_t>(p.row)];
     const Source& s = m_sources[static_cast<std::size_t>(p.row)];
@@ -165,52 +165,52 @@ void ImpactSet::hold(const Pressing& p)
     if (row.kind == ImpactRow::Kind::Limit)
         return;
     const Vec2 point = to_vec2(m_origin) + Vec2{static_cast<float>(s.touch.x), static_cast<float>(s.touch.y)};
-    Hold h{s.own,
-           s.other,
-           point,
-           {static_cast<float>(row.nx), static_cast<float>(row.ny)},
-           static_cast<float>(p.force),
-           static_cast<float>(p.friction),
-           m_time,
-           a == nullptr ? m_members[static_cast<std::size_t>(row.a)].state : none,
-           s.touch.probes.of_b,
-           s.touch.probes.of_a};
+    RestingContact h{s.own,
+                     s.other,
+                     point,
+                     {static_cast<float>(row.nx), static_cast<float>(row.ny)},
+                     static_cast<float>(p.force),
+                     static_cast<float>(p.friction),
+                     m_time,
+                     a == nullptr ? m_members[static_cast<std::size_t>(row.a)].state : none,
+                     s.touch.probes.of_b,
+                     s.touch.probes.of_a};
     if (b != nullptr)
-        add_hold(*b, h);
+        add_resting_contact(*b, h);
     std::swap(h.own, h.other);
     h.normal = -h.normal;
     std::swap(h.own_corners, h.other_corners);
     h.solved = b == nullptr ? m_members[static_cast<std::size_t>(row.b)].state : none;
     if (a != nullptr)
-        add_hold(*a, h);
+        add_resting_contact(*a, h);
 }
 
-void ImpactSet::add_hold(Flier& f, const Hold& h) const
+void ImpactSet::add_resting_contact(Flier& f, const RestingContact& h) const
 {
     const bool firm = m_state.bodies[m_state.shapes[h.other].body].type != BodyType::Dynamic;
-    f.led = firm && (f.led || f.held_count == 0);
-    const BodySim& holder = m_span.sim_of(m_state.shapes[h.other].body);
+    f.led = firm && (f.led || f.resting_count == 0);
+    const BodySim& carrier_path = m_span.sim_of(m_state.shapes[h.other].body);
     const bool drifts =
-        firm && m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Kinematic && holder.angular_velocity == 0;
-    f.lead_x = drifts ? static_cast<double>(holder.velocity.x) : 0;
-    f.lead_y = drifts ? static_cast<double>(holder.velocity.y) : 0;
+        firm && m_state.bodies[m_state.shapes[h.other].body].type == BodyType::Kinematic && carrier_path.angular_velocity == 0;
+    f.lead_x = drifts ? static_cast<double>(carrier_path.velocity.x) : 0;
+    f.lead_y = drifts ? static_cast<double>(carrier_path.velocity.y) : 0;
     const bool conveys = m_state.shapes[h.other].surface_speed != 0 || m_state.shapes[h.own].surface_speed != 0;
-    const bool moves = holder.velocity != Vec2{} || holder.angular_velocity != 0;
-    const std::int32_t carrier = !firm || conveys ? none : moves ? m_state.shapes[h.other].body : held_by_world;
-    f.carrier = f.held_count == 0 || f.carrier == carrier ? carrier : none;
-    if (f.held_count == Flier::most_held)
+    const bool moves = carrier_path.velocity != Vec2{} || carrier_path.angular_velocity != 0;
+    const std::int32_t carrier = !firm || conveys ? none : moves ? m_state.shapes[h.other].body : carried_by_world;
+    f.carrier = f.resting_count == 0 || f.carrier == carrier ? carrier : none;
+    if (f.resting_count == Flier::most_resting)
         return;
-    std::vector<HoldSet>& sets = m_span.output.hold_sets;
-    if (f.hold_set == none)
+    std::vector<RestingContacts>& sets = m_span.output.resting_sets;
+    if (f.resting_set == none)
     {
-        f.hold_set = static_cast<std::int32_t>(sets.size());
+        f.resting_set = static_cast<std::int32_t>(sets.size());
         sets.emplace_back();
     }
-    sets[static_cast<std::size_t>(f.hold_set)][static_cast<std::size_t>(f.held_count++)] = h;
+    sets[static_cast<std::size_t>(f.resting_set)][static_cast<std::size_t>(f.resting_count++)] = h;
 }
 
 // Whatever turns under it: the bend of the surface, what carries the surface, and the body itself where it is no ball.
-void ImpactSet::set_hold_time(std::size_t i)
+void ImpactSet::set_resting_time(std::size_t i)
 {
     const ImpactRow& row = m_rows[i];
     const Source& s = m_sources[i];
@@ -225,8 +225,8 @@ void ImpactSet::set_hold_time(std::size_t i)
         Flier* f = m_members[static_cast<std::size_t>(member)].flier;
         if (f == nullptr || turn == 0)
             continue;
-        f->bend_rate = std::max(f->bend_rate, bend + std::fabs(a.w));
-        f->hold_until = std::min(f->hold_until, m_time + std::max(hold_turn / turn, least_hold * m_span.h));
+        f->curvature_rate = std::max(f->curvature_rate, bend + std::fabs(a.w));
+        f->rests_until = std::min(f->rests_until, m_time + std::max(resting_turn / turn, least_resting_time * m_span.h));
     }
 }
 

@@ -1,4 +1,4 @@
-#include "dynamics/continuous/hold.h"
+#include "dynamics/continuous/resting_contact.h"
 
 #include "dynamics/state/turns.h"
 
@@ -20,7 +20,7 @@ void correct_state(const FlightSpan& span, std::int32_t state, double left, doub
 namespace {
 
 // The force lasted from its start until `time`: as much as an impulse half way.
-void push_back(const FlightSpan& span, const Hold& h, double time)
+void push_back(const FlightSpan& span, const RestingContact& h, double time)
 {
     if (h.solved == none)
         return;
@@ -43,9 +43,9 @@ void push_back(const FlightSpan& span, const Hold& h, double time)
 
 } // namespace
 
-void release_holds(const FlightSpan& span, Flier& f, double time)
+void release_resting_contacts(const FlightSpan& span, Flier& f, double time)
 {
-    for (const Hold& h : span.holds_of(f))
+    for (const RestingContact& h : span.resting_contacts_of(f))
         push_back(span, h, time);
     fall_freely(span, f);
 }

@@ -10,6 +10,6 @@ namespace carom::internal {
 void correct_state(const FlightSpan& span, std::int32_t state, double left, double dvx, double dvy, double dw);
 
 /// Ends the flier's holds at a time: what they pushed against, of the solver's bodies, gets its share. The accelerations are free again.
-void release_holds(const FlightSpan& span, Flier& f, double time);
+void release_resting_contacts(const FlightSpan& span, Flier& f, double time);
 
 } // namespace carom::internal
