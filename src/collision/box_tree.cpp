@@ -1,3 +1,5 @@
+// Building and updating of box trees.
+
 #include "collision/box_tree.h"
 
 #include "collision/hilbert_order.h"

@@ -1,3 +1,5 @@
+// Maintenance of the broad phase's trees: insertion, removal, changes of boxes, and rebuilding.
+
 #include "collision/broad_phase.h"
 
 #include "core/grow.h"
@@ -107,7 +109,7 @@ bool BroadPhase::update_moving(const TaskHooks& tasks, std::span<const std::int3
     std::size_t total = forest.recent.size();
     for (const BoxTree& tree : forest.trees)
         total += static_cast<std::size_t>(tree.live_count());
-    // Fitting all boxes costs about as much as widening a quarter of the paths, leaves a better tree, and lets whole blocks look for new overlaps at once.
+    // Fitting all boxes costs about as much as widening a quarter of the paths, leaves a better tree, and lets whole blocks search for new overlaps at once.
     const bool many = items.size() * 16 > total;
     if (many)
     {
@@ -121,7 +123,7 @@ bool BroadPhase::update_moving(const TaskHooks& tasks, std::span<const std::int3
     return false;
 }
 
-// Neighbours remain neighbours for a few steps.
+// The tree is sorted anew only now and then: neighbors remain neighbors for a few steps.
 void BroadPhase::fit_moving(const TaskHooks& tasks)
 {
     Forest& forest = m_forests[0];
@@ -153,7 +155,7 @@ void BroadPhase::choose_all_but(Layer layer, std::span<const std::int32_t> left_
     }
 }
 
-// The boxes of its leaves, which a cache holds where there are few.
+// Prefetches the boxes of a block's leaves; where there are few, a cache holds them anyway.
 void BroadPhase::prefetch_block(const BoxTree& tree, int block) const
 {
     constexpr int few = 65'536;
@@ -208,7 +210,7 @@ void BroadPhase::take_out(int item)
         rebuild({}, forest, t);
 }
 
-// Takes along every tree that is not at least twice as large as all that is merged after it.
+// Merges every tree that is not at least twice as large as everything merged after it.
 void BroadPhase::merge_recent(Forest& forest)
 {
     std::size_t from = forest.trees.size();
@@ -218,7 +220,7 @@ void BroadPhase::merge_recent(Forest& forest)
     rebuild({}, forest, from);
 }
 
-// The trees from from_tree on, and what is in none yet, become one.
+// The trees from from_tree on, and the items that are in no tree yet, become one.
 void BroadPhase::rebuild(const TaskHooks& tasks, Forest& forest, std::size_t from_tree)
 {
     std::vector<std::int32_t> items;

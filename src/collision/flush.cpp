@@ -1,10 +1,10 @@
-// With n the normal out of the touched leaf at p, and the neighbours within the tolerance of p:
+// Contacts of leaves with flush neighbors. With n the normal out of the touched leaf at p, and the neighbors within the tolerance of p:
 //
-//   goes_on(p, n)   some neighbour's surface lies ahead of p along n: the union has no such normal there
-//   exposed edges   of the touched leaf, near p, are those whose normal does not go on a little to either side
+//   goes_on(p, n)   some neighbor's surface lies ahead of p along n: the union has no such normal there
+//   exposed edges   edges of the touched leaf near p whose normal does not go on a little to either side
 //
-// The normal is real where it does not go on, or is that of an exposed edge. Else it is turned to the exposed edge before which the visitor has most room, without being
-// the way out on the leaf's far side; where nothing of the visitor is before such an edge, the neighbour has it.
+// The normal is real where it does not go on, or is that of an exposed edge. Otherwise it is turned to the exposed edge with the greatest separation from the
+// visitor, unless that edge is the exit on the leaf's far side. Where no part of the visitor is before such an edge, the contact belongs to the neighbor.
 
 #include "collision/flush.h"
 
@@ -44,7 +44,7 @@ Point rotated_back(Rotation q, Point p)
     return {r.x * p.x + r.y * p.y, r.x * p.y - r.y * p.x};
 }
 
-// The surface of a convex leaf by itself: seams and one-sidedness are left out.
+// The surface of a convex leaf by itself, without seams and one-sidedness.
 Surface<double> whole_surface(const LeafView& v, Point p)
 {
     const Leaf& leaf = *v.leaf;
@@ -62,7 +62,7 @@ Surface<double> whole_surface(const LeafView& v, Point p)
     return surface_of_hull<double>(sides.points, sides.normals, sides.radii, 2, p.x, p.y);
 }
 
-// As the public one.
+// The same as the public function, in doubles.
 bool is_farther(const LeafView& v, Point p, double reach)
 {
     const Leaf& leaf = *v.leaf;
@@ -103,7 +103,7 @@ public:
         FlushAnswer best;
         double farthest = -1e300;
         bool is_hidden = false;
-        const int nearest = nearest_edge(p); // the others seldom have more room
+        const int nearest = nearest_edge(p); // the other edges seldom have a greater separation
         for (int i = 0; i < m_hull.count(); ++i)
         {
             const int edge = (nearest + i) % m_hull.count();
@@ -116,7 +116,7 @@ public:
             if (!is_solid(edge) || !is_exposed(edge, p))
                 continue;
             if (is_face)
-                return {}; // its face goes on beyond the neighbour
+                return {}; // its face goes on beyond the neighbor
             const std::optional<double> separation = least_separation(edge);
             if (!separation)
             {
@@ -124,14 +124,14 @@ public:
                 continue;
             }
             if (*separation >= least && *separation > farthest)
-            { // else it is the way out on the far side
+            { // otherwise it is the exit on the far side
                 farthest = *separation;
                 best = {FlushVerdict::Turned, edge};
             }
         }
         if (best.verdict == FlushVerdict::Real && is_hidden)
             best.verdict = FlushVerdict::Hidden;
-        return best; // without a reason nothing is left out
+        return best; // real by default: no contact is left out without a reason
     }
 
 private:
@@ -156,7 +156,7 @@ private:
         return {s.distance, p - s.distance * n, n};
     }
 
-    // Does a neighbour go on from there in that direction?
+    // Whether a neighbor's surface goes on from p in the direction n.
     [[nodiscard]] bool goes_on(Point p, Point n) const
     {
         return std::ranges::any_of(m_neighbours.all(),
@@ -171,7 +171,7 @@ private:
                                    });
     }
 
-    // The side of a segment may be open.
+    // One side of a segment may be open.
     [[nodiscard]] bool is_solid(int edge) const
     {
         const Leaf& leaf = *m_touched.leaf;
@@ -179,7 +179,7 @@ private:
                leaf.sides == (edge == 1 ? Sides::Left : Sides::Right);
     }
 
-    // Is the edge part of the surface of all, near the point?
+    // Whether the edge is part of the surface of the union, near the point.
     [[nodiscard]] bool is_exposed(int edge, Point p) const
     {
         const Point n = wide(m_hull.normal(edge));
@@ -204,7 +204,7 @@ private:
         return false;
     }
 
-    // As the visitor sees it.
+    // Whether q is behind a neighbor at p, as seen from the visitor.
     [[nodiscard]] bool is_behind_neighbour(Point q, Point p) const
     {
         const Point center = wide(m_pose.to_a(middle_of(m_visitor)));
@@ -231,7 +231,7 @@ private:
         return dot(n, wide(m_hull.point(edge)) - p) + static_cast<double>(m_hull.radius(edge));
     }
 
-    // Whose line the point is nearest to.
+    // The edge whose line is nearest to the point.
     [[nodiscard]] int nearest_edge(Point p) const
     {
         int nearest = 0;
@@ -243,7 +243,7 @@ private:
         return nearest;
     }
 
-    // That of the visitor's farthest point along the edge's normal: no point of it has more.
+    // Separation of the visitor's farthest point along the edge's normal: no point of it has a greater one.
     [[nodiscard]] double greatest_separation(int edge) const
     {
         const Vec2 n = inverse_rotate(m_pose.rotation, m_hull.normal(edge));
@@ -260,7 +260,7 @@ private:
         return static_cast<double>(farthest + carom::dot(m_hull.normal(edge), m_pose.position) - m_hull.offset(edge));
     }
 
-    // The least separation of the points that the visitor has before the edge.
+    // The least separation of the visitor's points that are before the edge.
     [[nodiscard]] std::optional<double> least_separation(int edge) const
     {
         LocalManifold m;
@@ -274,7 +274,7 @@ private:
     const LeafView& m_touched;
     const FlushNeighbours& m_neighbours;
     const LeafView& m_visitor;
-    const RelativePose& m_pose; ///< of the visitor in the touched leaf's frame
+    const RelativePose& m_pose; ///< pose of the visitor in the touched leaf's frame
     double m_tolerance;
 };
 
@@ -334,7 +334,7 @@ FlushAnswer ask_flush(const LeafView& touched, const FlushNeighbours& neighbours
 
 namespace {
 
-// Those of its points that are about as near as the nearest, on a's surface or b's, in a's frame.
+// Points of the manifold about as near as the nearest, on a's surface or b's, in a's frame.
 struct NearPoints
 {
     Vec2 list[2];
@@ -357,7 +357,7 @@ void leave_out(LocalManifold& m)
 {
     m.count = 0;
     m.parting = {};
-    m.reach = -3e38f; // it is looked for again wherever the two are
+    m.reach = -3e38f; // forces a new search wherever the leaves are
     m.clipped.radius = -1;
     m.nearest.radii[0] = m.nearest.radii[1] = -1;
 }

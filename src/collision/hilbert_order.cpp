@@ -1,3 +1,5 @@
+// Codes along a Hilbert curve, and the radix sort by them.
+
 #include "collision/hilbert_order.h"
 
 #include <utility>
@@ -10,8 +12,8 @@ constexpr int digit_bits = 11;
 constexpr int digits = 3;
 constexpr std::uint32_t digit_values = 1u << digit_bits;
 
-// Each quarter of a square is walked by the same curve, mirrored so that it begins where the one before ends: what two bits say of a place depends on the
-// mirrors that the bits before have put up. Four at a time from a table.
+// Each quarter of a square is traversed by the same curve, mirrored so that it begins where the previous one ends. What two bits of a position mean depends on
+// the mirrors set by the bits before. A table handles four bits of each coordinate at a time.
 struct Walk
 {
     std::uint8_t code;
@@ -70,7 +72,7 @@ std::uint32_t HilbertOrder::along_curve(std::uint32_t x, std::uint32_t y)
     return code;
 }
 
-// Least significant digit first; stable, so that equal codes keep the order they came in.
+// Least significant digit first; stable, so that equal codes keep their order.
 void HilbertOrder::radix_sort()
 {
     std::uint32_t counts[digits][digit_values] = {};

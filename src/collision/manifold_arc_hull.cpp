@@ -1,5 +1,5 @@
-// An arc against a hull. On the hollow side the hull's corners touch, the two deepest of them; on the round side and at the ends it is the hull's
-// surface that touches, a circle as the hull sees it.
+// An arc against a hull. On the hollow side the two deepest corners of the hull touch. On the round side and at the ends the arc is a circle that
+// touches the hull's surface.
 
 #include "collision/hull.h"
 #include "collision/manifold.h"
@@ -20,10 +20,10 @@ struct Corner
     float separation = 3e38f;
 };
 
-constexpr float uneven = 0.02f; // of their chord
+constexpr float uneven = 0.02f; // relative to the chord of the corners
 
-// One normal for both corners, across their chord while they are equally deep; as one gets deeper it becomes that corner's. In a hollow that is hardly
-// wider than the hull the other is then left out.
+// One normal for both corners. It is perpendicular to their chord while they are equally deep, and becomes the deeper corner's as one gets deeper. In a hollow
+// that is hardly wider than the hull the other corner is then left out.
 Vec2 hollow_normal(const Leaf& arc, const Hull& hull, Corner (&corners)[2])
 {
     const Vec2 first = hull.point(corners[0].index) - arc.p0;
@@ -38,7 +38,7 @@ Vec2 hollow_normal(const Leaf& arc, const Hull& hull, Corner (&corners)[2])
     return -normalize(first);
 }
 
-// Corners inside the circle of the arc, by how near they are to it.
+// Finds the hull's corners inside the circle of the arc that are nearest to it.
 void collide_hollow_side(const LeafView& v, const Hull& hull, float margin, LocalManifold& out)
 {
     const Leaf& arc = *v.leaf;

@@ -1,4 +1,4 @@
-// A half-space against a hull: its one or two deepest corners.
+// A half-space against a hull: the contact points are the hull's one or two deepest corners.
 
 #include "collision/hull.h"
 #include "collision/manifold.h"

@@ -1,8 +1,8 @@
 // Hull against hull: separating axes over the edge normals of both, then the incident edge clipped to the reference edge; corner against
-// corner where the closest features are two corners. Radii ride along: every offset carries the radius of its point.
+// corner where the closest features are two corners. Every offset includes the radius of its point.
 //
-// Pieces of chains have two rules more. A normal that leans over a seam belongs to the neighbour, so it is replaced by the piece's own
-// (no ghost bumps); and a one-sided piece looks only at hulls whose center is on its solid side.
+// Pieces of chains have two more rules. A normal that leans over a seam belongs to the neighbor, so it is replaced by the piece's own
+// (no ghost bumps). A one-sided piece touches only hulls whose center is on its solid side.
 
 #include "collision/edge_rules.h"
 #include "collision/hull.h"
@@ -64,25 +64,25 @@ struct Reference
 {
     const Hull& hull;
     const Hull& other;
-    bool flipped; ///< the reference is b
+    bool flipped; ///< whether the reference is b
 };
 
 constexpr float lowest_if_none = -1;
 
-// `beyond`: what is not before the edge, or so far beyond its ends, does not touch it.
+// `beyond`: parts of the other hull that are not before the edge, or farther beyond its ends than this, do not touch it.
 void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& out, float beyond = lowest_if_none)
 {
-    // Reference edge: between the points where it touches its two circles.
+    // The reference edge runs between the points where it touches its two circles.
     const Vec2 n = ref.hull.normal(edge);
     const int next = ref.hull.next(edge);
     const Vec2 start = ref.hull.point(edge) + ref.hull.radius(edge) * n;
     const Vec2 end = ref.hull.point(next) + ref.hull.radius(next) * n;
     const Vec2 tangent = normalize(end - start);
-    // Incident edge, clipped to the reference's ends.
+    // The incident edge is clipped to the reference's ends.
     const int i0 = most_opposed_edge(ref.other.count(), [&](int i) { return ref.other.normal(i); }, n);
     const int i1 = ref.other.next(i0);
     ClipPoint points[2] = {{ref.other.point(i0), ref.other.radius(i0), i0}, {ref.other.point(i1), ref.other.radius(i1), i1}};
-    // Where corners overlap deeply nothing of the incident edge may be left: then its own lowest corner is the contact.
+    // Where corners overlap deeply, clipping may leave nothing of the incident edge: then the other hull's lowest corner is the contact.
     const bool only_before = beyond >= 0;
     const float more = only_before ? beyond : 0;
     const bool left = clip(points, tangent, dot(tangent, start) - more) && clip(points, -tangent, -dot(tangent, end) - more);
@@ -94,7 +94,7 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
         const int lowest_corner = lowest(ref.other, n);
         points[0] = points[1] = {ref.other.point(lowest_corner), ref.other.radius(lowest_corner), lowest_corner};
     }
-    // Keep what is near.
+    // Points within the margin become contact points.
     const float offset = ref.hull.offset(edge);
     out.normal = ref.flipped ? -n : n;
     const bool is_even = left && ref.other.radius(i0) == ref.other.radius(i1);
@@ -123,7 +123,7 @@ void clip_to_edge(const Reference& ref, int edge, float margin, LocalManifold& o
     out.bound_by_third(third, left_out);
 }
 
-// Shapes that are apart are nearest at a corner circle of one and the surface of the other.
+// The closest features of separate shapes are a corner circle of one and the surface of the other.
 struct Nearest
 {
     float separation = 3e38f;
@@ -131,7 +131,7 @@ struct Nearest
     Vec2 on_a{};
     Vec2 on_b{};
     std::uint32_t feature = 0;
-    int corner = 0;   ///< of the hull whose corners were offered
+    int corner = 0;   ///< corner of the hull whose corners were offered
     int opposite = 0; ///< feature of the other's surface
     bool corner_of_a = false;
 };
@@ -190,8 +190,8 @@ bool cores_cross(const Hull& a, const Hull& b)
 
 float edge_length(const Hull& hull, int edge) { return length(hull.point(hull.next(edge)) - hull.point(edge)); }
 
-// Does the lowest point of the other face the edge between its ends? Then nothing is nearer: no axis tells of more room than there is, and here all
-// of it is.
+// Whether the lowest point of the other faces the edge between its ends. Then nothing is nearer: no axis gives a separation greater than the distance, and
+// this one attains it.
 bool faces_edge(const Hull& reference, const Hull& incident, const FaceAxis& axis)
 {
     const int next = reference.next(axis.edge);
@@ -203,7 +203,7 @@ bool faces_edge(const Hull& reference, const Hull& incident, const FaceAxis& axi
     return (even || axis.separation > 0) && along > 0 && along < dot(edge, edge);
 }
 
-// The general case; no chain neighbours.
+// The general case, without chain neighbors.
 void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out)
 {
     const FaceAxis axis_a = best_axis(a, b);
@@ -220,8 +220,8 @@ void collide_free(const Hull& a, const Hull& b, float margin, LocalManifold& out
         out.part(flipped ? -n : n, axis.separation);
         return;
     }
-    // Edge normals are all the separating axes of cores that overlap. Of cores that are apart, and of the ends of capsules, they are not: there
-    // the nearest corner may be farther than any edge normal tells.
+    // For cores that overlap, the edge normals are all the separating axes. For cores that are apart, and for the ends of capsules, they are not: the
+    // nearest corner may be farther away than the separation along any edge normal.
     const bool slender = a.count() == 2 || b.count() == 2;
     const float core_gap = axis.separation + std::max(reference.radius(axis.edge), reference.radius(reference.next(axis.edge))) +
                            incident.radius(axis.support);
@@ -259,7 +259,7 @@ void keep_to_piece(const Leaf& piece, const Hull& edge, const Hull& hull, float 
     if (out.count == 0 || !leans_over_seam(piece, out.normal, tangent, {}))
         return;
     out.count = 0;
-    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out, 0); // beyond the seam the neighbour has it
+    clip_to_edge({edge, hull, false}, side > 0 ? 1 : 0, margin, out, 0); // beyond the seam the contact belongs to the neighbor
 }
 
 } // namespace
@@ -295,7 +295,7 @@ void collide_hull_hull(const LeafView& a, const LeafView& b, const RelativePose&
     const Leaf& piece = *b.leaf;
     if (piece.type != LeafType::Segment || !is_of_chain(piece))
         return;
-    // The table gives segments as b; the rules of pieces are written with the piece first, in its own frame.
+    // The table passes segments as b; the rules of pieces are written with the piece first, in its own frame.
     const RelativePose swapped{pose.to_b({}), inverse(pose.rotation)};
     const Hull edge(b);
     const HullSeen hull(a, swapped);

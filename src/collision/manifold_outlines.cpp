@@ -1,5 +1,5 @@
-// Convex outlines of up to eight corners with one radius, the commonest pairs there are: polygons, capsules, segments and pieces of chains. The rules are
-// those of manifold_hull_hull.cpp, with four edges tested at a time. Where nothing is left of the clipped edge, that file decides.
+// Convex outlines of up to eight corners with one radius, the most common pairs: polygons, capsules, segments and pieces of chains. The rules are those of
+// manifold_hull_hull.cpp, with four edges tested at a time. Where nothing is left of the clipped edge, that file decides.
 
 #include "collision/edge_rules.h"
 #include "collision/hull.h"
@@ -31,7 +31,7 @@ struct EdgeAxis
     float separation = -3e38f;
 };
 
-// x and y of four vectors; those beyond the last are the last.
+// x and y of four vectors; lanes beyond the last vector repeat it.
 void split(const Vec2* v, int first, int count, F4& x, F4& y)
 {
     if (first + 4 <= count)
@@ -47,14 +47,14 @@ void split(const Vec2* v, int first, int count, F4& x, F4& y)
     y = four_of(at(0).y, at(1).y, at(2).y, at(3).y);
 }
 
-// In all lanes.
+// The greatest of the four lanes, in all lanes.
 F4 greatest_of_all(F4 x)
 {
     const F4 two = greatest(x, swapped_neighbours(x));
     return greatest(two, swapped_halves(two));
 }
 
-// The edge beyond which the other's corners are farthest. Four edges side by side, corner by corner.
+// The edge of greatest separation from the other's corners. Four edges are tested side by side, corner by corner.
 EdgeAxis best_axis(const Hull& reference, const Corners& other, float radii)
 {
     const int count = reference.count();
@@ -81,7 +81,7 @@ EdgeAxis best_axis(const Hull& reference, const Corners& other, float radii)
     return best;
 }
 
-// Of the edges the one that faces n most; of equals the first.
+// The edge that faces n most; of equal ones the first.
 int most_opposed_edge(const Hull& v, Vec2 n)
 {
     int edge = 0;
@@ -121,7 +121,7 @@ public:
             m_corners_b.at[i] = pose.to_a(b.point(i));
     }
 
-    // False where hull against hull must decide.
+    // False where collide_hull_hull must decide.
     bool collide(float margin, LocalManifold& out)
     {
         const EdgeAxis axis_a = best_axis(m_a, m_corners_b, m_radii);
@@ -139,7 +139,7 @@ public:
         return clip_to_edge(flipped, flipped ? axis_b : axis_a, margin, out);
     }
 
-    // Of a piece of a chain, b, once points are found: only its solid side touches, and a normal that leans over a seam becomes the piece's own.
+    // Rules for b as a piece of a chain, once points are found: only its solid side touches, and a normal that leans over a seam becomes the piece's own.
     void keep_to_piece(const Leaf& piece, float margin, LocalManifold& out) const
     {
         const Vec2 tangent = rotate(m_pose.rotation, perp(m_b.normal(0)));
@@ -152,12 +152,12 @@ public:
         out.count = 0;
         out.clipped.radius = -1;
         const Facing own(*this, true, side > 0 ? 1 : 0);
-        if (own.left) // else none of the outline is before the piece: beyond the seam the neighbour has it
+        if (own.left) // otherwise no part of the outline is before the piece: beyond the seam the contact belongs to the neighbor
             own.add_points(margin, out);
     }
 
 private:
-    // An edge of one outline, and what of the other's edge that faces it most is before it. All in a's frame.
+    // An edge of one outline, and the part of the other's most opposed edge that is before it. All in a's frame.
     struct Facing
     {
         bool flipped; // the edge is b's
@@ -173,7 +173,7 @@ private:
         int i0;
         int i1;
         OutlinePoint points[2];
-        bool left; // anything
+        bool left; // whether clipping left anything
 
         Facing(const OutlinePair& pair, bool is_flipped, int of_edge)
             : flipped(is_flipped), edge(of_edge), reference(flipped ? pair.m_b : pair.m_a),
@@ -203,7 +203,7 @@ private:
             return lowest;
         }
 
-        // Is the nearest corner of what is apart ahead of the edge? Then no corner of the edge is nearer to it.
+        // Whether the nearest corner of separate outlines is ahead of the edge. Then no corner of the edge is nearer to it.
         [[nodiscard]] bool meets_nearest() const
         {
             const float along = dot(tangent, others.at[lowest()]);
@@ -253,7 +253,7 @@ private:
         return true;
     }
 
-    // Lengths matter between near equals alone.
+    // Lengths matter only between near equals.
     [[nodiscard]] bool edge_is_of_b(const EdgeAxis& a, const EdgeAxis& b) const
     {
         const Vec2 da = edge_of(m_a, a.edge);
@@ -271,7 +271,7 @@ private:
     {
         const bool apart = axis.separation + m_radii > 1e-6f;
         if (!apart && m_a.count() == 2 && m_b.count() == 2)
-            return false; // their sides do not tell whether two lines cross or one goes on where the other ends
+            return false; // separations cannot tell whether two lines cross or one continues where the other ends
         const Facing f(*this, flipped, axis.edge);
         if (apart && !f.meets_nearest())
         {
@@ -286,7 +286,7 @@ private:
         return out.count > 0;
     }
 
-    // Two corners may be nearest where no edge faces one. False where they are no nearer than this.
+    // Two corners may be nearest where no edge faces one. False where they are not nearer than `than`.
     bool add_corners(float than, float margin, LocalManifold& out) const
     {
         int a = 0;
@@ -324,7 +324,7 @@ private:
     const Hull& m_b;
     const RelativePose& m_pose;
     float m_radii;
-    Corners m_corners_a; ///< in the frame that is being looked at
+    Corners m_corners_a; ///< in the frame that is currently tested
     Corners m_corners_b; ///< in a's frame
 };
 

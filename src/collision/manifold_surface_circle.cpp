@@ -1,4 +1,4 @@
-// Anything against a circle: the distance from the circle's center to the surface, less its radius.
+// Any leaf against a circle: the distance from the circle's center to the surface, less its radius.
 
 #include "collision/manifold.h"
 #include "geometry/surface.h"
@@ -7,7 +7,7 @@ namespace carom::internal {
 
 namespace {
 
-// The edge that the feature is, its ends on the surface; false where it is none, or of a chain.
+// The edge of a feature, its ends on the surface; false where the feature is not an edge, or the leaf has none.
 bool find_edge(const LeafView& v, int feature, Vec2 n, Vec2 edge[2])
 {
     const Leaf& leaf = *v.leaf;
@@ -26,7 +26,7 @@ bool find_edge(const LeafView& v, int feature, Vec2 n, Vec2 edge[2])
     return is_side;
 }
 
-// The corner that the feature is, or the center of a circle; none of a chain.
+// The corner of a feature, or the center of a circle; empty for other leaves.
 NearestCorners find_corner(const LeafView& v, int feature, Vec2 center, float radius)
 {
     const Leaf& leaf = *v.leaf;

@@ -1,3 +1,5 @@
+// The table of collide functions by the types of two leaves.
+
 #include "collision/manifold.h"
 
 #include <cstddef>
@@ -6,7 +8,7 @@ namespace carom::internal {
 
 namespace {
 
-// The mirrored entry: swaps the leaves, collides, and gives the result back in the frame of the first.
+// The mirrored entry: swaps the leaves, collides, and returns the result in the frame of the first.
 template <CollideFunction collide_swapped>
 void mirrored(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin, LocalManifold& out)
 {

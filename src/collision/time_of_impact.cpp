@@ -1,8 +1,8 @@
 // Conservative advancement of second order. At time t the surface gives distance d and normal n. Along that fixed normal (fixed in the
 // leaf's frame) the gap starts at d with rate u, and its second derivative is never below -M. For convex surfaces the gap along a fixed
-// normal never exceeds the distance, so d + u s - M s²/2 > 0 proves that nothing touches before its root: we step there and look again.
+// normal never exceeds the distance, so d + u s - M s²/2 > 0 proves that nothing touches before its root. The search steps to the root and looks again.
 // Near the hit the M term fades, and the step becomes Newton's: convergence is quadratic. The hollow side of an arc is not convex; there
-// the bend of the surface itself, v²/rho, goes into M.
+// the curvature of the surface itself, v²/rho, is part of M.
 
 #include "collision/time_of_impact.h"
 
@@ -36,29 +36,29 @@ SinCos rotation_at(const FramePath& f, double t)
     return {f.s * turn.cos + f.c * turn.sin, f.c * turn.cos - f.s * turn.sin};
 }
 
-/// What a probe sees of the surface at one moment.
+/// The relation of a probe to the surface at one moment.
 struct Sight
 {
     double distance; ///< gap between probe and surface
     Vector n;        ///< from the surface to the probe, world
     Vector point;    ///< on the probe
-    Vector v;        ///< of the probe, as the turning frame sees it
+    Vector v;        ///< velocity of the probe in the rotating frame
     Vector a;
-    double rate; ///< of the gap along the fixed normal
+    double rate; ///< rate of the gap along the fixed normal
     double acceleration;
-    double bend;          ///< M: bound on minus its second derivative
-    double speed;         ///< bound on the relative speed over the rest of the time
-    double push;          ///< the second derivative itself, along the fixed normal
-    double jerk;          ///< bound on the third over the rest of the time; none on the hollow side, or under torques
+    double bend;  ///< M: bound on minus the gap's second derivative
+    double speed; ///< bound on the relative speed over the rest of the time
+    double push;  ///< the second derivative itself, along the fixed normal
+    double jerk;  ///< bound on the third derivative over the rest of the time; no_bound on the hollow side or under torques
     double hollow_radius; ///< from the arc's center to the probe's, on the hollow side; 0 elsewhere
     double curvature;
     int feature;
     bool end_of_arc;
-    bool faces; ///< the surface answers for this direction; otherwise only the distance and the speed hold
+    bool faces; ///< whether the surface answers for this direction; otherwise only the distance and the speed are valid
 };
 
 constexpr double no_bound = 1e300;
-constexpr double corner = 1e-5; // of the size: nearer, and blunter, than this two corners are in one place
+constexpr double corner = 1e-5; // relative to the size: sharp corners that are nearer than this count as coincident
 
 class Approach
 {
@@ -70,7 +70,7 @@ public:
                   static_cast<double>(probe.point.y) - static_cast<double>(carrier.local_center.y)},
           m_reach(size(m_local))
     {
-        // A circle about the center looks the same however it turns.
+        // A circle about the center of rotation looks the same at every angle.
         const Leaf& l = *leaf.leaf;
         if (l.type == LeafType::Circle && l.p0 == frame.local_center)
             m_frame.w = m_frame.alpha = 0;
@@ -81,7 +81,7 @@ public:
         m_w_frame = std::fabs(m_frame.w) + duration * std::fabs(m_frame.alpha);
     }
 
-    /// At t = 0 the surface is farther from the probe than this, or does not answer.
+    /// True where the surface is farther from the probe than the tolerance at t = 0, or does not answer.
     [[nodiscard]] bool starts_beyond(double tolerance) const
     {
         const SinCos turn_probe = {m_carrier.s, m_carrier.c};
@@ -105,7 +105,7 @@ public:
         const Vector to_carrier = {p.x + t * p.vx + 0.5 * t * t * p.ax, p.y + t * p.vy + 0.5 * t * t * p.ay};
         const Vector r = {to_carrier.x + q.x - (f.x + t * f.vx + 0.5 * t * t * f.ax),
                           to_carrier.y + q.y - (f.y + t * f.vy + 0.5 * t * t * f.ay)};
-        // Velocity of the probe as the turning frame sees it.
+        // Velocity of the probe in the rotating frame.
         const Vector v = {p.vx - f.vx + t * m_a.x - wp * q.y + wf * r.y, p.vy - f.vy + t * m_a.y + wp * q.x - wf * r.x};
         const Vector in_leaf = place_in_leaf(turn_frame, r);
         const std::optional<Surface<double>> surface = surface_for(in_leaf.x, in_leaf.y, turn_probe, turn_frame);
@@ -132,7 +132,7 @@ public:
         sight.curvature = surface->curvature;
         sight.feature = surface->feature;
         sight.end_of_arc = m_leaf.leaf->type == LeafType::Arc && surface->feature != 0;
-        // The gap's own acceleration: of the probe, as the turning frame sees it, and the bend of the surface under its slide.
+        // The gap's own acceleration: the probe's in the rotating frame, and the curvature of the surface under its sliding.
         const Vector a = {m_a.x - m_carrier.alpha * q.y - wp * wp * q.x + 2 * wf * v.y + wf * wf * r.x + m_frame.alpha * r.y,
                           m_a.y + m_carrier.alpha * q.x - wp * wp * q.y - 2 * wf * v.x + wf * wf * r.y - m_frame.alpha * r.x};
         sight.a = a;
@@ -154,7 +154,7 @@ public:
         return sight;
     }
 
-    /// Asks the union of flush leaves about a touch: false where a neighbour hides the touch; true otherwise, and the sight may have another normal.
+    /// Corrects a touch for flush neighbors: false where a neighbor hides it; otherwise true, and the sight may have another normal.
     [[nodiscard]] bool keep_to_union(double t, Sight& sight, const LeafView& probe_leaf, const FlushNeighbours& of_probe,
                                      const FlushNeighbours& of_surface) const
     {
@@ -199,22 +199,22 @@ public:
     }
 
 private:
-    // Out of a polygon's vertex, in its frame: else an edge that has sunk a little meets the side of what it lies on.
+    // Whether a direction is in the normal cone of a polygon's vertex, in its frame. Otherwise an edge that has sunk in a little meets its support's side.
     [[nodiscard]] bool is_in_own_cone(Vector out) const
     {
         const auto cross = [](Vec2 a, Vector b) { return static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x; };
         return m_probe.before == Vec2{} || (cross(m_probe.before, out) >= -1e-3 && cross(m_probe.after, out) <= 1e-3);
     }
 
-    // Of a point seen from the center that the frame turns about.
+    // A point relative to the frame's center of rotation, in the leaf's frame.
     [[nodiscard]] Vector place_in_leaf(SinCos turn_frame, Vector r) const
     {
         const Vector local = turned_back(turn_frame, r);
         return {local.x + static_cast<double>(m_frame.local_center.x), local.y + static_cast<double>(m_frame.local_center.y)};
     }
 
-    // The surface as the probe meets it. A vertex that has come through a thin line by less than its band is still outside, on the side that
-    // its shape is on: a rounding does not decide that.
+    // The surface as the probe meets it. A vertex that has passed through a thin line by less than its band still counts as outside, on the side of
+    // its shape: rounding must not decide that.
     [[nodiscard]] std::optional<Surface<double>> surface_for(double px, double py, SinCos turn_probe, SinCos turn_frame) const
     {
         const Leaf& leaf = *m_leaf.leaf;
@@ -222,13 +222,13 @@ private:
         const bool line = leaf.type == LeafType::Segment || leaf.type == LeafType::Arc;
         if (!line || m_probe.band == 0 || (plain && plain->feature != 0) || (plain && plain->distance > m_probe.band))
             return plain;
-        // The same point seen from both sides.
+        // The surface at the same point, solid on both sides.
         Leaf both = leaf;
         both.sides = Sides::Both;
         const std::optional<Surface<double>> seen = surface_at<double>(LeafView{.leaf = &both, .span = m_leaf.span}, px, py);
         if (!seen || seen->distance > m_probe.band)
             return plain;
-        // Out through a corner that both pieces close in on: behind either, and beyond the ends of both.
+        // Out through a concave corner: the point is behind both pieces, and beyond the ends of both.
         const auto thickness = static_cast<double>(leaf.r0);
         const auto from_behind = [&](double curvature)
         { return Surface<double>{-(seen->distance + thickness) - thickness, -seen->nx, -seen->ny, curvature, 0}; };
@@ -241,11 +241,11 @@ private:
         const double towards = out.x * seen->nx + out.y * seen->ny;
         if (leaf.sides == Sides::Both ? towards <= 0.1 * size(out) : plain.has_value())
             return plain;
-        // Through to the other side.
+        // The probe has passed through to the other side.
         return from_behind(-seen->curvature);
     }
 
-    // Two sharp corners in one place: the direction between them, or of the nearer edge, means nothing. Gives the leaf's vertex.
+    // The leaf's vertex where two sharp corners coincide, or -1. There, the direction between them and the nearer edge's normal mean nothing.
     [[nodiscard]] int corner_met(double distance, Vector p) const
     {
         const Leaf& leaf = *m_leaf.leaf;
@@ -261,7 +261,7 @@ private:
         return -1;
     }
 
-    // It has to be a normal of both corners: between those of the leaf's two edges, and between the opposites of those of the probe's.
+    // The normal has to be in the normal cones of both corners: between the normals of the leaf's two edges, and between the negated normals of the probe's.
     [[nodiscard]] std::optional<Vector> shared_normal(int vertex, SinCos turn_frame, SinCos turn_probe) const
     {
         const auto cross = [](Vector a, Vector b) { return a.x * b.y - a.y * b.x; };
@@ -281,7 +281,7 @@ private:
         return Vector{middle.x / l, middle.y / l};
     }
 
-    // A corner that has sunk a little into the piece before meets this one from behind: its body is before neither.
+    // Whether a corner that has sunk a little into the previous piece meets this one from behind: then its body is before neither piece.
     [[nodiscard]] bool is_behind_seam(const Surface<double>& surface, Vector carrier, SinCos turn_frame) const
     {
         const Leaf& leaf = *m_leaf.leaf;
@@ -294,7 +294,7 @@ private:
         return is_left_of_chain(leaf, center.x, center.y) != from_left;
     }
 
-    // Only part of the probe may be surface; and what has been inside an arc's circle is not met by its bulge.
+    // Only part of the probe may be surface, and a leaf that has been inside an arc's circle is not met by the arc's bulge.
     [[nodiscard]] bool faces_probe(const Sight& sight, SinCos turn_probe) const
     {
         if (m_probe.part == Probe::Part::All)
@@ -311,7 +311,7 @@ private:
         const double own = (m_w_probe * m_w_probe + std::fabs(m_carrier.alpha)) * m_reach;
         const double turning = m_w_frame * m_w_frame + std::fabs(m_frame.alpha);
         const double speed = size(v);
-        // By what accelerates it, or, where it spins fast, by its center's speed and the spin.
+        // Bounded by the accelerations, or, where the body spins fast, by its center's speed and the spin.
         const Vector center_v = {m_carrier.center.vx - m_frame.center.vx + t * m_a.x,
                                  m_carrier.center.vy - m_frame.center.vy + t * m_a.y};
         const double center_speed = size(center_v) + rest * size(m_a);
@@ -323,7 +323,7 @@ private:
             sight.bend += 2 * m_w_frame * sight.speed + turning * (size(r) + rest * sight.speed);
     }
 
-    // Of p = R(-w_f t) r: each turn of the frame adds a factor w_f. Torques are left out: then there is none.
+    // For p = R(-w_f t) r, each derivative of the rotation adds a factor w_f. There is no bound under torques, which are left out.
     [[nodiscard]] double bound_jerk(double t, Vector r, Vector v) const
     {
         if (m_carrier.alpha != 0 || m_frame.alpha != 0)
@@ -336,8 +336,8 @@ private:
                m_w_probe * m_w_probe * m_w_probe * m_reach;
     }
 
-    // Beyond its ends a piece of a chain leaves everything to its neighbours, but for the corner that it shares with the one before. How far away
-    // a point is at least that it answers for; 0 is a safe answer.
+    // Beyond its ends a piece of a chain leaves everything to its neighbors, except for the corner that it shares with the previous piece. Returns a lower
+    // bound on the distance to the points that the piece answers for; 0 is always safe.
     static double way_to_where_it_answers(const LeafView& view, double px, double py)
     {
         const Leaf& leaf = *view.leaf;
@@ -361,8 +361,8 @@ private:
     LeafView m_leaf;
     FramePath m_frame;
     double m_duration;
-    double m_length; ///< of what meets here
-    Vector m_local;  ///< probe from the carrier's center, body frame
+    double m_length; ///< size that tolerances are relative to
+    Vector m_local;  ///< probe relative to the carrier's center, body frame
     double m_reach;
     Vector m_a;
     double m_w_probe;
@@ -385,15 +385,15 @@ double next_step(const Sight& sight)
     if (!(sight.speed > 0))
         return step;
     const double plain = std::max(sight.distance, 0.0) / sight.speed;
-    if (sight.end_of_arc) // the arc itself may bend towards the path
+    if (sight.end_of_arc) // the arc itself may curve towards the path
         return std::min(step, plain);
-    // The bend bound holds while the probe keeps half its distance from the arc's center; the plain speed bound always holds.
+    // The bound M holds while the probe keeps half its distance from the arc's center; the plain speed bound always holds.
     return std::max(plain, sight.hollow_radius > 0 ? std::min(step, 0.5 * sight.hollow_radius / sight.speed) : step);
 }
 
-constexpr int max_looks = 1024;     // a pebble that turns with 50,000 rad/s takes hundreds; others need 3 to 10
-constexpr double touch = 1e-7;      // of the size: a nanometre on a pinball
-constexpr double blind_step = 1e-3; // of the size, along a surface that does not answer
+constexpr int max_looks = 1024;     // a pebble that turns at 50,000 rad/s takes hundreds; others need 3 to 10
+constexpr double touch = 1e-7;      // relative to the size: a nanometer on a pinball
+constexpr double blind_step = 1e-3; // relative to the size, along a surface that does not answer
 
 Touch touch_of(const Sight& sight, double t, bool probe_on_a)
 {
@@ -411,19 +411,19 @@ Touch touch_of(const Sight& sight, double t, bool probe_on_a)
             {}};
 }
 
-// Touching, it cannot approach faster than least_approach before the bend has had its time; and hardly before the gap's own acceleration,
-// which for a short while tells more than its bound.
+// Time to wait at a touch. The approach cannot exceed least_approach before the bound M allows it, and hardly before the gap's own acceleration does,
+// which for a short while is a better estimate than its bound.
 double patience_at(const Sight& sight, double least_approach, double duration)
 {
     const double slack = least_approach + sight.rate;
-    // slack + a t - J t²/2 keeps above 0 until then.
+    // slack + a t - J t²/2 stays above 0 until then.
     const double kept =
         sight.jerk > 0 ? (sight.push + std::sqrt(sight.push * sight.push + 2 * sight.jerk * slack)) / sight.jerk : 0;
     const double soon = sight.acceleration < 0 ? 0.5 * slack / -sight.acceleration : duration;
     return std::max({slack / sight.bend, kept, std::min(soon, 5e-3 * duration), 1e-6 * duration});
 }
 
-/// Of the probe's leaf and of the surface.
+/// Flush neighbors of the probe's leaf and of the surface.
 struct FlushBeside
 {
     const LeafView& probe_leaf;
@@ -469,8 +469,8 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
             continue;
         }
         if (near && sight.bend <= 0)
-            return std::nullopt; // touches, does not approach, and nothing will make it
-        // A step too short to move the clock would look at the same place for ever.
+            return std::nullopt; // touches, does not approach, and has no acceleration towards the surface
+        // A step too short to advance t would repeat the same look forever.
         const double patience = near ? patience_at(sight, least, duration) : 1e-12 * duration;
         t += std::max(next_step(sight), patience);
     }
@@ -529,7 +529,7 @@ double probe_size(const LeafView& v)
 
 namespace {
 
-/// How far a leaf reaches from the center that it turns about: along a direction, and at all.
+/// How far a leaf extends from its center of rotation: along a direction, and in any direction.
 struct Reach
 {
     double along = -1e300;
@@ -569,13 +569,13 @@ Reach reach_of(const LeafView& v, const FramePath& path, Vector direction)
     return reach;
 }
 
-// How far a point 1 m from the center comes by turning.
+// Bound on the displacement by rotation of a point 1 m from the center.
 double most_turn(const FramePath& path, double duration)
 {
     return std::min(2.0, duration * (std::fabs(path.w) + 0.5 * duration * std::fabs(path.alpha)));
 }
 
-// Two leaves along an axis from a to b, and how near they may come in that time.
+// Two leaves along an axis from a to b: their gap, and a bound on how much it can close in the given time.
 class Interval
 {
 public:
@@ -596,7 +596,7 @@ public:
     [[nodiscard]] bool stays_open() const { return m_gap > m_closing; }
     [[nodiscard]] double gap() const { return m_gap; }
 
-    /// A corner on the far side: it cannot come to where the other leaf is.
+    /// Whether a corner is on the far side and cannot reach the other leaf.
     [[nodiscard]] bool leaves_out(const Probe& probe, bool on_a) const
     {
         const FramePath& path = on_a ? m_path_a : m_path_b;
@@ -616,12 +616,12 @@ private:
     double m_closing;
 };
 
-// The edges of a polygon as they stand at t = 0. A probe that is beyond one of them by more than both may come nearer along its normal in the time does not
-// meet the polygon: most of a look at it is saved.
+// The edges of a polygon at t = 0. A probe does not meet the polygon if it is beyond one of the edges by more than both can approach along its normal in the
+// given time: this saves most of the cost of a look.
 class Faces
 {
 public:
-    /// Slack: what counts as met though it is farther away.
+    /// Slack: the distance up to which a probe counts as meeting the polygon.
     Faces(const LeafView& leaf, const FramePath& frame, const FramePath& carrier, double duration, double slack)
         : m_leaf(leaf), m_count(leaf.leaf->type == LeafType::Polygon && leaf.leaf->count <= most ? leaf.leaf->count : 0)
     {
@@ -676,10 +676,10 @@ private:
 
     const LeafView& m_leaf;
     int m_count;
-    Vector m_center; ///< of the carrier, and its turn, in the leaf's frame
+    Vector m_center; ///< center of the carrier in the leaf's frame; the rotation below likewise
     SinCos m_turn{};
     Vec2 m_local_center{};
-    double m_swing = 0; ///< how far the carrier swings a point that is 1 m from its center
+    double m_swing = 0; ///< bound on the displacement by the carrier's rotation of a point 1 m from its center
     double m_limits[most];
 };
 
@@ -736,7 +736,7 @@ std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, con
 
 namespace {
 
-// A corner on a corner is seen from both sides: it counts once, as the one that approaches.
+// A corner on a corner is seen from both sides: it counts once, as the touch that approaches faster.
 Touch* find_twin(Touches& touches, const Touch& t, double length)
 {
     Touch* end = touches.list + touches.count;

@@ -1,3 +1,5 @@
+// Error handling: the exception, the handler, and the checks that build error messages.
+
 #include "core/refuse.h"
 
 #include "carom/config.h"

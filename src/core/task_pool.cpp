@@ -1,3 +1,5 @@
+// Runs independent tasks here or on the user's workers.
+
 #include "core/task_pool.h"
 
 #include "core/rounding.h"
@@ -21,7 +23,7 @@ void run_tasks(const TaskHooks& hooks, int count, const void* task, TaskCall cal
         hooks.user, count,
         [](void* context, int index)
         {
-            const RoundToNearest rounding; // the worker's is what its thread began with
+            const RoundToNearest rounding; // a worker's thread may have started with another rounding mode
             const Job& j = *static_cast<const Job*>(context);
             j.call(j.task, index);
         },

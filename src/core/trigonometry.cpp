@@ -1,3 +1,5 @@
+// sin, cos, atan2 and exp that give the same bits on every platform, and the parts of carom/math.h that need them.
+
 #include "core/trigonometry.h"
 
 #include "carom/math.h"
@@ -15,7 +17,7 @@ namespace {
 constexpr double half_pi_high = 1.57079632673412561417;
 constexpr double half_pi_low = 6.07710050650619224932e-11;
 
-// Taylor polynomials: on |x| <= pi/4 the terms left out are below 1e-17.
+// Taylor polynomials: on |x| <= pi/4, the omitted terms are below 1e-17.
 double sin_polynomial(double x)
 {
     const double z = x * x;
@@ -37,7 +39,7 @@ double cos_polynomial(double x)
                                                                                               z * (1.0 / 20922789888000.0))))))));
 }
 
-// Two halvings of the angle at the most, atan(x) = 2 atan(x / (1 + sqrt(1 + x²))), bring |x| <= 1 under tan(pi/16).
+// At most two halvings of the angle, atan(x) = 2 atan(x / (1 + sqrt(1 + x²))), bring |x| <= 1 below tan(pi/16).
 double atan_unit(double x)
 {
     double whole = 1;
@@ -50,8 +52,8 @@ double atan_unit(double x)
 
 SinCos sin_cos(double radians)
 {
-    // Clamped before the conversion to integer, what is no number as well: beyond it the angle has lost its meaning, but the result stays defined, and
-    // of what is no number it is none.
+    // Clamped before the conversion to integer, NaN as well. Beyond the clamp the angle has lost its meaning, but the result stays defined. For NaN it is
+    // NaN.
     double turns = radians * (1.0 / half_pi);
     turns = turns < 1e15 ? (turns > -1e15 ? turns : -1e15) : 1e15;
     const auto n = static_cast<std::int64_t>(turns + (turns >= 0 ? 0.5 : -0.5));
@@ -86,7 +88,7 @@ double exponential(double x)
         return 0;
     if (x > 700)
         x = 700;
-    // ln 2 in two pieces, the first with zeros at its end, so that n times it is exact.
+    // ln 2 in two pieces: the first ends in zeros, so that n times it is exact.
     constexpr double ln2_high = 6.93147180369123816490e-01;
     constexpr double ln2_low = 1.90821492927058770002e-10;
     const double turns = x / (ln2_high + ln2_low);
@@ -114,7 +116,7 @@ Vec2 normalize(Vec2 a)
 Rotation Rotation::from_angle(float radians)
 {
     if (std::fabs(radians) < 0.25f)
-    { // as bodies turn in a sub-step: these terms are exact to a thousandth of a float's rounding
+    { // the rotation of a body in a sub-step: these terms are exact to a thousandth of a float's rounding
         const auto x = static_cast<double>(radians);
         const double z = x * x;
         const double s = x * (1 + z * (-1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040))));

@@ -1,3 +1,5 @@
+// Rounds of work that the workers of a team share.
+
 #include "core/worker_team.h"
 
 namespace carom::internal {
@@ -28,7 +30,7 @@ void WorkerTeam::in_parts(const void* work, Call call, int parts)
     }
 }
 
-// A round does not end before the member that has taken a part is done with it.
+// A round does not end before every part that was taken is done, so the part stays valid while a worker runs it.
 bool WorkerTeam::take(int p)
 {
     Part& part = m_parts[p];

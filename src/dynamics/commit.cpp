@@ -1,5 +1,5 @@
-// Stage 6, commit: the step's result goes back into the records, in the order of the islands; deferred impulses, triggers; then bodies come to rest or
-// fall asleep (sleep.cpp).
+// Stage 6, commit: writes the result of the step back into the records, in the order of the islands; then deferred impulses and triggers;
+// then bodies come to rest or fall asleep (sleep.cpp).
 
 #include "core/grow.h"
 #include "core/refuse.h"
@@ -7,10 +7,10 @@
 #include "core/trigonometry.h"
 #include "dynamics/continuous/motion.h"
 #include "dynamics/continuous/safety_sweep.h"
+#include "dynamics/forces/force_laws.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sleep/wake.h"
-#include "dynamics/solver/force_laws.h"
 #include "dynamics/solver/island_constraints.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/body_store.h"
@@ -37,7 +37,7 @@ Rotation renormalized(Rotation q)
 
 // --- poses ---------------------------------------------------------------------------------------------------------------------------
 
-// Their path is a function of time alone.
+// The path of a kinematic body is a function of time alone.
 void record_kinematic(StepContext& ctx, int body)
 {
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
@@ -92,8 +92,8 @@ bool is_sound(const BodyState& s, double x, double y)
            is_finite(s.delta_rotation.c) && is_finite(s.delta_rotation.s);
 }
 
-// The solver's bodies see what they may meet on the way that they set out on; struck or pulled from it, one that goes farther than its own
-// size may have been led anywhere; and what is pressed into a wall creeps.
+// The solver's contacts cover the paths on which bodies set out. A body that was struck or pulled off its path and moves farther than its own
+// size may have ended anywhere; a body that is pressed into a wall creeps into it.
 bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
 {
     if (!ctx.scene.def.continuous || (s.flags & (body_flag::flier | body_flag::free_fall)) != 0)
@@ -104,11 +104,11 @@ bool may_have_passed(const StepContext& ctx, const BodyState& s, int body)
     if (dot(s.delta_position, s.delta_position) <= sim.size * sim.size)
         return false;
     const Vec2 strayed = s.delta_position - predicted_shift(ctx, ctx.state.bodies[body], sim);
-    const float seen = 0.5f * ctx.scene.tolerances.box_margin; // beside the way there: what rests nearer has a contact
+    const float seen = 0.5f * ctx.scene.tolerances.box_margin; // a body that rests nearer to the predicted path has a contact
     return dot(strayed, strayed) > seen * seen || ctx.state.bodies[body].first_contact != none;
 }
 
-// What is stopped at a wall has not gone the rest of its way: forces have done no work on it.
+// A body stopped at a wall has not covered the rest of its displacement: forces have done no work on it there.
 float without_work(const StepContext& ctx, const BodyState& s, std::int32_t index, double dx, double dy)
 {
     const Vec2 a = ctx.scratch.solver.constants[static_cast<std::size_t>(index)].acceleration;
@@ -117,7 +117,7 @@ float without_work(const StepContext& ctx, const BodyState& s, std::int32_t inde
     return twice_work > 0 && square > 0 ? static_cast<float>(std::sqrt(std::max(1 - twice_work / square, 0.0))) : 1;
 }
 
-// Writes to its own body alone.
+// Writes to its own body only.
 void commit_state(const StepContext& ctx, std::int32_t index)
 {
     BodyState& s = ctx.scratch.solver.states[static_cast<std::size_t>(index)];
@@ -166,7 +166,7 @@ void commit_state(const StepContext& ctx, std::int32_t index)
 
 // --- contacts and joints ---------------------------------------------------------------------------------------------------------------
 
-// What a flier's hinge gave while flight kept it; forces are told as on body b.
+// Reaction of a flier's hinge while it was in flight; forces are given as on body b.
 void commit_hinge(StepContext& ctx, const Flier& flier)
 {
     if (flier.joint == none)
@@ -177,7 +177,7 @@ void commit_hinge(StepContext& ctx, const Flier& flier)
     joint.torque += per_time * flier.limit_reaction;
 }
 
-// A wall has opened the joints of what it stopped: that is nobody's work.
+// A wall that stops a body opens its joints, so the errors recorded for them no longer hold.
 void forget_errors_of_stopped(StepContext& ctx)
 {
     const auto is_stopped = [&](std::int32_t state)
@@ -186,7 +186,7 @@ void forget_errors_of_stopped(StepContext& ctx)
         ctx.state.joints[work.joint].knows_errors = !is_stopped(work.a) && !is_stopped(work.b);
 }
 
-// --- what flight left to be done in order ------------------------------------------------------------------------------------------------
+// --- results of flight that are applied in order -----------------------------------------------------------------------------------------
 
 void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
 {
@@ -201,7 +201,7 @@ void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
 
 constexpr std::size_t worth_lending = 1024;
 
-// Sorted later on. Where there are many one island has nearly all of them, and lends its array until the next step.
+// Impacts are sorted later. If there are many, one island has nearly all of them and lends its array until the next step.
 void take_impacts(StepContext& ctx, std::size_t u)
 {
     std::vector<ImpactEvent>& all = ctx.scene.events.impacts;

@@ -1,10 +1,10 @@
-// One step, in seven stages. First where everything may go in this step (sweep) and which boxes may meet on the way (pairs); then how near pairs
-// touch (contacts), and who must be solved together because of it (islands). The islands are solved through all sub-steps, balls in flight
-// at their own times between the sub-steps of everything else (solve). Only then are poses written back and quiet islands put to sleep (commit), and the
-// user hears what happened (events): only force laws are called in the middle of a step.
+// One step, in seven stages: the boxes that cover all paths of this step (sweep), pairs of boxes that meet (pairs), manifolds of near pairs
+// (contacts), and the sets of bodies that must be solved together (islands). Islands are solved through all sub-steps, with bodies in flight
+// at their own times between the sub-steps of all others (solve). Only then are poses written back and quiet islands put to sleep (commit),
+// and events reported to the user (events): only force laws are called in the middle of a step.
 
 #include "core/clock.h"
-#include "dynamics/sensors/fields.h"
+#include "dynamics/forces/fields.h"
 #include "dynamics/stages.h"
 #include "dynamics/uneven_steps.h"
 
@@ -17,8 +17,9 @@ namespace {
 
 constexpr float longest_step = 1.0f / 30; // s
 
-// At most 0.15 of the rate of the longest sub-step of late: stacks would rise and sink with every other step if it were that of the present one. After 4 to 8 s
-// a pyramid of a hundred constraints still moves at 28 mm/s in the mean with 3/16, at 4 mm/s with 0.15; its boxes have strayed by 16 and 25 cm, with 1/8 by 35.
+// At most 0.15 of the rate of the longest recent sub-step: if it were that of the present one, stacks would rise and sink with every other
+// step. After 4 to 8 s a pyramid of a hundred constraints still moves at 28 mm/s in the mean with 3/16, and at 4 mm/s with 0.15; its boxes
+// have strayed by 16 and 25 cm, and by 35 cm with 1/8.
 void set_softness(StepContext& ctx)
 {
     const SceneDef& def = ctx.scene.def;
@@ -29,7 +30,7 @@ void set_softness(StepContext& ctx)
     ctx.rest_speed = 2 * ctx.h * length(ctx.state.gravity) + ctx.scene.tolerances.rest_speed;
 }
 
-// A step longer than games take has as many sub-steps as the steps that it stands for.
+// A step longer than longest_step has as many sub-steps as the steps that it stands for.
 int substeps_of(const SceneDef& def, float dt)
 {
     const float steps = std::ceil(dt / longest_step - 0.001f);

@@ -1,4 +1,4 @@
-// What a step keeps in lists is made and let go here alone: every file that includes the lists would compile it once more.
+// Constructors and destructors of a step's containers are defined here alone: otherwise every file that includes them would compile them again.
 
 #include "dynamics/step_context.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// What the stages of one step hand to each other. Each room has a workspace of its own. Vectors are cleared, not freed: a settled scene steps without allocating.
+// Data that the stages of one step pass to each other. Each directory has a workspace of its own. Vectors are cleared, not freed: a settled
+// scene steps without allocating.
 
 #include "dynamics/broadphase/workspace.h"
 #include "dynamics/continuous/workspace.h"
@@ -27,7 +28,7 @@ struct SceneData;
 /// Impulses of the step before, see uneven_steps.cpp.
 struct UnevenStepsWorkspace
 {
-    std::vector<ContactImpulses> impulses_before; ///< see uneven_steps.h
+    std::vector<ContactImpulses> impulses_before; ///< by contact slot
     std::vector<std::array<float, joint_slots>> joint_impulses_before;
 };
 
@@ -47,7 +48,7 @@ struct Scratch
     ReorderWorkspace reordering;
     UnevenStepsWorkspace uneven;
     std::vector<std::int32_t> unsound; ///< bodies whose state is no longer finite
-    std::vector<std::int32_t> order;   ///< for whoever needs a list, until the function ends
+    std::vector<std::int32_t> order;   ///< scratch list for any function, valid until it returns
 
     Scratch();
     ~Scratch();
@@ -55,13 +56,13 @@ struct Scratch
     Scratch& operator=(const Scratch&) = delete;
 };
 
-/// Those of an island, in flight or landed.
+/// Fliers of an island, in flight or landed.
 [[nodiscard]] inline std::span<Flier> fliers_of(Scratch& scratch, const Island& island)
 {
     return {scratch.flight.fliers.data() + island.first_flier, static_cast<std::size_t>(island.flier_count)};
 }
 
-/// Those of an island that are in no lane; what has come since the step began is in IslandOutput::late_constraints.
+/// Contact constraints of an island outside of lanes; those added since the step began are in IslandOutput::late_constraints.
 [[nodiscard]] inline std::span<ContactConstraint> constraints_of(Scratch& scratch, const Island& island)
 {
     return {scratch.solver.constraints.data() + island.first_constraint, static_cast<std::size_t>(island.constraint_count)};
@@ -73,20 +74,20 @@ struct StepContext
     SceneState& state;
     Scratch& scratch;
     StepReport& report;
-    float dt; ///< of the step
-    float h;  ///< of a sub-step
+    float dt; ///< of the step, s
+    float h;  ///< of a sub-step, s
     int substeps;
-    int subdivisions = 1; ///< of each of the scene's sub-steps, in islands whose contacts turn fast
+    int subdivisions = 1; ///< per sub-step of the scene, in islands whose contacts turn fast
     Softness contact_softness{};
     Softness static_softness{}; ///< against bodies of infinite mass: twice as stiff
     float joint_hertz = 0;
-    float rest_speed = 0; ///< approach below it is rest, not an impact: what gravity gives in two sub-steps
+    float rest_speed = 0; ///< slower approach is rest, not an impact: what gravity gives in two sub-steps
 };
 
 /// The same step with each sub-step subdivided.
 [[nodiscard]] StepContext subdivided(const StepContext& ctx, int subdivisions);
 
-/// How far any point of a body may move in this step, if nothing strikes it; 0 for what rests.
+/// Greatest displacement of any point of a body in this step, if nothing strikes it; 0 for a body that is not awake.
 [[nodiscard]] inline float motion_of(const StepContext& ctx, int body)
 {
     const int place = ctx.state.bodies[body].awake_index;

@@ -1,3 +1,5 @@
+// Warm starting across steps of different lengths, see uneven_steps.h.
+
 #include "dynamics/uneven_steps.h"
 
 #include "dynamics/state/scene_data.h"
@@ -9,7 +11,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float forgotten_in = 1; // s: how long a step has been, to a third
+constexpr float forgotten_in = 1; // s: in this time the longest recent sub-step decays to a third
 
 template <class Visit>
 void for_each_joint(SceneState& state, const Visit& visit)
@@ -23,7 +25,7 @@ void for_each_joint(SceneState& state, const Visit& visit)
 
 bool is_short(const StepContext& ctx) { return ctx.h < ctx.state.longest_substep; }
 
-// Lanes have impulses of their own: they are filled anew.
+// Lanes have impulses of their own: the next step fills them anew.
 void scale_impulses(SceneState& state, float by)
 {
     for (ContactImpulses& impulses : state.impulses)

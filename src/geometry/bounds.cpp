@@ -1,3 +1,5 @@
+// Boxes and extents of leaves.
+
 #include "geometry/bounds.h"
 
 #include <algorithm>
@@ -9,7 +11,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Collects the extremes of points in coordinates relative to the pose's position, of two at once: x and y of one, then of the other.
+// Collects the extremes of points relative to the pose's position, two points at once: x and y of one, then of the other.
 class Extremes
 {
 public:
@@ -32,14 +34,14 @@ private:
 
 F4 rotate_both(Rotation q, F4 points) { return q.c * points + four_of(-q.s, q.s, -q.s, q.s) * swapped_neighbours(points); }
 
-// Of three corners at least; an odd one comes with the one before it once more.
+// A polygon has at least three corners; an odd last one is added together with the one before it, which is then added twice.
 void add_polygon(Extremes& e, const LeafView& v, Rotation q)
 {
     for (int i = 0; i < v.leaf->count; i += 2)
         e.add(rotate_both(q, load4(&v.points[std::min(i, v.leaf->count - 2)].x)), v.leaf->r0);
 }
 
-// The four compass points of the circle that lie on the arc, and its ends.
+// Adds the compass points of the circle that lie on the arc, and the ends of the arc.
 void add_arc(Extremes& e, const LeafView& v, Rotation q)
 {
     const Leaf& leaf = *v.leaf;

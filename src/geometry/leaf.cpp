@@ -1,3 +1,5 @@
+// Normalization of shapes, and their conversion to leaves and back.
+
 #include "geometry/leaf.h"
 
 #include "core/refuse.h"
@@ -46,7 +48,7 @@ double signed_area(std::span<const Vec2> outline)
 
 namespace {
 
-// Twice the area of the triangle in double: floats would lose thin corners far from the origin of the body.
+// Twice the area of the triangle, in doubles: floats would lose thin corners far from the origin of the body.
 double turn(Vec2 a, Vec2 b, Vec2 c)
 {
     const double abx = static_cast<double>(b.x) - a.x;
@@ -56,7 +58,7 @@ double turn(Vec2 a, Vec2 b, Vec2 c)
     return abx * bcy - aby * bcx;
 }
 
-/// The ways from a corner that leave all points passed on the line within the tolerance: a cone of directions.
+/// Directions from a corner along which a line leaves all points passed within the tolerance: a cone.
 class Line
 {
 public:
@@ -67,9 +69,9 @@ public:
         const Vec2 way = p - m_from;
         const auto far = static_cast<double>(length(way));
         if (far < m_far)
-            return false; // it goes back
+            return false; // the outline goes back
         if (m_far <= m_tolerance)
-            return true; // no point has left the corner yet
+            return true; // every point so far is within the tolerance of the corner
         const double angle = angle_of(way);
         return angle >= m_least && angle <= m_most;
     }
@@ -84,7 +86,7 @@ public:
         if (m_along == Vec2{})
             m_along = way;
         const double angle = angle_of(way);
-        const double reach = m_tolerance / far; // of the sine, which is less than the angle
+        const double reach = m_tolerance / far; // a bound on the sine, which is less than the angle
         m_least = std::max(m_least, angle - reach);
         m_most = std::min(m_most, angle + reach);
     }
@@ -98,14 +100,14 @@ private:
     }
 
     Vec2 m_from;
-    Vec2 m_along{}; ///< to the first point passed; angles count from there
+    Vec2 m_along{}; ///< displacement to the first point passed outside the tolerance; angles are measured from it
     double m_tolerance;
     double m_far = 0;
     double m_least = -4; ///< rad
     double m_most = 4;
 };
 
-// The outermost to the left, the lowest of these.
+// The leftmost point, the lowest of these, is a corner for certain.
 std::size_t surely_a_corner(std::span<const Vec2> points)
 {
     const auto before = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
@@ -122,10 +124,10 @@ std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance)
     const std::size_t n = points.size();
     if (n < 3)
         return points;
-    std::vector<bool> is_cached(n, false);
+    std::vector<bool> is_kept(n, false);
     std::size_t last = surely_a_corner(points);
     const std::size_t end = last + n;
-    is_cached[last] = true;
+    is_kept[last] = true;
     while (last < end)
     {
         const Vec2 from = points[last % n];
@@ -139,12 +141,12 @@ std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance)
             ++next;
         }
         last = next;
-        is_cached[last % n] = true;
+        is_kept[last % n] = true;
     }
     std::vector<Vec2> kept;
     for (std::size_t i = 0; i < n; ++i)
     {
-        if (is_cached[i])
+        if (is_kept[i])
             kept.push_back(points[i]);
     }
     return kept;
@@ -163,12 +165,12 @@ bool is_convex(std::span<const Vec2> points)
             return false;
         turned += arc_tangent(cross(b - a, c - b), dot(b - a, c - b));
     }
-    // A star turns left everywhere too, but more than once around.
+    // A star turns left everywhere too, but winds around more than once.
     return turned < 1.5 * 2 * static_cast<double>(pi);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------------------
-// Normalisation: one function per shape, refusing in the caller's name.
+// Normalization: one function per shape, which refuses bad input in the caller's name.
 
 namespace {
 
@@ -234,10 +236,10 @@ bool normalize_shape(const Checker& check, HalfSpace& h)
 {
     if (!check.finite("HalfSpace.normal", h.normal) || !check.finite("HalfSpace.offset", h.offset))
         return false;
-    const Vec2 island = normalize(h.normal);
-    if (!check.holds(dot(island, island) > 0.5f, "HalfSpace.normal", to_text(h.normal), "must not be zero"))
+    const Vec2 unit = normalize(h.normal);
+    if (!check.holds(dot(unit, unit) > 0.5f, "HalfSpace.normal", to_text(h.normal), "must not be zero"))
         return false;
-    h.normal = island;
+    h.normal = unit;
     return true;
 }
 
@@ -267,7 +269,7 @@ bool normalize_shape(const Checker& check, Chain& c)
     }
     if (!c.closed)
         return true;
-    // A last point within rounding of the start is the start; anything farther gets a straight piece.
+    // A last point within rounding of the start is the start; a last point farther away gets a straight piece.
     if (length(from - c.start) <= 1e-5f * std::fmax(1.0f, std::fmax(length(c.start), length(from))))
         c.pieces.back().end = c.start;
     else
@@ -279,7 +281,7 @@ bool normalize_shape(const Checker& check, Chain& c)
     return true;
 }
 
-// The polygon of the corners plus each arc's circular segment, (sweep - sin sweep) r²/2.
+// The area of the polygon of the corners plus each arc's circular segment, (sweep - sin sweep) r²/2.
 double chain_area(const Chain& chain)
 {
     std::vector<Vec2> corners;
@@ -368,7 +370,7 @@ Leaf make_arc(const Arc& arc, const ArcEnds& ends, LeafStore& store)
     return leaf;
 }
 
-// Center = middle of the chord, offset along its left by the distance chord/2 / tan(sweep/2).
+// The center is the middle of the chord, offset to its left by the distance chord/2 / tan(sweep/2).
 Leaf make_chain_arc(Vec2 from, Vec2 to, float sweep, float half_thickness, Sides sides, LeafStore& store)
 {
     const SinCos half = sin_cos(0.5 * static_cast<double>(sweep));

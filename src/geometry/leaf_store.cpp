@@ -1,4 +1,4 @@
-// Outlines and spans: shared, counted, and used again.
+// Storage of outlines and spans: outlines are shared and reference-counted, and freed ranges are used again.
 
 #include "core/grow.h"
 #include "geometry/leaf.h"
@@ -19,7 +19,7 @@ std::size_t hash_of(std::span<const Vec2> vertices)
     return static_cast<std::size_t>(hash >> 56);
 }
 
-// So that what is read back is what was given: -0 is not 0.
+// Compared bit by bit, so that an outline reads back exactly as it was given: -0 is not 0.
 bool is_same(const Vec2* points, std::span<const Vec2> vertices)
 {
     return std::memcmp(points, vertices.data(), vertices.size_bytes()) == 0;

@@ -1,3 +1,5 @@
+// Checks that a shape's fields and mass are within what floats can handle.
+
 #include "geometry/limits.h"
 
 #include "core/refuse.h"
@@ -10,15 +12,15 @@ namespace carom::internal {
 
 namespace {
 
-// Floats are 8 m apart there: nothing that far from its body's origin has a shape any more.
+// Floats are 8 m apart there: a shape that far from its body's origin has lost its form.
 constexpr float max_reach = 1e8f;
-// Within the floats by enough that inverses are finite and a body may have a thousand such shapes.
+// Far enough within the range of floats that inverses are finite and a body may have a thousand such shapes.
 constexpr double least_mass = 1e-35;
 constexpr double most_mass = 1e35;
 
 bool is_near(Vec2 point) { return std::fabs(point.x) <= max_reach && std::fabs(point.y) <= max_reach; }
 
-/// Reach of one shape's fields.
+/// Checks the reach of the fields of one shape.
 struct ReachChecker
 {
     Checker check;

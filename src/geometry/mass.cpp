@@ -1,3 +1,5 @@
+// Integration of mass, center of mass and moment of inertia over polygons, capsules and circles.
+
 #include "geometry/mass.h"
 
 #include "core/trigonometry.h"
@@ -10,7 +12,7 @@ namespace {
 
 constexpr double pi_d = 3.14159265358979323846;
 
-// Sums areas with their first and second moments about the origin of the body; everything convex is a sum of triangles and sectors.
+// Sums areas with their first and second moments about the origin of the body. Every convex shape is a sum of triangles and sectors.
 struct Moments
 {
     double area = 0;
@@ -56,7 +58,7 @@ struct Moments
     }
 };
 
-// The outline is p_i + r n for each edge normal n, joined by sectors at the corners.
+// The outline runs along p_i + r n for each edge normal n, joined by sectors at the corners.
 Moments polygon_moments(const LeafView& v)
 {
     Moments m;
@@ -84,7 +86,7 @@ Moments polygon_moments(const LeafView& v)
     return m;
 }
 
-// Two tangent lines and two caps. With sin(phi) = (r0 - r1)/L the cap at p0 opens by pi + 2 phi, the one at p1 by pi - 2 phi.
+// Two tangent lines and two caps. With sin(phi) = (r0 - r1)/L, the cap at p0 opens by pi + 2 phi, the one at p1 by pi - 2 phi.
 Moments capsule_moments(Vec2 p0, Vec2 p1, double r0, double r1)
 {
     Moments m;

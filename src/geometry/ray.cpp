@@ -1,3 +1,5 @@
+// Ray casts: the nearest of a ray's intersections with the circles, edges and arcs that bound a leaf.
+
 #include "geometry/ray.h"
 
 #include "geometry/surface.h"
@@ -35,7 +37,7 @@ struct Roots
     double second = 0;
 };
 
-// |o + t d - c|² = r²
+// Solves |o + t d - c|² = r².
 Roots meet_circle(const Ray& ray, Vec2 c, double r)
 {
     const double mx = static_cast<double>(ray.o.x) - c.x;
@@ -58,7 +60,7 @@ void offer_circle(Nearest& nearest, const Ray& ray, Vec2 c, float r)
         nearest.offer(t.first, normalize(ray.at(t.first) - c));
 }
 
-// The side a + n s of an edge, hit from outside.
+// An edge from a to b with outward normal n, hit from outside.
 void offer_edge(Nearest& nearest, const Ray& ray, Vec2 a, Vec2 b, Vec2 n)
 {
     const double approach = -(static_cast<double>(n.x) * ray.d.x + static_cast<double>(n.y) * ray.d.y);

@@ -1,4 +1,4 @@
-// Concave outlines to convex polygons: ear clipping, then triangles are merged over shared diagonals while the result stays convex
+// Splits concave outlines into convex polygons: ear clipping, then triangles are merged over shared diagonals while the result stays convex
 // (the method of Hertel and Mehlhorn: never more than four times the least number of pieces).
 
 #include "carom/shape.h"
@@ -49,7 +49,7 @@ bool crosses_itself(const Outline& o)
     return false;
 }
 
-/// Corners of what is left of an outline, and of each whether it may be cut off. Cutting one off makes others free, or changes its two neighbours.
+/// The remaining corners of an outline, and for each whether it is an ear. Cutting off an ear unblocks other corners and changes its two neighbors.
 class Ears
 {
 public:
@@ -59,14 +59,14 @@ public:
             m_rest.push_back(i);
     }
 
-    /// The next triangle; empty where none is left.
+    /// The next triangle, or an empty loop where none is left.
     Loop cut()
     {
         std::size_t ear = 0;
         while (ear < m_rest.size() && !is_ear(ear))
             ++ear;
         if (ear == m_rest.size())
-            return {}; // only points in line are left
+            return {}; // only collinear points are left
         const Loop triangle = m_rest.size() == 3 ? m_rest : Loop{before(ear), m_rest[ear], after(ear)};
         for (const int neighbour : {before(ear), after(ear)})
             blocker(neighbour) = unknown;
@@ -79,14 +79,14 @@ private:
     static constexpr int unknown = -1;
     static constexpr int nobody = -2;
     static constexpr int gone = -3;
-    static constexpr int itself = -4; ///< it turns inwards
+    static constexpr int itself = -4; ///< the corner is reflex or flat
 
     [[nodiscard]] int before(std::size_t i) const { return m_rest[(i + m_rest.size() - 1) % m_rest.size()]; }
     [[nodiscard]] int after(std::size_t i) const { return m_rest[(i + 1) % m_rest.size()]; }
     [[nodiscard]] double turn_at(std::size_t i) const { return m_outline.turn(before(i), m_rest[i], after(i)); }
     int& blocker(int corner) { return m_blockers[static_cast<std::size_t>(corner)]; }
 
-    // What once stood in its triangle stands there until it is cut off itself.
+    // A corner that was found inside the triangle stays inside until it is cut off itself.
     bool is_ear(std::size_t i)
     {
         int& found = blocker(m_rest[i]);
@@ -134,7 +134,7 @@ bool is_convex_loop(const Outline& o, const Loop& loop)
     return true;
 }
 
-// The union of two loops over the edge that a runs forwards and b backwards; empty where they share none.
+// The union of two loops over an edge that a traverses forwards and b backwards; empty where they share none.
 Loop join(const Loop& a, const Loop& b)
 {
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -154,7 +154,7 @@ Loop join(const Loop& a, const Loop& b)
     return {};
 }
 
-/// Joins loops over the edges that they share while the result stays convex: always the first with the first that it can be joined with.
+/// Joins loops over shared edges while the result stays convex: always the first loop with the first that it can be joined with.
 class Merger
 {
 public:
@@ -166,7 +166,7 @@ public:
 
     std::vector<Loop> merge()
     {
-        // A loop that could be joined with none may be joined with one that has grown: those before it are asked again.
+        // A loop that could not be joined may become joinable with one that has grown, so the earlier loops are tried again.
         for (std::size_t i = 0; i < m_loops.size();)
             i = grow(i) ? first_around(i) : i + 1;
         std::erase_if(m_loops, [](const Loop& loop) { return loop.empty(); });
@@ -183,7 +183,7 @@ private:
             m_left_of[{loop[k], loop[(k + 1) % loop.size()]}] = i;
     }
 
-    // Those on the other side of its edges, in order.
+    // The loops on the other side of its edges, in order of their indices.
     [[nodiscard]] std::vector<std::size_t> neighbours(std::size_t i) const
     {
         std::vector<std::size_t> found;
@@ -220,7 +220,7 @@ private:
     }
 
     const Outline& m_outline;
-    std::vector<Loop> m_loops;             ///< empty: joined with one before it
+    std::vector<Loop> m_loops;             ///< empty: joined with an earlier one
     std::map<Edge, std::size_t> m_left_of; ///< the loop that runs along an edge
 };
 

@@ -1,3 +1,5 @@
+// The scene: construction, stepping, and what concerns all of its bodies.
+
 #include "carom/scene.h"
 
 #include "core/clock.h"
@@ -39,8 +41,9 @@ bool check_def(const SceneDef& def)
                        std::to_string(def.tasks.worker_count), "must be from 1 to 64");
 }
 
-// In lengths of the typical object. 0.005: overlap that the eye does not see; 0.02: far enough ahead for quiet contacts; 0.1: what faces what is likely to
-// stay so, and points and separations are exact as long as it does; 0.05: wide enough that a resting pile never leaves its boxes.
+// In lengths of the typical object. 0.005: overlap too small to see; 0.02: far enough ahead for quiet contacts; 0.1: features that face each
+// other are likely to stay so, and points and separations are exact as long as they do; 0.05: wide enough that a resting pile never leaves
+// its boxes.
 Tolerances tolerances_of(const SceneDef& def)
 {
     const float l = def.length_scale;
@@ -68,7 +71,7 @@ Scene::Scene(const SceneDef& def) : m_data(nullptr)
 
 Scene::~Scene() { delete m_data; }
 
-// A scene that has been moved from is empty.
+// A moved-from scene is empty.
 Scene::Scene(Scene&& other) noexcept : Scene(other.m_data->def) { std::swap(m_data, other.m_data); }
 
 Scene& Scene::operator=(Scene&& other) noexcept
@@ -102,7 +105,7 @@ void number_events(Events& events, int step)
     number(events.exits);
 }
 
-// Set while a step runs, also when a callback throws out of it.
+// Sets a flag while a step runs, also if a callback throws out of it.
 class InStep
 {
 public:

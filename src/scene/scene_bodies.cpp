@@ -1,4 +1,4 @@
-// Bodies: making, destroying, and the verbs of carom::Body.
+// Bodies: creation, destruction, and the methods of carom::Body.
 
 #include "carom/scene.h"
 #include "core/rounding.h"
@@ -44,7 +44,7 @@ BodySim make_sim(const BodyDef& def)
     return sim;
 }
 
-// 0: the scene's.
+// A speed of 0 stands for the scene's.
 void give_sleep_speed(SceneData& data, BodyRecord& record, float speed)
 {
     record.sleep_speed = speed > 0 ? speed : data.tolerances.sleep_speed;
@@ -137,7 +137,7 @@ ConstBody Scene::body(BodyId id) const
 
 namespace {
 
-// References check their id at every call: a body may be destroyed under them.
+// Handles check their id at every call: the body may have been destroyed meanwhile.
 const BodyRecord* record_of(const SceneData* data, BodyId id, const char* function)
 {
     return check_live(*data, function, "body", id) ? &data->state.bodies[slot_of(id)] : nullptr;
@@ -177,7 +177,7 @@ Position ConstBody::center_of_mass() const { return sim_of(m_data, m_id, "Body::
 Vec2 ConstBody::local_center_of_mass() const { return sim_of(m_data, m_id, "Body::local_center_of_mass").local_center; }
 namespace {
 
-// That the body has moved to in the last step; none where nobody is asked for.
+// The target that the body has reached in the last step; null if it had none.
 const BodyTarget* target_reached(const SceneData* data, BodyId id)
 {
     const bool reached = is_live(data->state, id) && data->state.bodies[slot_of(id)].had_target;
@@ -289,11 +289,11 @@ std::vector<JointId> ConstBody::joints() const
 }
 
 // ------------------------------------------------------------------------------------------------------------------------------------
-// Verbs
+// Methods that change a body
 
 namespace {
 
-// The body behind a verb: its record and sim, where the id is live.
+// The body that a method changes: its record and sim, if the id is live.
 struct Target
 {
     RoundToNearest rounding;
@@ -307,14 +307,14 @@ struct Target
     [[nodiscard]] BodyRecord& record() const { return data.state.bodies[slot]; }
     [[nodiscard]] BodySim& sim() const { return data.state.sims[static_cast<std::size_t>(slot)]; }
 
-    // Wakes for motion given by the user; kinematic bodies too.
+    // Wakes the body for motion given by the user, also a kinematic one.
     void wake() const
     {
         if (record().type == BodyType::Kinematic && record().enabled)
             enter_awake(data, slot);
         wake_body(data, slot);
     }
-    // What touches it or may, and what joints hold to it: static and kinematic bodies wake them only so.
+    // Wakes bodies that touch it or may, and bodies that joints hold to it: static and kinematic bodies wake them only this way.
     void wake_neighbours() const
     {
         for_each_contact(data.state, slot, [&](int contact) { wake_body(data, other_body(data.state.contacts[contact], slot)); });
@@ -382,7 +382,7 @@ void Body::teleport(Position position, float angle)
     sim.rotation = sim.previous_rotation = rotation;
     sim.center = sim.previous_center = position + rotate(sim.rotation, sim.local_center);
     t.record().has_target = t.record().had_target = false;
-    // Contacts that no longer meet end in the next step; the others are looked at anew, without the impulses of the old place.
+    // Contacts whose boxes no longer meet end in the next step; the others are updated anew, without the impulses of the old pose.
     for_each_contact(m_data->state, t.slot,
                      [&](int index)
                      {
@@ -549,7 +549,7 @@ void Body::set_mass(const MassData& mass)
                      internal::to_text(mass.inertia), "must be 0 or from 1e-35 to 1e35") ||
         !check.holds(t.record().type == BodyType::Dynamic, "the body", "not dynamic", "only dynamic bodies have mass"))
         return;
-    // The center moves through the same door as when shapes give it: the velocity of the material stays.
+    // The center moves as it does when shapes determine it: the velocity of the material is kept.
     move_center(m_data->state, t.slot, mass.center);
     BodySim& sim = t.sim();
     sim.mass = mass.mass;

@@ -82,7 +82,7 @@ public:
         }
     }
 
-    // The box around the bodies of each awake island.
+    // Draws the box around the bodies of each awake island.
     void islands() const
     {
         std::vector<std::uint8_t> seen(static_cast<std::size_t>(m_state.bodies.capacity()));
@@ -163,7 +163,7 @@ private:
         }
     }
 
-    // As much of the boundary line as the view may show.
+    // Draws as much of the boundary line as the view may show.
     void draw_half_space(DrawRole role, const Leaf& leaf, const Pose& pose) const
     {
         const Vec2 n = rotate(pose.rotation, leaf.p0);

@@ -1,4 +1,4 @@
-// The state hash: everything that decides the future, field by field.
+// The state hash: all state that determines the future, field by field.
 
 #include "carom/scene.h"
 #include "core/hash.h"
@@ -112,7 +112,7 @@ void add_contact(Hasher& h, const SceneState& state, int index)
     const Contact& c = state.contacts[index];
     h.add(c.shape_a);
     h.add(c.shape_b);
-    // But for where the rest of it is, and what bodies and shapes say.
+    // Excludes flags that only say where the rest is stored, or that repeat what bodies and shapes say.
     h.add(static_cast<int>(c.flags & ~(contact_flag::followed | contact_flag::sleeper | contact_flag::piece)));
     h.add(c.manifold.count);
     h.add(c.manifold.rolling_impulse);

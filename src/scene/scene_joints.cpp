@@ -1,4 +1,4 @@
-// Joints: making, changing, destroying, reading back.
+// Joints: creation, changes, destruction, and reading back.
 
 #include "carom/scene.h"
 #include "core/rounding.h"
@@ -119,7 +119,7 @@ void write(JointRecord& r, const PrismaticDef& d, float)
     r.spring_target = d.spring_translation;
 }
 
-// --- and back ------------------------------------------------------------------------------------------------------------------------
+// --- from the record to the public parameters ----------------------------------------------------------------------------------------
 
 template <class Def>
 void read_common(const SceneData& data, const JointRecord& r, std::uint64_t user_data, Def& d)
@@ -279,7 +279,7 @@ void destroy_joint(SceneData& data, int index)
     state.joints.destroy(index);
     state.graph_dirty = true;
     wake_joined(data, joint);
-    // The two may touch from now on.
+    // The two bodies may touch from now on.
     if (!joint.collide_connected && joint.body_a != none && joint.body_b != none)
         for_each_leaf(state, joint.body_b, [&](int shape) { look_again(state, shape); });
 }

@@ -1,4 +1,4 @@
-// Queries: rays, overlaps, closest points, and the list of contacts. All const; each call keeps its results to itself.
+// Queries: rays, overlaps, closest points, and the list of contacts. All are const; each call returns its own results.
 
 #include "carom/scene.h"
 #include "collision/manifold.h"
@@ -30,7 +30,7 @@ bool passes(const SceneState& state, int shape, const QueryFilter& filter)
 
 Pose pose_of(const SceneState& state, int shape) { return state.sims[static_cast<std::size_t>(state.shapes[shape].body)].pose(); }
 
-// Every leaf whose fat box passes the test, half-spaces included; visit returns false to stop.
+// Visits every leaf whose fat box passes the test, half-spaces included; visit returns false to stop.
 template <class Test, class Visit>
 void visit_leaves(const SceneState& state, const QueryFilter& filter, Test&& test, Visit&& visit)
 {
@@ -161,7 +161,7 @@ std::vector<RayHit> Scene::raycast_all(Position origin, Vec2 translation, const 
                          hits.push_back(*hit);
                      return true;
                  });
-    // Of the pieces of a chain only the nearest hit counts: one hit a shape.
+    // Only the nearest hit among the pieces of a chain counts: one hit per shape.
     std::sort(hits.begin(), hits.end(), is_nearer);
     std::vector<RayHit> first_hits;
     for (const RayHit& hit : hits)
@@ -323,7 +323,7 @@ std::vector<ContactInfo> ConstBody::contacts() const
 
 namespace {
 
-// The contact of two leaves where their bodies stand now.
+// The contact of two leaves at the current poses of their bodies.
 ContactInfo describe_touch(const SceneState& state, int own, int other, float slop)
 {
     Contact contact;
@@ -345,7 +345,7 @@ ContactInfo describe_touch(const SceneState& state, int own, int other, float sl
     return info;
 }
 
-// Leaves whose boxes a leaf may touch.
+// Visits leaves whose boxes a leaf may touch.
 template <class Visit>
 void visit_near_leaf(const SceneState& state, int leaf, float slop, Visit&& visit)
 {

@@ -1,8 +1,8 @@
-// Shapes: making, changing, destroying.
+// Shapes: creation, changes, destruction.
 
 #include "carom/scene.h"
 #include "core/rounding.h"
-#include "dynamics/sensors/fields.h"
+#include "dynamics/forces/fields.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "geometry/limits.h"
@@ -51,14 +51,14 @@ bool check_def(const char* function, const ShapeDef& def)
                        "acts inside triggers only");
 }
 
-// A shape as a scene takes it; normalizes it.
+// Normalizes and checks the geometry of a shape.
 bool check_geometry(const char* function, Geometry& geometry, const ShapeDef& def)
 {
     return normalize_geometry(function, geometry) && check_reach(function, geometry) &&
            (def.trigger || check_mass(function, geometry, def.density));
 }
 
-// What the body's type allows.
+// Checks what the body's type allows.
 bool check_placement(const SceneData& data, const char* function, int body, const Geometry& geometry)
 {
     const Checker check{function};
@@ -94,7 +94,7 @@ void drop_rare_traits(SceneState& state, std::int32_t& place)
         state.rare_traits.destroy(std::exchange(place, none));
 }
 
-// Of a public shape. When its kick may fire again stays as it was.
+// Writes the traits of a public shape. The time from which its kick may fire again is kept.
 void write_rare_traits(SceneState& state, std::int32_t& place, const ShapeDef& def)
 {
     if (!has_rare_traits(def))
@@ -146,7 +146,7 @@ void for_each_own_leaf(const SceneState& state, int shape, Visit&& visit)
     }
 }
 
-// As it was normalized.
+// The geometry in its normalized form.
 Geometry geometry_of(const SceneState& state, int shape)
 {
     std::vector<LeafView> leaves;
@@ -259,7 +259,7 @@ ShapeId Scene::create_shape(BodyId body, const Geometry& geometry, const ShapeDe
     write_rare_traits(state, record.rare_traits, def);
     const int slot = state.shapes.create(record);
     state.shapes[slot].owner = slot;
-    // At the end of the body's list, so that shapes keep the order they were made in.
+    // Appends to the body's list, so that shapes keep the order in which they were created.
     BodyRecord& owner = state.bodies[body_slot];
     (owner.last_shape == none ? owner.first_shape : state.shapes[owner.last_shape].next_shape) = slot;
     owner.last_shape = slot;
@@ -396,7 +396,7 @@ void Shape::set_def(const ShapeDef& def)
     if (!def.trigger && !check_mass(function, geometry_of(state, slot), def.density))
         return;
     const ShapeRecord old = state.shapes[slot];
-    // A change of what may meet what ends the contacts; a change of material only mixes them anew.
+    // A change of what may meet ends the contacts; a change of material only mixes them anew.
     const bool meets_others =
         old.filter != def.filter || old.trigger != def.trigger || rare_traits_of(state, old).one_way != normalize(def.one_way);
     const bool acts_on_others = acts(def.field) && rare_traits_of(state, old).field != def.field;

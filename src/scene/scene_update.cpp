@@ -1,4 +1,4 @@
-// A frame: fixed steps as its time asks for them, the events of all of them, and forces that act for its time.
+// A frame: as many fixed steps as its time requires, the events of all of them, and forces that act for its time.
 
 #include "core/grow.h"
 #include "dynamics/sleep/wake.h"
@@ -16,15 +16,15 @@ using namespace internal;
 
 namespace {
 
-/// The time of a frame, s: what its steps cover of it, and what waits for the next step.
+/// The time of a frame, s: the part that its steps cover, and the part that waits for the next step.
 struct FrameTime
 {
     double acts = 0;
     double waits = 0;
-    double stepped = 0; ///< by its steps, which cover what had waited before as well
+    double stepped = 0; ///< time of its steps, which also cover what had waited before
 };
 
-/// Of one body, through each step of the frame.
+/// Force on one body, through each step of the frame.
 struct FrameForce
 {
     BodyId body{};
@@ -90,7 +90,7 @@ void append_events(const std::vector<Event>& from, std::vector<Event>& to)
     to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Events of a frame: those of all its steps, also where a callback throws out of one of them.
+/// Collects the events of all steps of a frame, also if a callback throws out of one of them.
 class FrameEvents
 {
 public:
@@ -103,7 +103,7 @@ public:
     FrameEvents(const FrameEvents&) = delete;
     FrameEvents& operator=(const FrameEvents&) = delete;
 
-    /// Takes those of the step, which may end early.
+    /// Runs a step and takes its events; an exception may end it early.
     template <class Step>
     void of(int step, const Step& run)
     {
@@ -146,7 +146,7 @@ UpdateResult Scene::update(float frame_time, const BeforeStep& before_step)
     const bool dropped = frame_time > def.max_frame_time;
     const double frame = static_cast<double>(dropped ? def.max_frame_time : frame_time);
     accumulator += frame;
-    // A frame of exactly n steps gives n steps, whatever the rounding of the sum.
+    // A frame of exactly n steps runs n steps, whatever the rounding of the sum.
     const double step_time = def.fixed_step;
     const double rounding = 1e-6 * step_time;
     UpdateResult result;

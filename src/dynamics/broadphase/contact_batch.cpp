@@ -1,3 +1,5 @@
+// Creates and destroys the contacts of a step in one batch.
+
 #include "dynamics/broadphase/contact_batch.h"
 
 #include "core/assert.h"
@@ -16,10 +18,10 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t enough = 128; // contacts to share
+constexpr std::size_t enough = 128; // contacts that are worth sharing among threads
 constexpr std::size_t contacts_per_fill = 128;
 
-// Of one side: its body, and who stands beside it in that one's list.
+// Prefetches the body of one side, and the neighbors of the contact in that body's list.
 [[gnu::always_inline]] inline void prefetch_side(const SceneState& state, const Contact& contact, int side)
 {
     prefetch(state.bodies[side == 0 ? contact.body_a : contact.body_b]);
@@ -51,15 +53,16 @@ void ContactBatch::destroy(std::int32_t contact)
 
 void ContactBatch::finish()
 {
-    unlink_destroyed(); // before their slots are filled anew
+    unlink_destroyed(); // before their slots are reused
     if (m_keeps_order)
         find_slots();
     fill_made();
     link_made();
 }
 
-// What is made and what goes both come in the order of pairs, neighbours mostly one after the other. So the i-th that is made takes the slot of the like one
-// that goes, and its place among the awake; what is left over of either comes last or leaves a gap. The others keep their order.
+// New and destroyed contacts both come in the order of pairs, in which neighbors are mostly adjacent. So the i-th new contact takes the slot of the
+// corresponding destroyed one, and its index among the awake contacts. Surplus new contacts come last; surplus destroyed ones leave gaps. The other contacts
+// keep their order.
 void ContactBatch::find_slots()
 {
     const std::size_t gone = m_destroyed.size();
@@ -72,7 +75,8 @@ void ContactBatch::find_slots()
         next = end;
     }
     give_up(next, gone);
-    // Those behind a gap know their places again once update_contacts has seen them: it sees all, for contacts are fewer then than when constraints were kept.
+    // Contacts behind a gap get their new index in update_contacts. It visits all of them: there are fewer contacts than when the constraints were cached, so
+    // the cache does not hold.
     if (gone > m_made.size())
         std::erase(m_state.awake_contacts, none);
 }
@@ -101,7 +105,7 @@ void ContactBatch::join_pair(std::int32_t contact, std::int32_t pair)
     m_state.contacts[contact].pair = pair;
 }
 
-// Of those destroyed, first to last: each leaves a gap among the awake.
+// Destroyed contacts first ... last each leave a gap among the awake contacts.
 void ContactBatch::give_up(std::size_t first, std::size_t last)
 {
     for (const std::int32_t contact : std::span(m_destroyed).subspan(first, last - first))
@@ -114,7 +118,7 @@ void ContactBatch::give_up(std::size_t first, std::size_t last)
     }
 }
 
-// Each side by the task that has its body. What stands of the other side is somebody else's to read and write.
+// Each side is visited by the task that owns its body. Links of the other side belong to another task, to read and to write.
 template <class Visit>
 void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const Visit& visit) const
 {

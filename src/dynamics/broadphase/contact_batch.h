@@ -1,8 +1,8 @@
 #pragma once
 
-// Contacts that a step makes and destroys, together. Slots and the list of awake contacts are one thread's, in the order of the calls; where there are many,
-// all of the step's in finish(), so that the list stays in the order of slots that tidy() gave it. What is dear, records and the lists they hang in all over
-// memory, is always left for finish(): threads share it out by bodies, for a body's list is of its contacts alone.
+// Contacts that a step creates and destroys, in one batch. One thread changes slots and the list of awake contacts, in the order of the calls. Where there are
+// many contacts, it does so in finish(), so that the list keeps the slot order that reorder.cpp gave it. The expensive part is always left for finish():
+// records, and the lists that link them all over memory. Threads share it by bodies, because the list of a body holds its contacts only.
 
 #include "dynamics/state/scene_data.h"
 #include "dynamics/step_context.h"
@@ -14,11 +14,11 @@ class ContactBatch
 public:
     explicit ContactBatch(StepContext& ctx);
 
-    /// Of a pair in SceneState::box_pairs of which one moves and none is a trigger, whose shapes may collide and have no contact.
+    /// For a pair in SceneState::box_pairs, of which at least one shape moves and none is a trigger, whose shapes may collide and have no contact.
     void make(std::int32_t pair);
-    /// Of two that do not touch, and none is a trigger.
+    /// For a contact of two shapes that do not touch, neither of them a trigger.
     void destroy(std::int32_t contact);
-    /// Until then lists of bodies hold those that are destroyed and not those that are made.
+    /// Until this call, lists of bodies hold the destroyed contacts but not the new ones.
     void finish();
 
 private:
@@ -35,7 +35,7 @@ private:
 
     SceneData& m_scene;
     SceneState& m_state;
-    std::vector<std::int32_t>& m_made; ///< in finish() contacts; until then pairs where the order is kept
+    std::vector<std::int32_t>& m_made; ///< contacts in finish(); until then, pairs where the order is kept
     std::vector<std::int32_t>& m_destroyed;
     bool m_keeps_order;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+// Overlap of fat boxes, of which one may belong to a half-space.
+
 #include "dynamics/state/body_store.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What becomes of pairs whose boxes have come to overlap: those that may meet in this step get a contact, those that can't any more lose theirs, those
-// whose boxes have parted go.
+// Pair updates: pairs whose boxes overlap get a contact if they may meet in this step and lose it if they no longer can. Pairs whose boxes have parted are
+// removed.
 
 #include "core/grow.h"
 #include "core/index.h"
@@ -32,26 +32,26 @@ bool is_plain(const BroadPhase& boxes, const BoxPair& pair)
     return !is_trigger(boxes, pair) && !boxes.traits(pair.a).unbounded && !boxes.traits(pair.b).unbounded;
 }
 
-// A contact of two that move goes a little later than it would come, so that it does not flicker. What rests is seen from farther: a body that
-// is struck on its way must not be led into it.
+// The contact of two moving shapes is destroyed at a larger gap than it is created at, so that it does not flicker. Shapes at rest get contacts from farther
+// away: a body that is struck on its path must not be led into them.
 bool may_meet_in_step(const StepContext& ctx, const BoxPair& pair)
 {
     const BroadPhase& boxes = ctx.state.broad_phase;
     const bool early = pair.contact == none && boxes.moves(pair.a) && boxes.moves(pair.b);
     if (least_gap(boxes.path(pair.a), boxes.path(pair.b)) <= (early ? 0.5f : 1.0f) * ctx.scene.tolerances.box_margin)
         return true;
-    // Triggers and half-spaces are asked by their fat boxes: a body may be thrown into a trigger that it did not go for.
+    // Triggers and half-spaces are tested by fat boxes: a body may be thrown into a trigger that is not on its path.
     return !is_plain(boxes, pair) && boxes_meet(ctx.state, pair.a, pair.b);
 }
 
-// Of a pair of which one moves: whether it may meet in this step, and whether its fat boxes do. Filters may have changed since it was found; the end
-// of a touch must still be told.
+// Update of a pair of which at least one shape moves. near: it may meet in this step; meet: its fat boxes overlap. Filters may have changed since the pair was
+// found. The end of a touch must still be reported.
 std::uint8_t update_of_moving(const StepContext& ctx, const BoxPair& pair, bool near, bool meet)
 {
     const SceneState& state = ctx.state;
     const bool has_contact = pair.contact != none;
     const std::uint8_t parted = meet ? 0 : pair_update::parted;
-    if (near == has_contact) // as it was
+    if (near == has_contact) // unchanged
         return near ? parted : meet ? 0 : pair_update::goes;
     if (near)
         return may_collide(state, pair.a, pair.b) ? pair_update::gets_contact | parted : parted;
@@ -69,12 +69,12 @@ std::uint8_t update_of(const StepContext& ctx, const BoxPair& pair)
     const bool meet = boxes_meet(state, pair.a, pair.b);
     if (boxes.moves(pair.a) || boxes.moves(pair.b))
         return update_of_moving(ctx, pair, may_meet_in_step(ctx, pair), meet);
-    // triggers see what rests as well, once
+    // A trigger also detects shapes at rest, once.
     const bool seen = is_trigger(boxes, pair) && meet && pair.contact == none && may_collide(state, pair.a, pair.b);
     return seen ? pair_update::gets_contact | pair_update::goes : pair_update::goes;
 }
 
-// One that does not stay as it is.
+// A pair that may need an update.
 struct SeenPair
 {
     std::int32_t pair;
@@ -83,7 +83,7 @@ struct SeenPair
     bool meet;
 };
 
-// What decides about it.
+// Prefetches what decides the update.
 [[gnu::always_inline]] inline void prefetch_pair(const SceneState& state, const BoxPair& pair)
 {
     if (pair.contact != none)
@@ -95,7 +95,7 @@ struct SeenPair
     prefetch(state.shapes[pair.b]);
 }
 
-// Of eight pairs.
+// Prefetches the boxes of eight pairs.
 [[gnu::always_inline]] inline void prefetch_boxes(const SweptBox* places, const BoxPair* pairs)
 {
     for (const BoxPair& pair : std::span(pairs, lane_count))
@@ -105,7 +105,7 @@ struct SeenPair
     }
 }
 
-// Of a task's pairs. Most stay as they are.
+// Updates of a task's pairs. Most pairs need none.
 void find_updates(const StepContext& ctx, std::size_t first, std::size_t last, std::vector<PairUpdate>& updates)
 {
     const std::vector<BoxPair>& pairs = ctx.state.box_pairs;
@@ -146,7 +146,7 @@ void find_updates(const StepContext& ctx, std::size_t first, std::size_t last, s
         add(i, update_of(ctx, pairs[i]));
 }
 
-// What is to be done, in the order of pairs.
+// Applies pair updates, in the order of pairs.
 class PairUpdates
 {
 public:
@@ -170,7 +170,7 @@ public:
         }
     }
 
-    // Triggers' pairs may be found twice, see find_deflected_pairs.
+    // Pairs of triggers may be found twice, see find_deflected_pairs.
     void finish_contacts()
     {
         m_batch.finish();
@@ -182,7 +182,7 @@ public:
         }
     }
 
-    // From the last on: the last pair takes its place.
+    // Iterates backwards, since the last pair fills each gap.
     void take_out_going()
     {
         for (auto i = m_going.rbegin(); i != m_going.rend(); ++i)
@@ -190,7 +190,7 @@ public:
     }
 
 private:
-    // One that may go.
+    // Prefetches a contact that may be destroyed.
     [[gnu::always_inline]] void prefetch_contact(const BoxPair& pair) const
     {
         if (pair.contact == none)

@@ -1,10 +1,10 @@
-// Stage 2, pairs: boxes that moved or are new ask both layers what they overlap. What then becomes of a pair stands in pair_update.cpp.
+// Stage 2, pairs: boxes that moved or are new query both layers for overlaps. Pair updates follow in pair_update.cpp.
 
 #include "core/grow.h"
 #include "core/pair_set.h"
 #include "core/task_pool.h"
 #include "dynamics/broadphase/half_space_box.h"
-#include "dynamics/continuous/body_path.h"
+#include "dynamics/continuous/path/body_path.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/solver/simd/kernels.h"
 #include "dynamics/stages.h"
@@ -30,7 +30,7 @@ bool is_fresh(const SceneState& state, int shape)
     return !state.broad_phase.has(shape) || before.lx > before.ux;
 }
 
-// Known pairs are found again by those that look for all of theirs, and where boxes had parted before the contact ended.
+// Known pairs are found again by shapes that search for all of their pairs, and where boxes had parted before the contact ended.
 bool is_known(const SceneState& state, int a, int b)
 {
     const bool may_be_known = is_fresh(state, a) || is_fresh(state, b) ||
@@ -38,14 +38,14 @@ bool is_known(const SceneState& state, int a, int b)
     return may_be_known && has_contact(state, a, b);
 }
 
-// Before boxes are settled.
+// Called before boxes are settled.
 void offer_pair(const StepContext& ctx, int a, int b, Pairs& pairs)
 {
     if (a != b && may_collide(ctx.state, a, b) && !is_known(ctx.state, a, b))
         append(pairs, pair_key(a, b));
 }
 
-// What overlapped when pairs were last looked for is a pair already; of two that have changed, the first finds the second.
+// Boxes that overlapped at the last search are a pair already. If both boxes have changed, the first finds the second.
 void offer_changed(const StepContext& ctx, int shape, int other, Pairs& pairs)
 {
     const BroadPhase& boxes = ctx.state.broad_phase;
@@ -63,7 +63,7 @@ void look_at_half_spaces(const StepContext& ctx, int shape, const FloatBox& box,
     }
 }
 
-// All pairs of a shape, known or not.
+// Offers all pairs of a shape, known or not.
 void look_around(const StepContext& ctx, int shape, const FloatBox& box, Pairs& pairs)
 {
     const SceneState& state = ctx.state;
@@ -85,7 +85,7 @@ void look_around(const StepContext& ctx, int shape, const FloatBox& box, Pairs& 
     look_at_half_spaces(ctx, shape, box, pairs);
 }
 
-// What tasks find stands in their order, whoever does them.
+// Results are in the order of the tasks, whatever threads run them.
 template <class Look>
 void look_on_all_threads(StepContext& ctx, std::size_t count, std::size_t part, std::vector<Pairs>& found, const Look& look)
 {
@@ -111,7 +111,7 @@ void look_around_box(const StepContext& ctx, int shape, Pairs& pairs)
                     });
 }
 
-// Of a block of the moving layer.
+// New overlaps of a block of the moving layer.
 void offer_new_overlaps(const StepContext& ctx, const MovingBlocks& moving, int block, Pairs& pairs)
 {
     if (moving.past[block].changed == 0)
@@ -172,7 +172,7 @@ void look_around_moved(StepContext& ctx)
     }
 }
 
-// Their pairs are found again, but for those that have a contact.
+// Pairs of fresh shapes are found again, except those that have a contact.
 void forget_pairs_of_fresh(StepContext& ctx)
 {
     SceneState& state = ctx.state;
@@ -195,7 +195,7 @@ void forget_pairs_of_fresh(StepContext& ctx)
     const auto keep_until = [&](std::size_t end)
     {
         if (kept == next)
-            kept = next = end; // they stay where they are
+            kept = next = end; // these pairs keep their indices
         for (; next < end; ++next)
         {
             if (pairs[next].contact != none)
@@ -221,7 +221,7 @@ void look_around_fresh(StepContext& ctx)
     if (state.fresh_shapes.empty())
         return;
     forget_pairs_of_fresh(ctx);
-    std::vector<Pairs> found; // of many once, of few mostly: not kept
+    std::vector<Pairs> found; // mostly few, rarely many: the memory is not kept
     look_on_all_threads(ctx, state.fresh_shapes.size(), fresh_per_task, found,
                         [&](std::size_t first, std::size_t last, Pairs& pairs)
                         {
@@ -247,7 +247,7 @@ void settle(StepContext& ctx)
     state.fresh_shapes.clear();
 }
 
-// By two that are fresh, or by one of them and by what moved, a pair is found twice.
+// A pair of two fresh shapes, or of a fresh one and a moved one, is found twice.
 void leave_out_doubles(Pairs& pairs)
 {
     std::sort(pairs.begin(), pairs.end());

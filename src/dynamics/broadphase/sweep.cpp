@@ -4,7 +4,7 @@
 #include "core/prefetch.h"
 #include "core/task_pool.h"
 #include "core/trigonometry.h"
-#include "dynamics/solver/force_laws.h"
+#include "dynamics/forces/force_laws.h"
 #include "dynamics/solver/simd/kernels.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/body_store.h"
@@ -20,7 +20,7 @@ namespace carom::internal {
 
 namespace {
 
-// The velocity that reaches the target at the end of the step, the shorter way round.
+// Sets the velocity that reaches the target at the end of the step, turning the shorter way.
 void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)
 {
     const Rotation turn = target.rotation * inverse(sim.rotation);
@@ -28,7 +28,7 @@ void aim_at_target(BodySim& sim, const BodyTarget& target, float dt)
     sim.angular_velocity = static_cast<float>(arc_tangent(turn.s, turn.c)) / dt;
 }
 
-// How far a point may come by turning, by the bend of its parabola, and any way that a force law may push.
+// Bound on a point's displacement by rotation, by the curvature of its parabola, and in any direction by a force law.
 float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shift)
 {
     const float gained = ctx.dt * sim.inverse_inertia * std::fabs(sim.torque) + greatest_spin_of_law(ctx, body);
@@ -37,27 +37,27 @@ float free_motion(const StepContext& ctx, int body, const BodySim& sim, Vec2 shi
     return sim.extent * (angle < 2 ? angle : 2.0f) + bend + greatest_shift_of_law(ctx, body);
 }
 
-// A fat box that held a fast path is far too wide for a body that has slowed down.
+// A fat box made for a fast path is far too wide for a body that has slowed down.
 bool too_wide(F4 fat, F4 needed, float margin)
 {
     const auto size = [](F4 box) { return swapped_halves(box) - box; };
     return (bits(size(fat) > size(needed) + F4(8 * margin)) & 3) != 0;
 }
 
-// Impulses may make a velocity that leads out of all numbers; such a body is put aside before it takes others along.
+// Impulses may produce a velocity beyond all finite numbers; such a body is quarantined before it affects others.
 bool is_sound(const BodySim& sim, float motion)
 {
     return motion + std::fabs(sim.angular_velocity) + std::fabs(sim.torque) < 1e15f;
 }
 
-// What moves farther than its margin gets a new box in the next step anyhow.
+// A body that moves farther than its margin gets a new box in the next step anyway.
 void move_box(MovedBoxes& moved, int shape, F4 needed, float motion, float margin)
 {
     moved.items.push_back(shape);
     moved.boxes.push_back(box_of(grown(needed, motion < margin ? margin : 0)));
 }
 
-// Writes to its own body and boxes alone.
+// Writes to this body and its boxes alone.
 void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& moved)
 {
     SceneState& state = ctx.state;
@@ -66,8 +66,8 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
     if (record.has_target)
         aim_at_target(sim, state.targets[static_cast<std::size_t>(body)], ctx.dt);
     const Vec2 shift = predicted_shift(ctx, record, sim);
-    const float any_path = free_motion(ctx, body, sim, shift);
-    motion = length(shift) + any_path;
+    const float any_displacement = free_motion(ctx, body, sim, shift);
+    motion = length(shift) + any_displacement;
     if (!is_sound(sim, motion))
     {
         moved.unsound.push_back(body);
@@ -79,26 +79,26 @@ void sweep_body(const StepContext& ctx, int body, float& motion, MovedBoxes& mov
                   [&](int shape)
                   {
                       const F4 tight = outer_bounds(leaf_view(state, shape), pose);
-                      state.broad_phase.set_path(shape, {box_of(tight), shift, any_path});
-                      const F4 needed = grown(swept(tight, shift, any_path), 0.25f * margin);
+                      state.broad_phase.set_path(shape, {box_of(tight), shift, any_displacement});
+                      const F4 needed = grown(swept(tight, shift, any_displacement), 0.25f * margin);
                       const F4 fat = load4(&state.broad_phase.box(shape).lx);
                       if (!contains(fat, needed) || too_wide(fat, needed, margin))
                           move_box(moved, shape, needed, motion, margin);
                   });
 }
 
-// What sweep_body will read.
+// Prefetches what sweep_body will read.
 [[gnu::always_inline]] inline void prefetch_body(const SceneState& state, int body)
 {
     prefetch(state.sims[static_cast<std::size_t>(body)]);
     const int shape = state.bodies[body].first_shape;
     if (shape == none)
         return;
-    prefetch_line(&state.shapes[shape]); // the first line: leaves but for arcs
+    prefetch_line(&state.shapes[shape]); // the first line holds the leaf, except for an arc
     state.broad_phase.prefetch_place(shape);
 }
 
-// A task's bodies. Leaves with corners go through a kernel, eight at a time, where bodies move freely.
+// Sweeps a task's bodies. Leaves with corners go through a kernel, eight at a time, where no force law acts.
 class TaskSweep
 {
 public:
@@ -111,12 +111,12 @@ public:
         m_side_by_side = m_ctx.scene.law_count == 0;
         if (sweep())
             return;
-        m_side_by_side = false; // to tell who is not sound
+        m_side_by_side = false; // to find the unsound bodies
         sweep();
     }
 
 private:
-    // False where in lanes not all are sound. What comes before a body that is looked at by itself is swept before it, so that boxes stay in order.
+    // False where the lanes hold an unsound body. Filled lanes are swept before a body that is swept by itself, so that boxes stay in order.
     bool sweep()
     {
         m_moved.items.clear();
@@ -193,7 +193,7 @@ private:
         m_eight.corners[lane] = m_centers[lane];
     }
 
-    // Those that are left over are the first one once more.
+    // Unused lanes repeat the first one.
     bool sweep_lanes()
     {
         const int count = std::exchange(m_lanes, 0);
@@ -228,13 +228,13 @@ private:
     SweptEight m_eight;
     Vec2 m_centers[lane_count][2]; ///< of circles
     int m_shapes[lane_count];
-    std::size_t m_body_places[lane_count]; ///< place in awake_bodies
+    std::size_t m_body_places[lane_count]; ///< index in awake_bodies
     int m_lanes = 0;
     bool m_side_by_side = false;
     const WideKernels& m_kernels = wide_kernels();
 };
 
-// True where all are sound.
+// True if all bodies are sound.
 bool sweep_all(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
@@ -264,7 +264,7 @@ void sweep_paths(StepContext& ctx)
 {
     wake_overlapped(ctx);
     while (!sweep_all(ctx))
-    { // without those that were put aside
+    { // again, without the quarantined bodies
     }
     const MovedBoxes& moved = ctx.scratch.broad.moved;
     ctx.scratch.broad.all_fitted =

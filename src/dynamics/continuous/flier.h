@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies in flight, and the points at which they rest against something for a while.
+// Bodies in flight, and their resting contacts.
 
 #include "carom/math.h"
 #include "dynamics/state/scene_state.h"
@@ -10,7 +10,7 @@
 
 namespace carom::internal {
 
-/// A point at which two shapes rest against each other in flight, for what is left of the sub-step.
+/// A point at which two shapes rest against each other in flight, for the rest of the sub-step.
 struct RestingContact
 {
     std::int32_t own = none;
@@ -20,34 +20,34 @@ struct RestingContact
     float force = 0;               ///< on the own shape, along the normal, N
     float friction = 0;            ///< along perp(normal), N
     double start = 0;              ///< time of the sub-step
-    std::int32_t solved = none;    ///< state of the other body, where the solver has it and not flight
-    std::uint32_t own_corners = 0; ///< that rest, a bit each
+    std::int32_t solved = none;    ///< state of the other body, if it is solver-owned
+    std::uint32_t own_corners = 0; ///< corners that rest, one bit each
     std::uint32_t other_corners = 0;
 };
 
-inline constexpr std::int32_t carried_by_world = -2; ///< in Flier::carrier: by what does not move
+inline constexpr std::int32_t carried_by_world = -2; ///< in Flier::carrier: a body that does not move holds it
 
-/// A body in flight. It moves along a parabola and turns evenly; or, hinged to the world, turns about its pivot and nothing else. The
-/// reference point is what it turns about: the center of mass, or the pivot. All of it is relative to the center of mass at the start of
-/// the step, in double.
+/// A body in flight. It moves along a parabola with constant angular acceleration; a body hinged to the world only turns about its pivot.
+/// The reference point is the center of rotation: the center of mass, or the pivot. All of it is relative to the center of mass at the
+/// start of the step, in double.
 struct Flier
 {
     std::int32_t state = none;
     std::int32_t body = none;
     std::int32_t joint = none;    ///< the hinge to the world; none: free
     std::int32_t impacts = 0;     ///< in this sub-step
-    std::int64_t looks = 0;       ///< at who may be met next, that nobody has counted yet
-    std::int64_t union_looks = 0; ///< of them, at neighbours that lie flush
+    std::int64_t looks = 0;       ///< looks at candidates for the next event, not yet charged
+    std::int64_t union_looks = 0; ///< those of them that ask flush neighbors
     double x = 0;                 ///< reference point
     double y = 0;
     double vx = 0;
     double vy = 0;
     double ax = 0;
     double ay = 0;
-    double angle = 0; ///< turned since the step began
+    double angle = 0; ///< rotation since the step began
     double w = 0;
     double alpha = 0;
-    double time = 0;  ///< within the sub-step up to which it has flown
+    double time = 0;  ///< of the sub-step up to which it has moved
     double arm_x = 0; ///< from the reference point to the center of mass, at the start of the step
     double arm_y = 0;
     double inverse_mass_x = 0; ///< of the reference point: 0 for a pivot
@@ -57,7 +57,7 @@ struct Flier
     double upper = 1e300;
     Vec2 local_reference{}; ///< in the body's frame
     double size = 0;        ///< the least inner radius of its shapes
-    // What a hinge's pivot gave: the change of the center's momentum less that of contacts and of acceleration.
+    // For the reaction of a hinge's pivot: the change of the center's momentum less the impulses of contacts and of acceleration.
     double start_vx = 0; ///< of the center of mass, at the start of the sub-step
     double start_vy = 0;
     double impulse_x = 0; ///< of contacts, in this sub-step
@@ -65,30 +65,30 @@ struct Flier
     double start_w = 0;
     double turn_impulse = 0;  ///< of contacts about the pivot
     Vec2 reaction{};          ///< over the step
-    float limit_reaction = 0; ///< N m s, of the limits, over the step
+    float limit_reaction = 0; ///< N m s, by the limits, over the step
 
     static constexpr int most_resting = 12;
-    std::int32_t resting_set = none; ///< in IslandOutput::resting_sets; none: nothing has held it in this step
+    std::int32_t resting_set = none; ///< in IslandOutput::resting_sets; none: it had no resting contact in this step
     std::int32_t resting_count = 0;
-    bool rests = false; ///< against something that gives way
-    bool led = false;   ///< what holds it does not give way
-    double lead_x = 0;  ///< velocity of that where it does not turn
+    bool rests = false; ///< against a body of finite mass
+    bool led = false;   ///< all its resting contacts are with bodies that are not dynamic
+    double lead_x = 0;  ///< velocity of such a body that does not rotate
     double lead_y = 0;
-    std::int32_t carrier = none; ///< the one body that holds it, or carried_by_world; none: several, or what gives way or conveys
-    double curvature_rate = 0;   ///< rad/s at which the way along what holds it bends
-    double rests_until = 0;      ///< time of the sub-step by which what holds it has turned so far that it is looked at again
+    std::int32_t carrier = none; ///< the one body that holds it, or carried_by_world; none: several, dynamic, or a conveyor
+    double curvature_rate = 0;   ///< rad/s at which the path along the surface turns
+    double rests_until = 0;      ///< time of the sub-step at which the resting contact is renewed, for the surface has turned
 
     // The next event, as last computed.
     double event_time = 0; ///< beyond the sub-step: none
     std::int32_t event_own = none;
-    std::int32_t event_shape = none; ///< none: a limit of the hinge, or a hold to be renewed
-    std::int32_t event_state = none; ///< of the body that is hit, in this island; none: it does not move or belongs elsewhere
-    std::int32_t passes = none;      ///< contact with a one-way shape that it was found to go through, not noted yet
+    std::int32_t event_shape = none; ///< none: a limit of the hinge, or a resting contact to be renewed
+    std::int32_t event_state = none; ///< of the body that is hit; none: it does not move, or belongs to another island
+    std::int32_t passes = none;      ///< contact with a one-way shape that it passes through, not yet noted
     std::int32_t event_version = 0;  ///< of that state when the event was computed
-    bool deflected = false;          ///< its path is no longer the one that the pairs of this step were found with
-    bool crowded = false;            ///< struck in a crowd: its way is checked against static shapes at the end of the step
-    bool constrained = false;        ///< its accelerations are those of a hold
-    bool landed = false;             ///< does not fly: the solver has it, until something makes it fast
+    bool deflected = false;          ///< its path is no longer the one with which the pairs of this step were found
+    bool crowded = false;            ///< struck in a crowd: its path is checked against static shapes at the end of the step
+    bool constrained = false;        ///< its accelerations are those of a resting contact or limit
+    bool landed = false;             ///< not in flight: solver-owned until an impact makes it fast
 };
 
 using RestingContacts = std::array<RestingContact, Flier::most_resting>;

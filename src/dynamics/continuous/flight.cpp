@@ -1,6 +1,6 @@
-// A body in flight is not a pile. Its path is exact until it meets something (motion.cpp); when that will be is found on both true paths
-// (next_impact.cpp); the impact is resolved there, with all that touches at that moment (impact.cpp, reflect.cpp), and the rest of the
-// sub-step is flown from there: no time is lost and no gap is left. What comes to rest is handed to the solver (landing.cpp).
+// Bodies in flight, impact by impact. The path of a flier is exact until it meets something (motion.cpp). The time of impact is found on
+// both true paths (next_impact.cpp), and the impact is resolved there with all contacts of that moment (impact.cpp, reflect.cpp). The rest
+// of the sub-step is flown from there: no time is lost and no gap is left. A body that comes to rest is handed to the solver (landing.cpp).
 
 #include "dynamics/continuous/flight.h"
 
@@ -8,7 +8,7 @@
 #include "dynamics/continuous/impact/impact.h"
 #include "dynamics/continuous/landing.h"
 #include "dynamics/continuous/next_impact.h"
-#include "dynamics/continuous/trace.h"
+#include "dynamics/continuous/path/trace.h"
 #include "dynamics/state/contact_store.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace carom::internal {
 
 namespace {
 
-// Eight side by side: one comparison after the other would each wait for the last.
+// Eight independent minima: in a single chain each comparison would wait for the one before.
 double least_of(std::span<const double> times)
 {
     constexpr std::size_t side_by_side = 4;
@@ -43,7 +43,7 @@ double least_of(std::span<const double> times)
     return best;
 }
 
-// The first by time; of equals the first in the island.
+// The flier with the earliest event; at equal times, the first in the island.
 Flier* earliest(const FlightSpan& span)
 {
     const std::span<const double> times =
@@ -55,7 +55,7 @@ Flier* earliest(const FlightSpan& span)
     return &span.fliers()[static_cast<std::size_t>(std::ranges::find(times, best) - times.begin())];
 }
 
-// A deflected body is off on another way.
+// A deflected body follows a new path, so its reach changes.
 void note_reach(const FlightSpan& span, std::int32_t state)
 {
     const std::vector<std::int32_t>& deflected = span.output.deflected;
@@ -66,8 +66,8 @@ void note_reach(const FlightSpan& span, std::int32_t state)
             reach_of(span, span.scratch.flight.fliers[static_cast<std::size_t>(f)].body);
 }
 
-// Others near a struck body of the solver's may now meet it sooner: of two bodies of one shape, in their contact. What has changed as well looks for
-// itself.
+// Fliers near a struck solver-owned body may now meet it sooner. Between two bodies of one shape each, only their contact is searched
+// again. A flier whose own path has changed searches for itself.
 void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::span<const std::int32_t> changed)
 {
     const int body = span.scratch.solver.state_bodies[static_cast<std::size_t>(struck)];
@@ -81,7 +81,7 @@ void reconsider_neighbours(const FlightSpan& span, std::int32_t struck, std::spa
     }
 }
 
-// What stays where it is looks for nothing: who may come there must see it.
+// A capped flier stays where it is and does not search: fliers that may come there must find it.
 void reconsider_those_near(const FlightSpan& span, const Flier& capped)
 {
     const Reach place = reach_of(span, capped.body);
@@ -123,18 +123,19 @@ void note_all_reaches(const FlightSpan& span)
             reach_of(span, span.scratch.flight.fliers[static_cast<std::size_t>(span.output.deflected[i])].body);
 }
 
-// In a sub-step: what is left over then stays where it is until the next. Some milliseconds; impacts that come out take a hundredth.
+// Budget per sub-step, in solved rows; bodies whose impacts exceed it stay where they are until the next sub-step. It amounts to some
+// milliseconds; impacts that converge take a hundredth of it.
 constexpr std::int64_t work_of_island = 20'000;
 constexpr std::int64_t work_of_flier = 500;
 
-constexpr std::int64_t looks_of_island = 200'000; // sixteen times what scenes and experiments take
+constexpr std::int64_t looks_of_island = 200'000; // sixteen times the need of scenes and experiments
 constexpr std::int64_t looks_of_flier = 100;
 
 constexpr int fliers_per_share = 16;
-constexpr int enough_fliers = 32; // to share
+constexpr int enough_fliers = 32; // enough to share among workers
 
-// The looks are spent: who has an event left stays where it is until the next sub-step, and so does who would come there. All stop at the moment up to
-// which every event is known: none has met another by then.
+// The budget of looks is spent: a flier with an event left stays where it is until the next sub-step, and so does a flier that would come
+// there. All of them stop at the time up to which every event is known: none has met another by then.
 void stop_who_would_meet(const FlightSpan& span)
 {
     const Flier* next = earliest(span);
@@ -163,7 +164,7 @@ void stop_who_would_meet(const FlightSpan& span)
     span.output.capped = true;
 }
 
-// Where nothing has happened yet each looks for itself.
+// Before the first event the searches are independent of each other.
 void find_first_events(const FlightSpan& span, WorkerTeam& team)
 {
     const std::span<Flier> fliers = span.fliers();
@@ -178,7 +179,7 @@ void find_first_events(const FlightSpan& span, WorkerTeam& team)
         look(0, count);
     }
     else
-    { // some take far longer than others
+    { // searches differ widely in cost
         std::atomic<int> next{0};
         team.in_parts(
             [&](int, int)
@@ -211,7 +212,7 @@ void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier)
 
 namespace {
 
-// Constraints of the island with a load, and of it the state on the other side.
+// Visits the state on the other side of each contact constraint that bears a load and belongs to `state`.
 template <class Visit>
 void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
 {
@@ -227,7 +228,7 @@ void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit
     look(span.output.late_constraints);
 }
 
-// With a bat that presses it: without the ball in its way the solver would swing it through.
+// The flier takes off together with a bat (a hinged body) that presses it: without the ball in its path the solver would swing the bat through.
 void take_off_with_bats(const FlightSpan& span, Flier& f)
 {
     std::vector<Flier*> bats;
@@ -241,7 +242,7 @@ void take_off_with_bats(const FlightSpan& span, Flier& f)
                             if (bat.landed && bat.joint != none)
                                 bats.push_back(&bat);
                         });
-    take_off(span, f, span.h); // where the sub-step before has left it
+    take_off(span, f, span.h); // from where the previous sub-step has left it
     for (Flier* bat : bats)
     {
         if (bat->landed)
@@ -268,7 +269,7 @@ void take_off_fast_movers(StepContext& ctx, const Island& island, int k, IslandO
 
 namespace {
 
-// All of it is in the air, and its path through the step is one parabola.
+// True if all bodies of the island are in free flight and each path through the step is a single parabola.
 bool flies_freely(const StepContext& ctx, const Island& island)
 {
     const bool alike = island.flier_count == island.dynamic_count && island.constraint_count == 0 && island.wide_count == 0 &&
@@ -312,7 +313,7 @@ void trace_paths(StepContext& ctx, const Island& island, int k, IslandOutput& ou
 
 namespace {
 
-// Slices of a sub-step share what is given to it; where the first have spent all, each still has its part of as much again.
+// Subdivisions of a sub-step share its budget. Once the first ones have spent it, each later one still gets its part of the same amount.
 void share_budget(const StepContext& ctx, const Island& island, int k, IslandOutput& output)
 {
     const bool starts = k % ctx.subdivisions == 0;
@@ -338,7 +339,7 @@ void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput&
     note_all_reaches(span);
     find_first_events(span, team);
     for (Flier& f : span.fliers())
-        f.looks = f.union_looks = 0; // the first cannot be left out
+        f.looks = f.union_looks = 0; // the first searches cannot be left out, so they are not charged
     while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)
         process(span, *next);
     stop_who_would_meet(span);

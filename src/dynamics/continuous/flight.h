@@ -7,20 +7,20 @@
 
 namespace carom::internal {
 
-/// Before sub-step k: what could fly and has become fast does so from here on.
+/// Before sub-step k: landed fliers that have become fast take off.
 void take_off_fast_movers(StepContext& ctx, const Island& island, int k, IslandOutput& output);
 
-/// Flies the island's bodies in flight through sub-step k, impact by impact, after the solver has moved everything else. What comes to rest against
-/// something becomes the solver's from the next sub-step on; its constraints go to output.late_constraints.
+/// Moves the island's fliers through sub-step k, impact by impact, after the solver has moved all other bodies. A flier that comes to rest
+/// is solver-owned from the next sub-step on; its constraints go to output.late_constraints.
 void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, WorkerTeam& team);
 
-/// Where all of the island flies freely, and none of it meets anything in this step, flies it through the whole step at once. False: nothing has moved.
+/// Moves an island through the whole step at once if all its bodies are in free flight and meet nothing. False: nothing has moved.
 [[nodiscard]] bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& output);
 
-/// It is no longer on the way that the pairs of this step were found with.
+/// Marks a flier as deflected: its path is no longer the one with which the pairs of this step were found.
 void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier);
 
-/// What advance_fliers writes down of the paths near triggers, for an island where nothing flies.
+/// Records the paths near triggers, as advance_fliers does, for an island without fliers.
 void trace_paths(StepContext& ctx, const Island& island, int k, IslandOutput& output);
 
 } // namespace carom::internal

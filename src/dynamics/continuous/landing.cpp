@@ -1,3 +1,5 @@
+// The end of a sub-step in flight: a flier that rests becomes solver-owned and gets constraints.
+
 #include "dynamics/continuous/landing.h"
 
 #include "dynamics/continuous/resting_contact.h"
@@ -14,11 +16,12 @@ namespace carom::internal {
 
 namespace {
 
-// rad: what runs through a tighter bend in a sub-step would leave it before the solver knows, and in the rest of the step come to what has no constraint.
+// rad, turn of the path: beyond the first, a body would leave the surface within a sub-step before the solver notices; beyond the second,
+// it would reach surfaces without a constraint in the rest of the step.
 constexpr double most_curvature = 0.25;
 constexpr double most_curvature_in_step = 1;
 
-// Between two points of one shape, as a plank in a narrow bowl.
+// True for a body held between two points of one shape, as a plank in a narrow bowl.
 bool is_wedged(std::span<const RestingContact> holds)
 {
     for (const RestingContact& a : holds)
@@ -37,7 +40,7 @@ class Landing
 public:
     Landing(const FlightSpan& span, const Flier& f) : m_span(span), m_flier(f) {}
 
-    // Constraints for everything near it.
+    // Adds constraints for everything near the body.
     void run()
     {
         const BodyState& s = m_span.state_of(m_flier.state);
@@ -59,12 +62,12 @@ private:
         const int body = other_body(contact, m_flier.body);
         const std::int32_t other = state_for_constraints(m_span.ctx, m_span.island, body);
         if (other == none || m_span.flier_at(other) != nullptr || has_constraint(index))
-            return; // another island's, or still in flight: the next step links them
+            return; // the other belongs to another island or still flies: the next step adds the contact edge
         const Manifold manifold = world_manifold(m_span.state, contact, pose_now(contact.body_a, other),
                                                  pose_now(contact.body_b, other), margin + motion_of(m_span.ctx, body));
         if (manifold.count == 0 && !may_come_to_face(contact, m_span.island))
             return;
-        m_span.state.contacts[index].manifold = manifold; // the constraint's points are these
+        m_span.state.contacts[index].manifold = manifold; // the constraint refers to these points
         impulses_of(m_span.state, index) = {};
         m_span.state.contacts[index].flags &= ~contact_flag::kept;
         const bool flier_is_a = contact.body_a == m_flier.body;
@@ -76,7 +79,7 @@ private:
         m_span.output.late_constraints.push_back(constraint);
     }
 
-    // What held the body goes on bearing it.
+    // Impulses of resting contacts pass to the constraint, so that the body stays supported.
     void hand_over(const Contact& contact, ContactConstraint& constraint) const
     {
         const bool is_a = contact.body_a == m_flier.body;
@@ -146,7 +149,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
     if (f.landed)
         return;
     if (is_capped(span, f))
-        f.time = span.h; // where and as it is: what forces did to it on no way at all would be energy from nowhere
+        f.time = span.h; // keeps pose and velocity: acceleration without displacement would create energy
     else
         advance(span, f, span.h);
     const CenterMotion center = center_of(f);
@@ -160,7 +163,7 @@ void finish_flight(const FlightSpan& span, Flier& f)
     if (f.resting_count == 0 && !f.rests)
         return;
     const double left = static_cast<double>(span.ctx.dt) - span.time_of_step(span.h);
-    // Along what turns or moves, whose other sides come to meet it: a slice is short, the rest of the sub-step is not.
+    // The other sides of a carrier that turns or moves come to meet the body: a subdivision is short, the rest of the sub-step is not.
     const bool goes_far = f.carrier != none && f.carrier != carried_by_world &&
                           span.ctx.subdivisions * span.h * speed_over_carrier(span, f) > 0.5 * f.size;
     const bool is_beyond_constraints = f.curvature_rate * span.h > most_curvature ||

@@ -6,8 +6,8 @@
 
 namespace carom::internal {
 
-/// Flies to the end of the sub-step and writes the body's state. What is held becomes the solver's from the next sub-step on; its constraints go to
-/// output.late_constraints.
+/// Moves the flier to the end of the sub-step and writes the body's state. A body that rests is solver-owned from the next sub-step on; its
+/// constraints go to output.late_constraints.
 void finish_flight(const FlightSpan& span, Flier& f);
 
 } // namespace carom::internal

@@ -1,5 +1,6 @@
-// Free flight is exact: a parabola and an even turn. A body on a hinge has one coordinate, its angle, integrated by velocity Verlet from one
-// change of its path to the next: the angular acceleration of the start carries it, the mean of start and end changes its speed.
+// Motion of bodies in flight. Free flight is exact: a parabola with constant angular acceleration. A body on a hinge has one coordinate, its
+// angle, integrated by velocity Verlet between changes of its path: the angular acceleration at the start advances the angle, the mean of
+// start and end changes the angular velocity.
 
 #include "dynamics/continuous/motion.h"
 
@@ -52,7 +53,7 @@ std::int32_t FlightSpan::state_in_island(int body) const
 
 MicroCollision FlightSpan::press(int a, int b) const
 {
-    constexpr double shallow = 0.01; // of what is inside them
+    constexpr double shallow = 0.01; // of the inner radius
     const double size = std::min(sim_of(a).size, sim_of(b).size);
     return {0.25 * h, static_cast<double>(ctx.scene.tolerances.rest_speed), shallow * size};
 }
@@ -85,7 +86,7 @@ void fall_freely(const FlightSpan& span, Flier& f)
 
 namespace {
 
-// A limit that the acceleration presses against and that nothing leaves holds the body still.
+// A body at a limit that is accelerated toward it and does not leave it is held still.
 bool leans_on_limit(const Flier& f)
 {
     const bool low = f.angle <= f.lower + at_limit && f.alpha <= 0 && f.w <= 0;
@@ -126,8 +127,8 @@ void start_flight(const FlightSpan& span, Flier& f)
 
 namespace {
 
-// What is held follows a surface: the force across its way turns the velocity, the force along it changes the speed. A parabola would gain
-// speed by both.
+// A held body follows a surface: the acceleration across its path turns the velocity, the acceleration along it changes the speed. A
+// parabola would gain speed by both.
 void follow_surface(Flier& f, double t)
 {
     f.vx -= f.lead_x;
@@ -162,8 +163,8 @@ void follow_parabola(Flier& f, double t)
     f.vy += t * f.ay;
 }
 
-// Only along what does not give way: of two that lean on each other each takes the other's momentum. Slow against what the forces do, a turn
-// of the velocity means nothing.
+// Only along a body of infinite mass: two bodies that lean on each other exchange momentum. If the speed is small against the change of
+// velocity, a rotation of the velocity means nothing.
 bool is_led(const Flier& f, double t)
 {
     const double vx = f.vx - f.lead_x;
@@ -171,12 +172,12 @@ bool is_led(const Flier& f, double t)
     return f.resting_count > 0 && f.led && f.joint == none && 4 * t * t * (f.ax * f.ax + f.ay * f.ay) < vx * vx + vy * vy;
 }
 
-// How it moves as what holds it sees it.
+// Motion of a flier relative to its carrier.
 struct Seen
 {
     double x = 0; ///< from the carrier's center
     double y = 0;
-    double carrier_vx = 0; ///< of the carrier where the body is
+    double carrier_vx = 0; ///< velocity of the carrier where the body is
     double carrier_vy = 0;
     double carrier_w = 0;
     double vx = 0;
@@ -213,14 +214,14 @@ double twice_kinetic(const Flier& f, const Seen& s)
     return over(s.vx * s.vx, f.inverse_mass_x) + over(s.vy * s.vy, f.inverse_mass_y) + over(s.w * s.w, f.inverse_inertia);
 }
 
-// What a surface that moves evenly may only take from: with the potential of what drives outwards.
+// Twice the energy in the frame of the carrier, with the centrifugal potential. A surface in uniform motion may only reduce it.
 double twice_energy(const Flier& f, const Seen& s)
 {
     return twice_kinetic(f, s) -
            s.carrier_w * s.carrier_w * (over(s.x * s.x, f.inverse_mass_x) + over(s.y * s.y, f.inverse_mass_y));
 }
 
-// What the free acceleration has given along the way.
+// Twice the work of the free acceleration along the path.
 double twice_work(const FlightSpan& span, const Flier& f, const Flier& before, const Seen& s, const Seen& s_before)
 {
     const StateConstants& c = span.constants_of(f.state);
@@ -256,7 +257,7 @@ double speed_over_carrier(const FlightSpan& span, const Flier& f)
 
 namespace {
 
-// A body that may not move along every axis has no potential on what turns.
+// A body with a locked axis has no potential on a rotating carrier.
 bool may_gain(const FlightSpan& span, const Flier& f)
 {
     return f.resting_count > 0 && f.joint == none && f.carrier != none &&
@@ -268,7 +269,7 @@ bool may_gain(const FlightSpan& span, const Flier& f)
 
 namespace {
 
-// Of a body on a hinge: what even forces give along its way, over the moment of inertia.
+// Work of constant forces on a hinged body along its path, divided by the moment of inertia.
 double work_on_hinge(const FlightSpan& span, const Flier& f, double from)
 {
     const StateConstants& c = span.constants_of(f.state);
@@ -283,7 +284,7 @@ double work_on_hinge(const FlightSpan& span, const Flier& f, double from)
             static_cast<double>(sim.inertia) * static_cast<double>(c.angular_acceleration) * (f.angle - from));
 }
 
-// Verlet's speed is off by the third order of the step; that of the energy is not, where it does not turn back.
+// The speed from Verlet has an error of third order in the step. The speed from the energy has none, unless the body turns back.
 void swing(const FlightSpan& span, Flier& f, double t, double from, double before)
 {
     const double there = turning_acceleration(span, f, f.angle);
@@ -325,7 +326,7 @@ bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, doubl
 {
     const BodySim& sim = span.sim_of(f.body);
     if (!span.island.policy.exact_impacts)
-    { // a crowd that falls together is no shot: what counts is what this step has done
+    { // a crowd that falls together is not fast: only the change in this step counts
         vx -= static_cast<double>(sim.velocity.x);
         vy -= static_cast<double>(sim.velocity.y);
         w -= static_cast<double>(sim.angular_velocity);
@@ -335,7 +336,7 @@ bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, doubl
 
 namespace {
 
-// By something that it runs along: a bend in a wall leads a ball around, out of what lay on its way.
+// True if a surface has led the body aside: a curved wall leads a ball around, away from what lay on its path.
 bool is_led_astray(const FlightSpan& span, const BodySim& sim, const BodyState& s)
 {
     return span.ctx.dt * length(s.velocity - sim.velocity) > span.ctx.scene.tolerances.box_margin;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How bodies in flight move, and how everything else moves as they see it.
+// Motion of bodies in flight, and the paths of all other bodies as flight sees them.
 
 #include "collision/time_of_impact.h"
 #include "dynamics/step_context.h"
@@ -9,8 +9,8 @@
 
 namespace carom::internal {
 
-/// Impacts of a body in a sub-step: then it stays where it is until the next. Where more than a few are solved together, what rattles must not keep all
-/// of them waiting.
+/// Impacts of a body in a sub-step: at the limit it stays where it is until the next. If more than a few bodies are solved together, the
+/// limit is lower: a rattling body must not keep all of them waiting.
 inline constexpr int impact_limit = 64;
 inline constexpr int crowd_impact_limit = 16;
 
@@ -24,51 +24,51 @@ struct FlightSpan
     IslandOutput& output;
     int k;
     double h;
-    double least_approach; ///< m/s: what is slower is rounding
-    int most_impacts;      ///< of a body
+    double least_approach; ///< m/s: slower approach is rounding
+    int most_impacts;      ///< per body
 
     FlightSpan(StepContext& context, const Island& u, int substep, IslandOutput& out);
 
     [[nodiscard]] std::span<Flier> fliers() const;
     [[nodiscard]] std::span<const RestingContact> resting_contacts_of(const Flier& f) const;
-    [[nodiscard]] Flier* flier_at(std::int32_t state_index) const; ///< nothing for what does not fly or has landed
+    [[nodiscard]] Flier* flier_at(std::int32_t state_index) const; ///< null for a body that does not fly or has landed
     [[nodiscard]] BodyState& state_of(std::int32_t index) const { return scratch.solver.states[static_cast<std::size_t>(index)]; }
     [[nodiscard]] const StateConstants& constants_of(std::int32_t i) const
     {
         return scratch.solver.constants[static_cast<std::size_t>(i)];
     }
     [[nodiscard]] const BodySim& sim_of(int body) const { return state.sims[static_cast<std::size_t>(body)]; }
-    /// The state of a dynamic body of this island; none: it does not move, or belongs elsewhere.
+    /// The state of a dynamic body of this island; none: the body does not move, or belongs to another island.
     [[nodiscard]] std::int32_t state_in_island(int body) const;
-    /// Of two that both give way none holds the other; what presses them together is taken in small blows.
+    /// Two bodies of finite mass have no resting contact: what presses them together is resolved as micro-collisions.
     [[nodiscard]] MicroCollision press(int body_a, int body_b) const;
     [[nodiscard]] double time_of_step(double time) const { return k * static_cast<double>(ctx.h) + time; }
 };
 
 inline constexpr double at_limit = 1e-7; ///< rad: an angle this near is at the limit of its hinge
 
-/// Held by nothing: gravity and forces alone.
+/// Removes all resting contacts: gravity and forces act alone.
 void fall_freely(const FlightSpan& span, Flier& f);
 
-/// Forces of the sub-step; a body that leans on its hinge's limit stays there.
+/// Sets the accelerations of the sub-step; a body that leans on its hinge's limit stays there.
 void start_flight(const FlightSpan& span, Flier& f);
 
 /// Moves the flier to a time of the sub-step.
 void advance(const FlightSpan& span, Flier& f, double time);
 
-/// Goes half its size or more in a sub-step (in a crowd: because of what struck it in this step): such a body is not left to contacts found beforehand.
+/// Moves half its size or more in a sub-step (in a crowd: by what changed in this step): contacts found beforehand do not cover such a body.
 [[nodiscard]] bool is_fast(const FlightSpan& span, const Flier& f, double vx, double vy, double w);
 
-/// m/s, as what holds it sees it.
+/// Speed relative to the carrier, m/s.
 [[nodiscard]] double speed_over_carrier(const FlightSpan& span, const Flier& f);
 
-/// Struck in this step, and on its way out of where pairs were looked for: the solver would not see what is there.
+/// True if a body was deflected in this step and leaves the boxes in which pairs were searched: the solver would miss what is there.
 [[nodiscard]] bool leaves_its_boxes(const FlightSpan& span, const Flier& f);
 
-/// From the solver's hands into flight, at a time of the sub-step; its constraints are dropped.
+/// Moves a body from the solver into flight at a time of the sub-step and drops its constraints.
 void take_off(const FlightSpan& span, Flier& f, double time);
 
-/// What has hit things too often stays where it is until the sub-step is over.
+/// A body with too many impacts stays where it is until the sub-step is over.
 [[nodiscard]] inline bool is_capped(const FlightSpan& span, const Flier& f) { return f.impacts >= span.most_impacts; }
 
 /// Center of mass and its velocity.
@@ -81,10 +81,10 @@ struct CenterMotion
 };
 [[nodiscard]] CenterMotion center_of(const Flier& f);
 
-/// Angular acceleration of a body on a hinge at an angle: gravity, force and torque about the pivot. That of a free one is its own.
+/// Angular acceleration of a body at an angle: on a hinge by gravity, force and torque about the pivot; a free body has its own.
 [[nodiscard]] double turning_acceleration(const FlightSpan& span, const Flier& f, double angle);
 
-/// The path of any body from `time` on, relative to `origin`. Of one that the solver moves: back from where it has been put.
+/// The path of any body from `time` on, relative to `origin`. The path of a solver-owned body is traced back from its final pose.
 [[nodiscard]] FramePath path_from(const FlightSpan& span, int body, double time, const Position& origin);
 
 } // namespace carom::internal

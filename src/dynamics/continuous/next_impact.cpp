@@ -1,3 +1,5 @@
+// Search for the next event of a flier, by the time of impact with each candidate.
+
 #include "dynamics/continuous/next_impact.h"
 
 #include "dynamics/broadphase/half_space_box.h"
@@ -19,10 +21,10 @@ namespace carom::internal {
 
 namespace {
 
-// In one search; what turns by thousands of radians in a sub-step takes them. Whom it has not looked at then it does not meet in this sub-step.
+// Looks per search; a body that turns by thousands of radians in a sub-step needs them. Candidates left then are not met in this sub-step.
 constexpr std::int64_t most_looks = 50'000;
 
-// Of a pair whose other corners may come down yet: held at one of them it turns about that.
+// Corners of a pair that rest already. The other corners may still come down: held at one corner, a body turns about it.
 ProbeSet resting_corners(std::span<const RestingContact> holds, std::int32_t own, std::int32_t other)
 {
     ProbeSet resting;
@@ -36,7 +38,7 @@ ProbeSet resting_corners(std::span<const RestingContact> holds, std::int32_t own
     return resting;
 }
 
-// Bodies come nearer in the order in which they could be met: after the first hit most of a crowd is too late.
+// Candidates are considered in the order in which they could be met: after the first hit most of a crowd is too late.
 class Search
 {
 public:
@@ -60,7 +62,7 @@ public:
     }
 
 private:
-    struct Way
+    struct Sweep
     {
         FramePath path;
         Reach reach;
@@ -68,21 +70,21 @@ private:
 
     struct Offer
     {
-        double time; ///< before which the two cannot meet
+        double time; ///< the two cannot meet before
         int order;
         int own;
         int shape;
         int contact;
     };
 
-    static constexpr std::size_t most_offers = 64; // what is more is considered in lots
-    static constexpr int offers_of_a_look = 8;     // so much cheaper are they
+    static constexpr std::size_t most_offers = 64; // more than these are considered in batches
+    static constexpr int offers_of_a_look = 8;     // an offer costs an eighth of a look
 
-    // Most of a crowd never ask.
-    [[nodiscard]] const Way& own_displacement()
+    // Computed on demand: most fliers of a crowd do not need it.
+    [[nodiscard]] const Sweep& own_displacement()
     {
         if (!m_own)
-            m_own = Way{path_from(m_span, m_flier.body, m_flier.time, m_origin), reach_of(m_span, m_flier.body)};
+            m_own = Sweep{path_from(m_span, m_flier.body, m_flier.time, m_origin), reach_of(m_span, m_flier.body)};
         return *m_own;
     }
 
@@ -122,7 +124,7 @@ private:
         m_flier.looks += std::exchange(m_made, 0) / offers_of_a_look;
     }
 
-    // Before that time the bodies cannot meet. Only what is awake in this island has a known way.
+    // Time before which the bodies cannot meet. Only dynamic bodies that are awake in this island have a known path.
     [[nodiscard]] double meeting_with(int body)
     {
         return m_span.state_in_island(body) == none ? 0 : first_meeting(own_displacement().reach, reach_of(m_span, body));
@@ -137,7 +139,7 @@ private:
         consider_limit(m_flier.angle - m_flier.lower, -m_flier.w, -m_flier.alpha);
     }
 
-    // Room d >= 0 shrinks at speed u, faster by a.
+    // The room d >= 0 shrinks at speed u and acceleration a.
     void consider_limit(double d, double u, double a)
     {
         if (d > 1e200)
@@ -153,7 +155,7 @@ private:
             if (discriminant < 0)
                 return;
             const double root = std::sqrt(discriminant);
-            // Leaving the limit, it comes back later; patience as for contacts.
+            // A body that leaves the limit returns later; the least wait is that of contacts.
             t = u + root > 0 ? 2 * d / (u + root) : 1e300;
             if (d == 0)
                 t = a > 0 ? std::max(2 * (tiny - u) / a, 1e-6 * m_span.h) : 1e300;
@@ -167,7 +169,7 @@ private:
         m_flier.event_version = 0;
     }
 
-    // A bounce or a kick leads elsewhere than the contacts of this step were made for.
+    // An impact or a kick leads a body away from the contacts that were made for this step.
     void look_beyond_boxes()
     {
         Flier end = m_flier;
@@ -180,7 +182,7 @@ private:
         for_each_leaf(m_span.state, m_flier.body, [&](int own) { look_beyond_box(own, path); });
     }
 
-    // Who has been struck may be anywhere, whether it flies still or has come to rest against something.
+    // A deflected body may be anywhere, whether it still flies or has come to rest.
     void look_at_deflected()
     {
         const std::vector<Reach>& reaches = m_span.output.reaches;
@@ -223,7 +225,7 @@ private:
         }
     }
 
-    // Without a contact: of shapes that may touch, and have none.
+    // True for two shapes that may touch and have no contact.
     [[nodiscard]] bool is_new(int own, int shape) const
     {
         const SceneState& state = m_span.state;
@@ -239,10 +241,10 @@ private:
         const Flier* other = m_span.flier_at(m_span.state_in_island(body));
         if (m_flier.looks > most_looks)
         {
-            m_flier.crowded = true; // its way is checked against walls
+            m_flier.crowded = true; // its path is checked against walls
             return;
         }
-        // Before its last change the other's path is not this one; until then the two have not met.
+        // Before its last change the other body had another path; until then the two have not met.
         const double start = other != nullptr ? std::max(m_flier.time, other->time) : m_flier.time;
         const double left = std::min(m_span.h, m_flier.event_time) - start;
         if (left < 0)
@@ -278,7 +280,7 @@ private:
         }
         if (!hit || start + hit->time >= m_flier.event_time)
             return;
-        // The flier is b as the material sees it: the normal runs from the shape to the flier.
+        // Materials see the flier as b: the normal runs from the shape to the flier.
         if (lets_pass(m_span.ctx.scene, shape, own, {static_cast<float>(hit->nx), static_cast<float>(hit->ny)}))
         {
             m_flier.passes = contact;
@@ -291,7 +293,7 @@ private:
         m_flier.event_version = version_of(m_span, m_flier.event_state);
     }
 
-    // On the ways that both set out on they do not meet within the step.
+    // True if the two do not meet within the step on their initial paths.
     [[nodiscard]] bool was_found_apart(int contact, int body) const
     {
         if (m_flier.deflected)
@@ -302,14 +304,14 @@ private:
         return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
     }
 
-    // A look at every corner is dear: most pairs are told by the line of their centers, or by the normal at the start of the step.
+    // A look at every corner is expensive: most pairs are excluded by the line of their centers, or by the normal at the start of the step.
     [[nodiscard]] static bool stays_apart_along(Axis axis, const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                 const FramePath& path_b, double left)
     {
         return !axis.is_none() && stay_apart(a, path_a, b, path_b, axis, left);
     }
 
-    // From the shape to the flier.
+    // The normal runs from the shape to the flier.
     [[nodiscard]] Axis normal_at_start(int shape, int contact) const
     {
         if (contact == none || m_span.state.contacts[contact].manifold.count == 0)
@@ -319,7 +321,7 @@ private:
         return {sign * static_cast<double>(c.manifold.normal.x), sign * static_cast<double>(c.manifold.normal.y)};
     }
 
-    // Most pieces of a wall that lie in the box of a path.
+    // Excludes most pieces of a wall that lie in the box of a path.
     [[nodiscard]] bool is_wall_out_of_reach(int shape)
     {
         const SceneState& state = m_span.state;
@@ -341,7 +343,7 @@ private:
     const FlightSpan& m_span;
     Flier& m_flier;
     Position m_origin;
-    std::optional<Way> m_own;
+    std::optional<Sweep> m_own;
     std::array<Offer, most_offers> m_offers;
     std::size_t m_count = 0;
     int m_made = 0;
@@ -349,7 +351,7 @@ private:
 
 } // namespace
 
-// Two circles that move evenly: the first root of |d + v t| = r.
+// Two circles at constant velocity meet at the first root of |d + v t| = r.
 double first_meeting(const Reach& a, const Reach& b)
 {
     const double start = std::max(a.time, b.time);
@@ -370,7 +372,7 @@ double first_meeting(const Reach& a, const Reach& b)
 
 namespace {
 
-constexpr double margin = 1.001; // what touches next to nothing is looked at
+constexpr double margin = 1.001; // bodies that almost touch are considered
 
 Reach reach_of_flier(const FlightSpan& span, const Flier& f, const BodySim& sim)
 {
@@ -381,7 +383,7 @@ Reach reach_of_flier(const FlightSpan& span, const Flier& f, const BodySim& sim)
     const double bend = left * left * (length_of(f.ax, f.ay) + std::fabs(f.alpha) * length_of(f.arm_x, f.arm_y));
     if (is_capped(span, f))
         return reach;
-    if (f.arm_x != 0 || f.arm_y != 0) // about a pivot it goes round
+    if (f.arm_x != 0 || f.arm_y != 0) // the center circles about a pivot
         return {reach.x, reach.y, 0, 0, f.time, extent + left * length_of(c.vx, c.vy) + bend};
     return {reach.x, reach.y, c.vx, c.vy, f.time, extent + bend};
 }
@@ -394,7 +396,7 @@ Reach reach_of(const FlightSpan& span, int body)
     const std::int32_t s = span.state_in_island(body);
     if (const Flier* f = span.flier_at(s))
         return reach_of_flier(span, *f, sim);
-    // The solver has put it where it is at the end of the sub-step.
+    // The solver has already moved the body to the end of the sub-step.
     const BodyState& there = span.state_of(s);
     const auto vx = static_cast<double>(there.velocity.x);
     const auto vy = static_cast<double>(there.velocity.y);
@@ -425,7 +427,7 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
     if (looks_for_none(span, f))
         return true;
     if (f.resting_count > 0 && f.rests_until < span.h)
-    { // its path is that of the hold for so long
+    { // its path follows the resting contact until then
         f.event_time = f.rests_until;
         f.event_own = f.event_shape = f.event_state = none;
         f.event_version = 0;
@@ -437,7 +439,7 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
 
 namespace {
 
-constexpr std::int64_t dearness_of_unions = 4; // at least so many looks does one take that asks neighbours for their cone
+constexpr std::int64_t dearness_of_unions = 4; // least cost, in looks, of a look that asks neighbors for their cone
 
 void spend_looks(const FlightSpan& span, Flier& f)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a body in flight will hit next.
+// Search for the next event of a body in flight: an impact, a hinge limit, or a resting contact to renew.
 
 #include "dynamics/continuous/motion.h"
 
@@ -8,10 +8,10 @@ namespace carom::internal {
 
 void find_next_event(const FlightSpan& span, Flier& f);
 
-/// The same, but writes to the flier alone: false where it goes through a one-way shape, which must be noted before the search goes on.
+/// The same, but writes to the flier alone. False if it passes through a one-way shape, which must be noted before the search goes on.
 [[nodiscard]] bool try_find_next_event(const FlightSpan& span, Flier& f);
 
-/// The same where all that has changed is the way of a state that this contact is with.
+/// The same if only the path of state `struck` has changed, and `contact` is the flier's contact with it.
 void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact);
 
 /// How often the path of a state has changed in this sub-step.
@@ -20,9 +20,9 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     return state == none ? 0 : span.scratch.flight.versions[static_cast<std::size_t>(state)];
 }
 
-/// Of a dynamic body of the island, whether it flies or not, for the rest of the sub-step.
+/// Reach of a dynamic body of the island, in flight or not, for the rest of the sub-step.
 [[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
-/// Before that time the two cannot meet; 1e300: they do not.
+/// Time before which the two cannot meet; 1e300: they do not.
 [[nodiscard]] double first_meeting(const Reach& a, const Reach& b);
 
 } // namespace carom::internal

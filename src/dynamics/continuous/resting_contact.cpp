@@ -1,3 +1,5 @@
+// Ends resting contacts in flight, and corrects bodies that the solver has already moved.
+
 #include "dynamics/continuous/resting_contact.h"
 
 #include "dynamics/state/turns.h"
@@ -19,7 +21,7 @@ void correct_state(const FlightSpan& span, std::int32_t state, double left, doub
 
 namespace {
 
-// The force lasted from its start until `time`: as much as an impulse half way.
+// The force acted from its start until `time`: equivalent to an impulse half way.
 void push_back(const FlightSpan& span, const RestingContact& h, double time)
 {
     if (h.solved == none)
@@ -29,7 +31,7 @@ void push_back(const FlightSpan& span, const RestingContact& h, double time)
     const StateConstants& c = span.constants_of(h.solved);
     const Vec2 impulse = static_cast<float>(h.start - time) * (h.force * h.normal + h.friction * perp(h.normal));
     if (Flier* other = span.flier_at(h.solved))
-    { // it has taken off since
+    { // the other body has taken off since
         other->vx += other->inverse_mass_x * static_cast<double>(impulse.x);
         other->vy += other->inverse_mass_y * static_cast<double>(impulse.y);
         s.velocity += {c.inverse_mass.x * impulse.x, c.inverse_mass.y * impulse.y};

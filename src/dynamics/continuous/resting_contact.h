@@ -6,10 +6,10 @@
 
 namespace carom::internal {
 
-/// Changes the velocity of a body that the solver has already moved to the end of the sub-step, as of `left` before that.
+/// Changes the velocity of a body that the solver has already moved to the end of the sub-step, `left` seconds before that end.
 void correct_state(const FlightSpan& span, std::int32_t state, double left, double dvx, double dvy, double dw);
 
-/// Ends the flier's holds at a time: what they pushed against, of the solver's bodies, gets its share. The accelerations are free again.
+/// Ends the flier's resting contacts at a time: solver-owned bodies that it pressed get their impulses. The accelerations are free again.
 void release_resting_contacts(const FlightSpan& span, Flier& f, double time);
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
-// A body in the solver's hands that is struck hard in a step may go farther than the contacts it was given cover. Its core, a circle of half the
-// inscribed radius, is then swept along the way it went; at the first static shape it stops. The velocity stays, so that the next step,
-// which sees the wall, bounces it; the rest of this step's time is lost.
+// A solver-owned body that is struck hard in a step may move farther than its contacts cover. Its core, a circle of half the inscribed
+// radius, is then swept along its displacement and stops at the first static shape. The velocity is kept, so that the next step, which sees
+// the wall, resolves the bounce; the rest of this step's time is lost.
 
 #include "dynamics/continuous/safety_sweep.h"
 
@@ -19,7 +19,7 @@ namespace carom::internal {
 namespace {
 
 constexpr int most_passes = 4;
-constexpr double nearly_all = 0.999; // of a way
+constexpr double nearly_all = 0.999; // of a displacement
 
 struct Core
 {
@@ -47,7 +47,7 @@ FloatBox box_around(Position start, double radius, double dx, double dy)
                           start.x + std::max(dx, 0.0) + radius, start.y + std::max(dy, 0.0) + radius);
 }
 
-// The part of a way that the core of a shape can go before it meets a wall.
+// The part of a displacement that the core of a shape can move before it meets a wall.
 double free_part(const StepContext& ctx, int shape, const Core& core, Position start, Position displacement)
 {
     const SceneState& state = ctx.state;
@@ -77,7 +77,7 @@ double free_part(const StepContext& ctx, int shape, const Core& core, Position s
     return part;
 }
 
-// Most bodies go where nothing rests, and so do their neighbours: of eight the first who asks looks for all of them.
+// Most bodies move where nothing rests, and so do their neighbors: the first query in a block of eight answers for all of them.
 bool neighbours_meet_nothing(const StepContext& ctx, int body, const FloatBox& box)
 {
     const BroadPhase& broad_phase = ctx.state.broad_phase;
@@ -92,7 +92,7 @@ bool neighbours_meet_nothing(const StepContext& ctx, int body, const FloatBox& b
     const std::atomic_ref surroundings(ctx.scratch.flight.surroundings[static_cast<std::size_t>(block)]);
     Surroundings known = surroundings.load(std::memory_order_relaxed);
     if (known == Surroundings::Unknown)
-    { // others may look at the same time, and find the same
+    { // other workers may query at the same time, with the same result
         const bool clear = broad_phase.query(Layer::Resting, around, [](int) { return false; });
         known = clear ? Surroundings::Clear : Surroundings::Taken;
         surroundings.store(known, std::memory_order_relaxed);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies in flight, and what the safety sweep knows.
+// Scratch memory of flight and of the safety sweep.
 
 #include "dynamics/continuous/flier.h"
 
@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// What rests around eight neighbours and their ways, see safety_sweep.cpp.
+/// Whether anything rests around a block of eight neighbors and their displacements, see safety_sweep.cpp.
 enum class Surroundings : std::uint8_t
 {
     Unknown,
@@ -20,10 +20,10 @@ enum class Surroundings : std::uint8_t
 struct FlightWorkspace
 {
     std::vector<Flier> fliers;
-    std::vector<double> event_times; ///< of each flier, side by side: the search for the earliest looks at nothing else
+    std::vector<double> event_times; ///< by flier, contiguous: the search for the earliest event reads nothing else
     std::vector<std::int32_t> flier_of_state;
-    std::vector<std::int32_t> versions;     ///< of states: counts changes of their paths within a sub-step
-    std::vector<Surroundings> surroundings; ///< of each block of the moving layer
+    std::vector<std::int32_t> versions;     ///< by state: counts changes of its path within a sub-step
+    std::vector<Surroundings> surroundings; ///< by block of the moving layer
 };
 
 } // namespace carom::internal

@@ -1,4 +1,4 @@
-// Stage 7, events: sorted spans, then callbacks from copies of the events, so that callbacks may change anything.
+// Stage 7, events: sorts the spans, then runs the callbacks on copies of the events, so that callbacks may change anything.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
@@ -22,14 +22,14 @@ std::pair<ShapeId, ShapeId> shapes_of(const Event& event)
 
 std::pair<ShapeId, ShapeId> shapes_of(const TriggerEvent& event) { return {event.trigger, event.visitor}; }
 
-// Bits in the order of the values.
+// Bits that compare as the values do.
 std::uint32_t ordered_bits(float x)
 {
     const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f); // no -0
     return x < 0 ? ~bits : bits | 1u << 31;
 }
 
-// In one step a slot stands for one shape.
+// Slots suffice: in one step a slot stands for one shape.
 template <class Event>
 EventKey key_of(const Event& event, std::size_t place)
 {
@@ -37,7 +37,7 @@ EventKey key_of(const Event& event, std::size_t place)
     return {std::uint64_t{ordered_bits(event.time)} << 32 | first.slot, std::uint64_t{second.slot} << 32 | place};
 }
 
-// Each to the place where its key has come to, round by round: keys say from where.
+// Permutes the events into the order of the keys, cycle by cycle. A key contains the index that its event comes from.
 template <class Event>
 void move_to_keys(std::vector<Event>& events, std::vector<EventKey>& keys)
 {
@@ -58,7 +58,7 @@ void move_to_keys(std::vector<Event>& events, std::vector<EventKey>& keys)
     }
 }
 
-// Events are large: their keys are sorted.
+// Events are large, so their keys are sorted instead.
 template <class Event>
 void sort_events(std::vector<Event>& events, std::vector<EventKey>& keys)
 {
@@ -84,7 +84,7 @@ std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, int s
     return slot < scene.callbacks.size() ? scene.callbacks[slot] : nullptr;
 }
 
-// The callbacks of a shape that still lives, held: the callback may replace or destroy them.
+// The callbacks of a shape that is still alive. The returned pointer keeps them, because a callback may replace or destroy them.
 std::shared_ptr<const ShapeCallbacks> callbacks_of(const SceneData& scene, ShapeId id)
 {
     const int slot = slot_of(id);
@@ -106,7 +106,7 @@ void mirror(ContactBeginEvent& event)
     event.normal = -event.normal;
 }
 
-// Swapping the bodies turns normal and tangent around together; the friction impulse along the new tangent on the new b keeps its value.
+// Swapping the bodies reverses normal and tangent together; the friction impulse along the new tangent on the new b keeps its value.
 void mirror(ImpactEvent& event)
 {
     turn_around(event);
@@ -185,7 +185,7 @@ void publish_events(StepContext& ctx)
             sort_events(events.enters, of_others);
             sort_events(events.exits, of_others);
         });
-    // What user verbs ended between the steps comes first, in the order in which it happened.
+    // Events of contacts that user calls ended between the steps come first, in the order in which they happened.
     take_pending(ctx.scene.pending.ends, events.ends);
     take_pending(ctx.scene.pending.exits, events.exits);
 }

@@ -1,6 +1,6 @@
-// Stage 4, islands: first who flies, what joints hold (joint_edges.cpp) and who is solved together (island_graph.cpp), then all that each island needs side by side
-// (island_layout.cpp). Where nothing has changed since the last step, and nothing flies, everyone stays in place (cached_graph.cpp), and so do constraints (cached_constraints.cpp)
-// and hinges (WideKernels::follow_joints).
+// Stage 4, islands: first the bodies that fly, the joint edges (joint_edges.cpp) and the islands (island_graph.cpp), then the arrays of all islands side by
+// side (island_layout.cpp). Where nothing has changed since the last step and nothing flies, the cached graph is reused (cached_graph.cpp), and so are
+// constraints (cached_constraints.cpp) and hinges (WideKernels::follow_joints).
 
 #include "dynamics/islands/island_graph.h"
 #include "dynamics/islands/joint_edges.h"

@@ -1,5 +1,4 @@
-// Links stand in the order of the awake contacts, but for those with pieces of chains and with what sleeps: others have more to say about these, and they come
-// behind.
+// Contact edges are in the order of the awake contacts. Edges of chain pieces and of sleeping bodies come last, because other contacts may still affect them.
 
 #include "dynamics/islands/contact_edges.h"
 
@@ -22,13 +21,13 @@ namespace {
 
 constexpr std::size_t parts_joined_at_once = 8;
 
-// Who bears a load matters to rows and heaps only.
+// Whether an edge bears a load matters only to constraints outside of lanes and to islands with soft joints.
 bool is_same(const ContactEdge& a, const ContactEdge& b)
 {
     return a.contact == b.contact && a.a == b.a && a.b == b.b && ((a.flags ^ b.flags) & ~edge_flag::bears) == 0;
 }
 
-// A walk over contacts. Copies, not references: to a compiler every store might change where vectors are.
+// A walk over contacts. It copies pointers: to a compiler, every store might change the vectors behind references.
 class ContactWalk
 {
 public:
@@ -39,7 +38,7 @@ public:
           m_old_end(some.edges.data() + some.to_compare), m_stay(some.stay), m_touching(some.touching)
     {}
 
-    // Links it where it takes part in the step. Whom it loads does not fly.
+    // Adds an edge where the contact takes part in the step. A body that it loads does not fly.
     CAROM_INLINE void visit(std::int32_t index)
     {
         Contact& contact = m_contacts[index];
@@ -81,7 +80,7 @@ private:
                             contact.color);
     }
 
-    // Filled where it stands: a copy would wait for its bytes.
+    // Filled in place: a copy would stall until its separate stores are complete.
     void edge(std::int32_t contact, std::int32_t a, std::int32_t b, std::uint16_t flags)
     {
         ContactEdge& l = *m_next;
@@ -95,7 +94,7 @@ private:
         ++m_next;
     }
 
-    // Others may do so as well. The last mark is nobody's: a branch here would be guessed wrong.
+    // Atomic: several threads may mark a body. The last mark is a dummy instead of a branch, which would be mispredicted.
     void note_load(std::int32_t place, bool loaded) const
     {
         const std::int32_t marked = loaded && place >= 0 ? place : m_nobody;
@@ -128,7 +127,7 @@ ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
         return;
     }
     add_tasks(1, 1);
-    // Links of the last step are compared with these, and give their place to them.
+    // Edges of the last step are compared with the new ones and overwritten by them.
     EdgesOfTask& all = edges_of(0);
     all.edges.swap(scratch.graph.edges);
     all.stay = scratch.cached_graph.are_plain;
@@ -136,7 +135,7 @@ ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
     set_size(all.edges, std::max(all.edges.size(), ctx.state.awake_contacts.size()));
 }
 
-// That have asked nothing yet.
+// Adds tasks that have found no edges yet.
 void ContactEdges::add_tasks(std::size_t contacts, std::size_t contacts_to_a_task)
 {
     std::vector<EdgesOfTask>& all = m_ctx.scratch.graph.edges_of_task;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which contacts take part in a step. Each is asked by the task that has updated it, while it is in the cache.
+// Contact edges: the contacts that take part in a step. The task that has updated a contact examines it next, while it is in the cache.
 
 #include "dynamics/step_context.h"
 
@@ -14,16 +14,16 @@ namespace carom::internal {
 class ContactEdges
 {
 public:
-    /// For tasks that update so many of the awake contacts each.
+    /// Each task updates contacts_to_a_task of the awake contacts.
     ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task);
 
-    /// By a task, of its contacts first ... last. Those of whose news others may have more to say are put into `later`.
+    /// Called by a task for its contacts first ... last. Contacts that other contacts may still affect are put into `later`.
     void ask(std::size_t first, std::size_t last, std::vector<std::int32_t>& later);
 
-    /// After all tasks: of the latter, and of those that have woken meanwhile. Their links come behind.
+    /// Called after all tasks, for the contacts that they have put off and for those that have woken meanwhile. Their edges come last.
     void ask_later(std::span<const std::int32_t> contacts);
 
-    /// Fills Scratch::graph.links, and says whether they are those of the last step.
+    /// Fills Scratch::graph.edges and determines whether they equal those of the last step.
     void join();
 
 private:
@@ -32,7 +32,7 @@ private:
 
     StepContext& m_ctx;
     std::size_t m_contacts_to_a_task;
-    bool m_alone; ///< one thread puts all of them where they go at once
+    bool m_alone; ///< a single thread writes all edges to their final slots at once
     std::size_t m_tasks = 0;
 };
 

@@ -1,4 +1,4 @@
-// Who may meet in flight beyond the paths that pairs were found with: what is deflected by an impact may go anywhere within its reach.
+// Meetings in flight beyond the paths with which pairs were found: a body deflected by an impact may go anywhere within its reach.
 
 #include "dynamics/islands/flight_meetings.h"
 
@@ -28,8 +28,8 @@ class FlightMeetings
 public:
     explicit FlightMeetings(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
-    // A ball that will hit something may then go anywhere within its reach: whoever else flies there must be in the same island, or the
-    // two would meet in different times. True where islands have become one.
+    // A ball that will hit something may then go anywhere within its reach. Any other flier there must be in the same island, or the two would meet at
+    // different times. True where islands have been merged.
     bool join_deflected()
     {
         find_deflected();
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    // What flies and may be deflected by what it meets on its way; where it may come then, and whose boxes keep their way.
+    // Finds the fliers that may be deflected by something on their paths, the boxes that they may then reach, and the other items of the moving layer.
     void find_deflected()
     {
         scratch.meetings.is_deflected.assign(state.awake_bodies.size(), 0);
@@ -73,7 +73,7 @@ private:
             state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.meetings.keeps_its_way);
     }
 
-    // A struck body may leave as fast as the one that strikes it comes. So each island notes the longest way of its fliers that may still meet something.
+    // A struck body may leave as fast as the striking one arrives. So each island notes the longest displacement of its fliers that may still meet something.
     void find_fastest()
     {
         for (IslandTally& t : scratch.graph.tallies)
@@ -136,7 +136,7 @@ private:
         return false;
     }
 
-    // Islands that meet; notes what else may be struck.
+    // Finds islands that meet, and notes which other bodies may be struck.
     void find_meetings(std::size_t first, std::size_t last, std::vector<std::pair<std::int32_t, std::int32_t>>& meetings) const
     {
         const BoxTree& tree = scratch.meetings.reach_tree;
@@ -146,7 +146,7 @@ private:
             const std::pair islands(scratch.graph.island_of[static_cast<std::size_t>(place)],
                                     scratch.graph.island_of[static_cast<std::size_t>(other)]);
             const bool is_known = !meetings.empty() && meetings.back() == islands;
-            if (islands.second != none && islands.first != islands.second && !is_known) // kinematic bodies have none
+            if (islands.second != none && islands.first != islands.second && !is_known) // kinematic bodies have no island
                 meetings.push_back(islands);
         };
         for (int k = static_cast<int>(first); k < static_cast<int>(last); ++k)
@@ -158,10 +158,10 @@ private:
                 {
                     const std::size_t other = place_of_shape(shape);
                     std::atomic_ref(scratch.graph.may_be_struck[other]).store(1, std::memory_order_relaxed);
-                    if (scratch.meetings.is_deflected[other] == 0) // what no tree holds yet is not chosen
+                    if (scratch.meetings.is_deflected[other] == 0) // an item that no tree holds yet is not chosen
                         note(place, static_cast<std::int32_t>(other));
                 });
-            // of two that are both deflected the first finds the second
+            // If both are deflected, the first finds the second.
             tree.for_each_overlap(
                 k, lanes, tree, [&](int other) { return other < k ? 0 : BoxTree::all_lanes; },
                 [&](int own, int other)
@@ -172,7 +172,7 @@ private:
         }
     }
 
-    // In awake_bodies.
+    // Index in awake_bodies.
     [[nodiscard]] std::size_t place_of_shape(int shape) const
     {
         return static_cast<std::size_t>(state.bodies[state.shapes[shape].body].awake_index);

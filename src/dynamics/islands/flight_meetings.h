@@ -1,10 +1,13 @@
 #pragma once
 
+// Islands whose bodies may meet in flight.
+
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// Joins islands in Scratch::graph.sets whose bodies may meet in flight; fills Scratch::meetings.is_deflected and may_be_struck. True where islands have become one.
+/// Joins islands in Scratch::graph.sets whose bodies may meet in flight. Fills Scratch::meetings.is_deflected and Scratch::graph.may_be_struck. True where
+/// islands have been merged.
 [[nodiscard]] bool join_deflected(StepContext& ctx);
 
 } // namespace carom::internal

@@ -1,17 +1,17 @@
-// Islands are what touches, is joined or may come to touch in this step, through dynamic bodies, joined further where flight paths may meet. An island's kind
-// depends on its content alone, never on threads or the order of other islands.
+// Islands are sets of bodies that touch, are joined or may come to touch in this step, connected through dynamic bodies, and merged further where flight paths
+// may meet. An island's policy depends on its content alone, never on threads or the order of other islands.
 
 #include "dynamics/islands/island_graph.h"
 
 #include "core/grow.h"
 #include "core/task_pool.h"
+#include "dynamics/forces/force_laws.h"
 #include "dynamics/islands/flight_meetings.h"
 #include "dynamics/islands/joint_edges.h"
 #include "dynamics/islands/layout/sort_by_island.h"
 #include "dynamics/islands/subdivisions.h"
 #include "dynamics/islands/tallies.h"
 #include "dynamics/narrowphase/contact_update.h"
-#include "dynamics/solver/force_laws.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/task_sizes.h"
@@ -26,8 +26,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int enough_bodies = 256; // in an island with soft joints, or of bodies that are isolated
-constexpr int most_sets = 4;       // that are linked side by side
+constexpr int enough_bodies = 256; // bodies at which an island with soft joints, or of isolated bodies, is full
+constexpr int most_sets = 4;       // sets that are joined in parallel
 
 // --- what is solved in this step --------------------------------------------------------------------------------------------------
 
@@ -43,7 +43,7 @@ class IslandGraph
 public:
     explicit IslandGraph(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
-    // On all threads if there is enough, each with sets of its own, for links lie all over them; then what the others have found is linked in the first.
+    // With enough edges, several threads join sets of their own, because edges are scattered over all bodies. The other sets are then merged into the first.
     void join_islands()
     {
         const int worth = 1 + static_cast<int>((scratch.graph.edges.size() + scratch.graph.joint_edges.size()) / edges_per_task);
@@ -64,7 +64,7 @@ public:
             const auto bound = [&](int p)
             { return edges.size() * static_cast<std::size_t>(p) / static_cast<std::size_t>(parts); };
             for (const auto& l : std::span(edges).subspan(bound(part), bound(part + 1) - bound(part)))
-                visit(l.a, l.b); // what is not dynamic has no place: it is negative
+                visit(l.a, l.b); // a body that is not dynamic has a negative index
         };
         const auto guess = [&](std::int32_t a, std::int32_t b) { sets.guess(a, b); };
         const auto edge = [&](std::int32_t a, std::int32_t b) { sets.link(a, b, false); };
@@ -77,8 +77,7 @@ public:
         sets.flatten();
     }
 
-    // In a crowd only fast movers fly: the others' contacts are speculative, and a contact more or less does not decide their
-    // way.
+    // In a crowd only fast movers fly: contacts of the other bodies are speculative, and one contact more or less does not decide their paths.
     void keep_crowds_from_flight()
     {
         for (const std::int32_t place : scratch.graph.flying)
@@ -97,7 +96,7 @@ public:
             ++tally_of(scratch, place).fliers;
     }
 
-    // Goes half its size or more in a sub-step, also as its neighbours see it.
+    // True if the body moves by more than half its size in a sub-step, also relative to its neighbors.
     [[nodiscard]] bool is_fast_mover(int body) const
     {
         const float limit = 0.5f * state.sims[static_cast<std::size_t>(body)].size / ctx.h;
@@ -115,7 +114,7 @@ public:
         return true;
     }
 
-    // Who bears a load matters to soft joints.
+    // Only soft joints depend on the number of contacts and of those that bear a load.
     void count_contacts()
     {
         if (!may_have_soft_joints(scratch.graph.joint_edges.size()))
@@ -131,7 +130,8 @@ public:
     }
 
     [[nodiscard]] int body_at(std::int32_t place) const { return state.awake_bodies[static_cast<std::size_t>(place)]; }
-    // Islands with soft joints are solved several at a time: lanes are fuller, and none sees the others. So are isolated bodies, for they are many.
+    // Islands with soft joints are solved several at a time: lanes are fuller, and the islands do not affect each other. Isolated bodies are combined as well,
+    // because they are many.
     void form_islands()
     {
         find_isolated();
@@ -175,7 +175,7 @@ public:
         int bodies = 0;
     };
 
-    // Of what flies.
+    // Isolated bodies among the fliers.
     void find_isolated()
     {
         set_size(scratch.graph.is_isolated, state.awake_bodies.size());
@@ -202,7 +202,7 @@ public:
         return sim.force == Vec2{} && sim.torque == 0 && force_law_of(ctx, body) == nullptr;
     }
 
-    // Pairs without points do not meet on the ways that both set out on; triggers want to see the way.
+    // Pairs without points do not meet on their initial paths. A trigger needs the path of the body.
     [[nodiscard]] bool meets_nothing(int body) const
     {
         for (const int index : contacts_of(state, body))
@@ -214,8 +214,8 @@ public:
         return true;
     }
 
-    // What must be solved together, in the order of its first body; every dynamic body gets its island, and is counted there. Who is first is not asked by a
-    // branch: it would be guessed wrong.
+    // Numbers the islands in the order of their first bodies. Every dynamic body gets its island and is counted there. Branch-free in whether a body is first:
+    // a branch would be mispredicted.
     void number_islands()
     {
         const std::size_t n = state.awake_bodies.size();
@@ -241,7 +241,7 @@ public:
             [&](const IslandRun& run) { tally(scratch, run.island).bodies += run.count; });
     }
 
-    // After islands have become one: those that are left keep their order.
+    // After islands have been merged: the remaining ones keep their order.
     void renumber_islands()
     {
         std::vector<std::int32_t>& numbers = scratch.order;
@@ -261,12 +261,12 @@ public:
         for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
                            [&](std::size_t place)
                            {
-                               std::int32_t& island = scratch.graph.island_of[place]; // kinematic bodies have none
+                               std::int32_t& island = scratch.graph.island_of[place]; // kinematic bodies have no island
                                island = island == none ? none : numbers[static_cast<std::size_t>(island)];
                            });
     }
 
-    // Bodies in flight meet things at their own time; a constraint would stop them early.
+    // A body in flight meets others at its own time; a constraint would stop it early.
     [[nodiscard]] bool gets_constraint(const ContactEdge& l) const
     {
         return l.has(edge_flag::solved) && !in_flight(l.a) && !in_flight(l.b);
@@ -276,7 +276,7 @@ public:
         return place >= 0 && scratch.graph.flight[static_cast<std::size_t>(place)] != solver_owned;
     }
 
-    // On all threads: what follows goes by these alone.
+    // Runs on all threads. The rest of the stage uses only these islands of edges.
     void find_islands_of_edges()
     {
         set_size(scratch.graph.island_of_edge, scratch.graph.edges.size());
@@ -290,7 +290,7 @@ public:
                 {
                     const ContactEdge& l = scratch.graph.edges[i];
                     const std::int32_t island = scratch.graph.island_of_edge[i] = island_of_constraint(l);
-                    const std::int32_t kinematic = std::min(l.a, l.b); // if either is
+                    const std::int32_t kinematic = std::min(l.a, l.b); // if either body is kinematic
                     if (kinematic < none && island != none)
                         meetings.push_back({island, static_cast<std::int32_t>(i), -2 - kinematic});
                 }
@@ -314,7 +314,7 @@ public:
             });
     }
 
-    // By island, and of an island by where they lie in the plane: threads that take parts of an island seldom meet in one body.
+    // By island, and within an island by plane cell: threads that work on parts of an island seldom meet in one body.
     void sort_bodies()
     {
         sort_by_island(
@@ -327,7 +327,7 @@ public:
             });
     }
 
-    // Places in awake_bodies, by counting.
+    // Counting sort of awake indices by plane cell.
     void sort_by_cell()
     {
         std::vector<std::int32_t>& places = scratch.graph.in_plane;
@@ -344,7 +344,7 @@ public:
     }
 
 private:
-    // None where it gets no constraint.
+    // Island of an edge; none where it gets no constraint.
     [[nodiscard]] std::int32_t island_of_constraint(const ContactEdge& l) const
     {
         if (gets_constraint(l))

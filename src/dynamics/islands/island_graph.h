@@ -1,13 +1,14 @@
 #pragma once
 
-// Who is solved together in this step, and what a body does in it: the first half of the islands stage.
+// The island graph: which bodies are solved together and what each does in this step. This is the first half of the islands stage.
 
 #include "dynamics/solver/contact/coloring.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// When all links are known: fills Scratch::solver.islands with how many states and joints each has, solved_bodies and solved_joints in their order, island_of_edge, and who flies.
+/// Called when all edges are known. Fills Scratch::solver.islands with the number of states and joints of each island, solved_bodies and solved_joints in
+/// island order, and island_of_edge. Determines which bodies fly.
 void build_island_graph(StepContext& ctx);
 
 } // namespace carom::internal

@@ -1,5 +1,5 @@
-// What takes part in a step: awake bodies, links of joints between them, and who may fly as far as single bodies and their contacts tell. Links of contacts are
-// found while these are updated (contact_edges.cpp). All that follows in the islands stage goes by these.
+// Bodies and joints that take part in a step: awake bodies, joint edges between them, and the bodies that may fly as far as single bodies and their contacts
+// show. Contact edges are found while contacts are updated (contact_edges.cpp). The rest of the islands stage works on these.
 
 #include "dynamics/islands/joint_edges.h"
 
@@ -22,9 +22,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float limit_rounding = 1e-4f; // rad: flight stops a body that close to its limit
+constexpr float limit_rounding = 1e-4f; // rad: flight stops a body this close to its limit
 
-// Flight keeps a hinge as it is: its two points must be in one place, and its angle within its limits.
+// Flight preserves the state of a hinge: its two anchors must coincide, and its angle must be within its limits.
 bool is_closed(const StepContext& ctx, int index, int body)
 {
     const JointRecord& joint = ctx.state.joints[index];
@@ -52,14 +52,14 @@ public:
         scratch.graph.is_loaded.clear();
         scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hung = false;
         for (const std::int32_t body :
-             scratch.graph.placed) // of what was awake in the last step alone: what never moves costs nothing
+             scratch.graph.placed) // only bodies that were awake in the last step: a body that never moves costs nothing
             scratch.graph.places[static_cast<std::size_t>(body)] = none;
         scratch.graph.places.resize(std::max(scratch.graph.places.size(), static_cast<std::size_t>(state.bodies.capacity())),
                                     none);
         scratch.graph.placed.clear();
     }
 
-    // Those that have woken since it was last called.
+    // Bodies that have woken since the last call.
     void place_bodies()
     {
         const std::size_t first = scratch.graph.placed.size();
@@ -68,7 +68,7 @@ public:
                                     state.awake_bodies.end());
         scratch.graph.flight.resize(count, solver_owned);
         scratch.graph.could_fly.resize(count, solver_owned);
-        scratch.graph.is_loaded.resize(first); // but for nobody's
+        scratch.graph.is_loaded.resize(first); // without the dummy element
         scratch.graph.is_loaded.resize(count + 1);
         for_each_in_chunks(ctx.scene.def.tasks, count - first, bodies_per_task,
                            [&](std::size_t k)
@@ -83,7 +83,7 @@ public:
                            });
     }
 
-    // A body that a contact loads does not fly. No branch asks which do: it would be guessed wrong.
+    // A body that a contact loads does not fly. Branch-free: the branch would be mispredicted.
     void list_fliers()
     {
         set_size(scratch.graph.flying, scratch.graph.flight.size());
@@ -100,7 +100,7 @@ public:
         scratch.graph.flying.resize(count);
     }
 
-    // But for what may fly, they say nothing that a step changes.
+    // A step changes nothing that joint edges depend on, except whether a body may fly.
     void gather_joints()
     {
         CachedGraph& kept = scratch.cached_graph;
@@ -134,7 +134,7 @@ public:
     }
 
 private:
-    // What may turn about the world hangs on one joint alone.
+    // A body that may turn about the world has a single joint.
     [[gnu::always_inline]] void prefetch_hinge_of(std::size_t place) const
     {
         if (place >= state.awake_bodies.size())
@@ -172,7 +172,7 @@ private:
         return kind;
     }
 
-    // One thread alone finds all in one place.
+    // With a single thread, one task finds all joints.
     [[nodiscard]] std::size_t part_of(std::size_t count, std::size_t per_task) const
     {
         return ctx.scene.def.tasks.worker_count > 1 ? per_task : std::max(count, per_task);
@@ -199,7 +199,7 @@ private:
         edge.flies = may_fly(a) || may_fly(b);
     }
 
-    // About a hinge to the world.
+    // True if a jointed body may fly about a hinge to the world.
     [[nodiscard]] bool may_fly(std::int32_t place) const
     {
         return place >= 0 && (scratch.graph.flight[static_cast<std::size_t>(place)] != solver_owned ||
@@ -226,7 +226,7 @@ std::int32_t flight_about_hinge(const SceneState& state, int body)
                         (other == none || state.bodies[other].type == BodyType::Static) && sim.inverse_inertia > 0;
     if (!hinged)
         return solver_owned;
-    // A body that may not move along is held twice: it turns only if the pivot is its center of mass.
+    // A body locked along an axis is held twice: it turns only if the pivot is its center of mass.
     const Vec2 anchor = joint.body_a == body ? joint.anchor_a : joint.anchor_b;
     const bool centered = anchor == sim.local_center;
     return centered || (sim.inverse_mass.x > 0 && sim.inverse_mass.y > 0) ? edge >> 1 : solver_owned;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies that take part in a step, and joints between them.
+// Bodies that take part in a step, and the joint edges between them.
 
 #include "dynamics/solver/contact/coloring.h"
 #include "dynamics/state/contact_store.h"
@@ -8,21 +8,21 @@
 
 namespace carom::internal {
 
-/// Gives bodies that are awake their places as in Link, and says in Scratch::graph.flight who may fly as far as single bodies tell; no contact loads them
-/// yet. Called again after more have woken, for these.
+/// Give awake bodies their indices as in ContactEdge, and note in Scratch::graph.flight which of them may fly as far as a single body shows. Contact loads are
+/// not known yet. place_bodies is called again after more bodies have woken, for these.
 void forget_bodies(StepContext& ctx);
 void place_bodies(StepContext& ctx);
 
-/// When links of contacts are known: whom one loads does not fly.
+/// Called when contact edges are known: a body that a contact loads does not fly.
 void list_fliers(StepContext& ctx);
 
 /// Fills Scratch::graph.joint_edges.
 void gather_joints(StepContext& ctx);
 
-/// Of a body with joints: the hinge to the world that it turns on, which nothing drives, or earthbound.
+/// For a body with joints: the undriven hinge to the world about which it turns, or solver_owned.
 [[nodiscard]] std::int32_t flight_about_hinge(const SceneState& state, int body);
 
-/// How a body may fly: none, freely; or the hinge to the world that it turns on. Else earthbound.
+/// How a body may fly: none, freely; or the hinge to the world about which it turns. Otherwise solver_owned.
 [[nodiscard]] inline std::int32_t flight_of(const SceneState& state, int body)
 {
     const BodyRecord& record = state.bodies[body];
@@ -31,13 +31,13 @@ void gather_joints(StepContext& ctx);
     return record.has_finite_mass ? none : solver_owned;
 }
 
-/// Of a body, as in Link.
+/// Index of a body as in ContactEdge.
 [[nodiscard]] inline std::int32_t place_of(const Scratch& scratch, int body)
 {
     return scratch.graph.places[static_cast<std::size_t>(body)];
 }
 
-/// The contact gets no row in this step.
+/// The contact gets no constraint in this step.
 inline void leave_constraint(SceneState& state, std::int32_t contact)
 {
     forget_impulses(state, contact);

@@ -1,4 +1,4 @@
-// The thresholds by which islands are solved one way or another, and their reasons.
+// Thresholds by which the policy of an island is chosen, and their reasons.
 
 #include "dynamics/islands/policy.h"
 
@@ -12,11 +12,11 @@ namespace carom::internal {
 namespace {
 
 constexpr int enough_soft_joints = 8;
-constexpr float calm_swing = 0.1f; // rad, in a step
+constexpr float calm_swing = 0.1f; // rad per step
 constexpr int edges_to_a_partition = 2048;
-constexpr int edges_to_a_huge_partition = 8192; // their constraints stay in a cache from solving to relaxing
-constexpr int few_partitions = 16;              // their constraints stay in the cache that processors share
-constexpr int most_partitions = plane_cells;    // of the plane
+constexpr int edges_to_a_huge_partition = 8192; // their constraints stay in a cache between solving and relaxation
+constexpr int few_partitions = 16;              // their constraints stay in the shared processor cache
+constexpr int most_partitions = plane_cells;    // at most one to a plane cell
 constexpr int joint_blocks_worth_threads =
     1536; // with fewer, waiting at the end of each color costs more than a second thread gains
 constexpr int blocks_in_caches = 8'192;
@@ -27,8 +27,8 @@ void force(Value& choice, const std::optional<Value>& forced)
     choice = forced.value_or(choice);
 }
 
-// Islands of jointed bodies that lie on something, where for four joints a contact bears a load; and those in which every joint brakes or damps what it holds, while
-// nothing in them turns fast near something that they may meet. None of their joints holds to what does not move.
+// Soft joints suit two kinds of islands: jointed bodies that lie on something, with at least one load-bearing contact to four joints; and islands in which
+// every joint has a brake or damping and nothing turns fast near something that it may meet. In neither does a joint connect to something that does not move.
 bool has_soft_joints(const IslandTally& t, float dt)
 {
     const bool calm = t.subdivisions == 1;
@@ -37,7 +37,7 @@ bool has_soft_joints(const IslandTally& t, float dt)
     return t.joints >= enough_soft_joints && t.bodies <= most_watched_bodies && !t.hangs && t.fliers == 0 && (lies || is_damped);
 }
 
-// Lanes have no room for manifolds that change within the step, for subdivided sub-steps, or for energies.
+// Wide constraints do not support manifolds that change within the step, subdivided sub-steps, or the energies of joints.
 bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
 {
     return policy.soft_joints ||
@@ -54,7 +54,7 @@ IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt
     policy.subdivisions = island.subdivisions;
     policy.free_fall = is_isolated && island.bodies == 1 && island.fliers == 1 && forced.free_fall.value_or(true);
     if (policy.free_fall)
-        return policy; // there may be thousands
+        return policy; // there may be thousands of such islands
     policy.soft_joints = forced.soft_joints.value_or(has_soft_joints(island, dt));
     const bool few = island.bodies <= few_bodies && !policy.soft_joints;
     policy.recomputes_contacts = policy.converges = policy.exact_impacts = few;

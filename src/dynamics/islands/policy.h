@@ -1,7 +1,7 @@
 #pragma once
 
-// How an island is solved. Only policy.cpp decides by an island's size or content; all else asks the choices below by name. They depend on the island alone, never on threads or on other
-// islands. Tests may force any of them.
+// How an island is solved. Only policy.cpp decides by an island's size or content; all other code reads the choices below. They depend on the island alone,
+// never on threads or on other islands. Tests may force any of them.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,50 +10,51 @@
 namespace carom::internal {
 
 inline constexpr int few_bodies =
-    16; ///< as in a break of fifteen balls: beyond it a contact more or less does not decide where a ball goes
-inline constexpr int most_watched_bodies = 64;     ///< whose energy is watched: IslandEnergy has room for so many
-inline constexpr int most_converging_bodies = 32;  ///< IslandSolver has room for the speeds of so many
-inline constexpr int most_direct_rows = 128;       ///< beyond, DirectSolve takes longer than soft rows
-inline constexpr int most_subdivisions = 32;       ///< where a kinematic body or a joint's arm turns
-inline constexpr int most_hinge_subdivisions = 64; ///< where a body on a hinge turns a contact: what it errs by is its own energy
+    16; ///< as in a break of fifteen balls: beyond it, one contact more or less does not decide a ball's path
+inline constexpr int most_watched_bodies = 64;    ///< island size up to which energy is monitored: the capacity of IslandEnergy
+inline constexpr int most_converging_bodies = 32; ///< number of bodies whose speeds IslandSolver can store
+inline constexpr int most_direct_rows = 128;      ///< beyond it, DirectSolve takes longer than soft rows
+inline constexpr int most_subdivisions = 32;      ///< limit where a kinematic body or a joint's arm turns
+inline constexpr int most_hinge_subdivisions =
+    64; ///< limit where a body on a hinge turns a contact: the error becomes its own energy
 
-/// What is known of an island when its policy is chosen.
+/// Data by which the policy of an island is chosen.
 struct IslandTally
 {
-    std::int32_t first = -1; ///< place in awake_bodies of its first body
+    std::int32_t first = -1; ///< index in awake_bodies of its first body
     std::int32_t bodies = 0;
-    std::int32_t unloaded = 0; ///< bodies that no contact loads; they fly unless they are a crowd
+    std::int32_t unloaded = 0; ///< bodies that no contact loads; they fly unless the island is a crowd
     std::int32_t fliers = 0;
     std::int32_t joints = 0;
     std::int32_t contacts = 0;
     std::int32_t bearing = 0;      ///< contacts that bore a load in the last step
-    float swing = 0;               ///< rad/s, of the joints' arms
-    std::int32_t damped = 0;       ///< joints that brake or damp what they hold
-    bool hangs = false;            ///< a joint holds to what does not move
-    std::int32_t subdivisions = 1; ///< of each sub-step, as what turns in it asks for
-    float longest_path = 0;        ///< m in this step, of its fliers that may meet something
+    float swing = 0;               ///< rad/s, greatest angular speed of the joints' arms
+    std::int32_t damped = 0;       ///< joints with a brake or damping
+    bool hangs = false;            ///< a joint connects to the world or to a body that is not dynamic
+    std::int32_t subdivisions = 1; ///< per sub-step, as the rotation of its bodies and arms requires
+    float longest_path = 0;        ///< m in this step, longest displacement of a flier that may meet something
 };
 
 struct IslandPolicy
 {
-    bool free_fall = false;   ///< bodies with nothing near, each by itself: no solver, and many to an island
+    bool free_fall = false;   ///< isolated bodies in free fall: no solver, and many of them in one island
     bool soft_joints = false; ///< joints are soft constraints in lanes, and several such islands are solved as one
     bool recomputes_contacts =
-        false; ///< manifolds are found anew within the step, and pieces of a chain that a body may come to face have constraints
-    bool converges = false; ///< contacts are solved until they agree, in up to 16 passes; else in one
+        false; ///< manifolds are recomputed within the step, and chain pieces that a body may come to face have constraints
+    bool converges = false; ///< contacts are solved until they converge, in up to 16 passes; otherwise in one pass
     bool exact_impacts =
-        false; ///< all that an impact touches reflects at once, and whatever becomes fast takes off; else impacts go two by two
+        false; ///< all contacts of an impact reflect at once, and a body that becomes fast takes off; otherwise impacts are solved in pairs
     bool conserves_energy = false; ///< speeds are held to the energy that loads leave, see IslandEnergy
     bool caches_manifolds =
-        false; ///< manifolds are followed from step to step; and what has been slow for long enough loses its speed
-    bool caches_graph = false;                   ///< where nothing of it has changed, everyone stays in place
-    bool wide_contacts = false;                  ///< contacts are solved eight side by side
-    bool wide_joints = false;                    ///< hinges likewise
-    std::int32_t subdivisions = 1;               ///< of each sub-step
+        false; ///< manifolds are cached from step to step, and bodies that have been slow for long enough lose their speed (rest damping)
+    bool caches_graph = false;                   ///< where nothing in it has changed, all slots stay the same
+    bool wide_contacts = false;                  ///< contacts are solved in wide constraints of eight lanes
+    bool wide_joints = false;                    ///< so are hinges
+    std::int32_t subdivisions = 1;               ///< per sub-step
     std::int32_t direct_rows = most_direct_rows; ///< up to so many rows, joints outside of lanes are solved all at once; 0: never
 };
 
-/// What tests force. A choice that another rules out is not taken, see policy.cpp.
+/// Choices that tests force. A choice that another one rules out is not taken, see policy.cpp.
 struct ForcedPolicy
 {
     std::optional<bool> free_fall{};
@@ -70,32 +71,33 @@ struct ForcedPolicy
     std::optional<std::int32_t> direct_rows{};
 };
 
-/// In a crowd only fast movers fly: the contacts of the others are speculative, and one more or less does not decide their path.
+/// In a crowd only fast movers fly: contacts of the other bodies are speculative, and one contact more or less does not decide their paths.
 [[nodiscard]] inline bool is_crowd(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
 
-/// Do contacts, and do joints, whose normals and arms turn subdivide the sub-steps of an island of so many bodies?
+/// Do contacts whose normals turn, and joints whose arms turn, subdivide the sub-steps of an island of so many bodies?
 [[nodiscard]] inline bool follows_turning_contacts(int bodies) { return bodies <= few_bodies; }
 [[nodiscard]] inline bool follows_swinging_joints(int bodies) { return bodies <= most_watched_bodies; }
 
-/// With fewer joints in the scene none is soft.
+/// With fewer joints in the scene, no joint is soft.
 [[nodiscard]] bool may_have_soft_joints(std::size_t joints_of_scene);
 
-/// is_isolated: its first body has nothing near. dt: of the step, s.
+/// is_isolated: the island's first body has nothing near. dt: the time step, s.
 [[nodiscard]] IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced);
 
-/// Are all of an island's joints solved at once, with rows for what they do along their axes?
+/// Are all joints of an island solved at once, including the rows along their axes?
 [[nodiscard]] bool solves_all_joints_directly(const IslandPolicy& policy, int rows, bool some_in_lanes);
 
-/// Spatial partitions that threads solve side by side; 0: the island is not cut. Whatever the number of threads, for the order in which constraints are solved depends on it.
+/// Number of spatial partitions that threads solve in parallel; 0: the island is not partitioned. It does not depend on the number of threads, because it
+/// determines the order in which constraints are solved.
 [[nodiscard]] int partitions_of(const IslandPolicy& policy, int bodies, int edges);
 
-/// More than stay in the cache that processors share. Something always flies in so large an island, and its partitions relax before that flies, too.
+/// More partitions than stay in the shared processor cache. An island this large always has fliers, and its partitions relax before the fliers move, too.
 [[nodiscard]] bool are_many(int partitions);
 
-/// Do all threads solve it together?
+/// Do all threads solve the island together?
 [[nodiscard]] bool is_worth_all_threads(int partitions, int wide_joint_blocks);
 
-/// Do its constraints come from memory, so that they should be prefetched? blocks: of wide contacts.
+/// Do the island's constraints come from memory, so that they should be prefetched? blocks: number of wide contact constraints.
 [[nodiscard]] bool is_beyond_caches(int blocks);
 
 } // namespace carom::internal

@@ -1,13 +1,13 @@
-// Into how many parts the sub-steps of an island are subdivided, for what turns in it.
+// Number of subdivisions of an island's sub-steps, from the rotation of its bodies.
 
 #include "dynamics/islands/subdivisions.h"
 
 #include "core/grow.h"
 #include "core/task_pool.h"
+#include "dynamics/forces/force_laws.h"
 #include "dynamics/islands/joint_edges.h"
 #include "dynamics/islands/tallies.h"
 #include "dynamics/narrowphase/contact_update.h"
-#include "dynamics/solver/force_laws.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/task_sizes.h"
@@ -21,14 +21,14 @@ namespace carom::internal {
 namespace {
 
 constexpr float most_turn_of_normal = 0.02f; // rad
-constexpr float most_swing = 0.25f;          // rad, of a joint's arm
+constexpr float most_swing = 0.25f;          // rad, by which a joint's arm turns
 
 class Subdivisions
 {
 public:
     explicit Subdivisions(StepContext& context) : ctx(context), state(context.state), scratch(context.scratch) {}
 
-    // Sub-steps are subdivided so that normals that turn with a bar or a bat, and arms of joints, turn by little in each.
+    // Sub-steps are subdivided so that normals that turn with a bar or a bat, and arms of joints, turn by a small angle in each.
     void find_subdivisions()
     {
         const bool may_turn = (scratch.graph.has_kinematic || state.joints.count() > 0) &&
@@ -57,10 +57,10 @@ private:
         return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
     }
 
-    // Of a small island.
+    // Follows contacts of bodies in small islands.
     void follow_contacts_of(std::int32_t place)
     {
-        const std::int32_t island = scratch.graph.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have none
+        const std::int32_t island = scratch.graph.island_of[static_cast<std::size_t>(place)]; // kinematic bodies have no island
         if (island == none || !follows_turning_contacts(tally(scratch, island).bodies))
             return;
         for (const int index : contacts_of(state, body_at(place)))
@@ -71,7 +71,7 @@ private:
         }
     }
 
-    // Others may do so as well: the most that anyone wants.
+    // Atomic maximum: several threads may raise it.
     void follow_contact(const Contact& contact, std::int32_t island)
     {
         const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
@@ -84,7 +84,7 @@ private:
         }
     }
 
-    // Of joints in small islands, on all threads.
+    // Swing rates of joints in small islands, on all threads.
     void find_swings()
     {
         set_size(scratch.graph.swings, scratch.graph.joint_edges.size());
@@ -98,7 +98,7 @@ private:
                            });
     }
 
-    // How fast a joint's arms turn, in rad/s.
+    // Angular speed of a joint's arms, in rad/s.
     [[nodiscard]] float swing_rate(const JointRecord& joint) const
     {
         if (joint.kind == JointType::Spring)
@@ -112,8 +112,8 @@ private:
         return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
     }
 
-    // Of the normal, in rad/s, where a driven body turns: with it, and around a corner of it that a ball may slide over. What turns freely
-    // is followed exactly in flight.
+    // Angular speed of the normal, in rad/s, where a driven body turns: the normal turns with the body, and around a corner of it over which a ball may slide.
+    // A freely turning body is followed exactly in flight.
     [[nodiscard]] float turn_rate(const Contact& contact) const
     {
         const float driven = std::max(driven_spin(contact.body_a), driven_spin(contact.body_b));

@@ -1,10 +1,12 @@
 #pragma once
 
+// Number of subdivisions of an island's sub-steps.
+
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// Of each tally: normals of contacts that turn with a bar or a bat, and arms of joints, turn by little in each sub-step. Also counts joints.
+/// Finds the subdivisions of each tally, so that normals of contacts and arms of joints turn by a small angle in each. Also counts joints.
 void find_subdivisions(StepContext& ctx);
 
 } // namespace carom::internal

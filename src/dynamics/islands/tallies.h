@@ -1,6 +1,6 @@
 #pragma once
 
-// What is counted of islands while the graph is built.
+// Tallies of islands, counted while the graph is built.
 
 #include "dynamics/step_context.h"
 
@@ -10,12 +10,12 @@ namespace carom::internal {
 {
     return scratch.graph.tallies[static_cast<std::size_t>(island)];
 }
-/// Of the body at a place in awake_bodies.
+/// Tally of the island of the body at an index in awake_bodies.
 [[nodiscard]] inline IslandTally& tally_of(Scratch& scratch, std::int32_t place)
 {
     return tally(scratch, scratch.graph.island_of[static_cast<std::size_t>(place)]);
 }
-/// Of a contact or a joint. One of its bodies is dynamic.
+/// Island of a contact edge or a joint edge. At least one of its bodies is dynamic.
 template <class AnyEdge>
 [[nodiscard]] std::int32_t island_of_edge(const Scratch& scratch, const AnyEdge& edge)
 {

@@ -14,30 +14,30 @@
 
 namespace carom::internal {
 
-/// Of a link; the first three as in contact_flag.
+/// Flags of a contact edge; the first three are as in contact_flag.
 namespace edge_flag {
-inline constexpr std::uint32_t touching = contact_flag::touching; ///< else it may touch within the step
+inline constexpr std::uint32_t touching = contact_flag::touching; ///< otherwise it may touch within the step
 inline constexpr std::uint32_t round = contact_flag::round;
 inline constexpr std::uint32_t bears = contact_flag::loaded; ///< bore a load in the last step
-inline constexpr std::uint32_t solved = 1;                   ///< gets a constraint, unless a body flies
+inline constexpr std::uint32_t solved = 1;                   ///< gets a constraint unless one of its bodies flies
 inline constexpr std::uint32_t plain = 4;                    ///< neither rolling resistance nor surface speed
 inline constexpr std::uint32_t in_lane = 8;
 inline constexpr std::uint32_t all = 63;
 } // namespace edge_flag
 
-/// Contact of a dynamic body, or of two, that takes part in a step. Four to a cache line.
+/// Contact that takes part in a step, between two bodies of which at least one is dynamic. Four to a cache line.
 struct ContactEdge
 {
     std::int32_t contact = none;
-    std::int32_t a = none; ///< place in awake_bodies of the body, if it is dynamic; none: it rests; -2 - place: kinematic
+    std::int32_t a = none; ///< index in awake_bodies if the body is dynamic; none: it rests; -2 - index: kinematic
     std::int32_t b = none;
-    // Not bytes: to a compiler what is written as bytes may be anything, and all is read again after it.
+    // Not bytes: a store through a byte type may alias anything, and the compiler would reload everything after it.
     std::uint16_t flags = 0;  ///< see packed_flags
-    std::uint16_t bucket = 0; ///< where lanes are given out, by color, points and place; of constraints the color
+    std::uint16_t bucket = 0; ///< in a lane: bucket by partition, color and number of points; otherwise the color
 
     [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
     [[nodiscard]] int points() const { return flags >> 6 & 3; }
-    [[nodiscard]] int color() const { return (flags >> 8) - 1; } ///< that it has from the last step, then of its constraint
+    [[nodiscard]] int color() const { return (flags >> 8) - 1; } ///< color from the last step, then that of its constraint
 };
 static_assert(sizeof(ContactEdge) == 16);
 
@@ -48,90 +48,90 @@ static_assert(sizeof(ContactEdge) == 16);
                                       static_cast<std::uint32_t>(color + 1) << 8);
 }
 
-/// What a task has found.
+/// Contact edges that a task has found.
 struct EdgesOfTask
 {
-    std::vector<ContactEdge> edges; ///< room for more than there are
+    std::vector<ContactEdge> edges; ///< size may exceed count
     std::size_t count = 0;
-    std::size_t first = 0;      ///< where they go among all
-    std::size_t to_compare = 0; ///< so many are of the last step, but for those that have been found
+    std::size_t first = 0;      ///< index of its first edge among all
+    std::size_t to_compare = 0; ///< the first so many entries are of the last step, until they are overwritten
     int touching = 0;
-    bool stay = false; ///< they are what they were
+    bool stay = false; ///< its edges are those of the last step
 };
 
-inline constexpr std::int32_t solver_owned = -2; ///< in Scratch::flight
+inline constexpr std::int32_t solver_owned = -2; ///< in GraphWorkspace::flight: the body does not fly
 
-/// Joint of a dynamic body, or of two, that takes part in a step.
+/// Joint that takes part in a step, between two bodies of which at least one is dynamic.
 struct JointEdge
 {
     std::int32_t joint = none;
     std::int32_t a = none; ///< as in ContactEdge
     std::int32_t b = none;
-    bool hinge = false;  ///< of a kind that goes in lanes
-    bool holds = false;  ///< and does nothing else
-    bool damped = false; ///< it brakes or damps
-    bool binds = false;  ///< it does something about an angle or a length beside
-    bool flies = false;  ///< one of its bodies may fly about it
+    bool hinge = false;  ///< of a kind that can be solved in lanes
+    bool holds = false;  ///< holds its bodies and has no other effect
+    bool damped = false; ///< it has a brake or damping
+    bool binds = false;  ///< it also acts on an angle or a length
+    bool flies = false;  ///< one of its bodies may fly about its hinge
 
     [[nodiscard]] bool operator==(const JointEdge&) const = default;
 };
 
-/// An island has a link with a kinematic body.
+/// Contact edge between an island and a kinematic body.
 struct KinematicMeeting
 {
     std::int32_t island;
     std::int32_t edge;
-    std::int32_t place; ///< of the body, in awake_bodies
+    std::int32_t place; ///< index of the body in awake_bodies
 };
 
-/// Where what may be deflected may come, and its leaves.
+/// Boxes that bodies may reach if they are deflected, and the leaves of these bodies.
 struct SomeReaches
 {
     std::vector<TreeLeaf> reaches;
     std::vector<std::int32_t> shapes;
 };
 
-/// Of flight_meetings.cpp.
+/// Memory of flight_meetings.cpp.
 struct MeetingsWorkspace
 {
-    std::vector<std::uint8_t> may_meet;     ///< of what flies far: something that it touches or comes near
-    std::vector<std::uint8_t> is_deflected; ///< what flies may be, by place in awake_bodies
-    std::vector<TreeLeaf> reaches;          ///< of these
+    std::vector<std::uint8_t> may_meet;     ///< whether a flier with a long path touches or comes near something, by awake index
+    std::vector<std::uint8_t> is_deflected; ///< whether a flier may be deflected, by awake index
+    std::vector<TreeLeaf> reaches;          ///< boxes that these may reach
     std::vector<SomeReaches> reaches_of_task;
     BoxTree reach_tree;
-    std::vector<std::uint8_t> keeps_its_way; ///< what is not deflected, in the blocks of the moving layer
-    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< islands that meet
+    std::vector<std::uint8_t> keeps_its_way; ///< items that are not deflected, in the blocks of the moving layer
+    std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< pairs of islands that meet
 };
 
 struct GraphWorkspace
 {
-    std::vector<std::int32_t> places;         ///< by body slot, as in Link
-    std::vector<std::int32_t> placed;         ///< bodies that have one
-    std::vector<float> swings;                ///< of joint_edges, see IslandTally::swing
-    UnionFind sets;                           ///< of what hangs together, by place in awake_bodies; then of islands that meet
-    std::vector<UnionFind> more_sets;         ///< of parts of the links
-    std::vector<std::int32_t> island_of;      ///< by place in awake_bodies
-    std::vector<std::int32_t> island_of_edge; ///< none: it gets no constraint
-    std::vector<std::int32_t> flight;         ///< by place in awake_bodies: earthbound, none (free), or the hinge it turns on
-    std::vector<std::int32_t> flying;         ///< places where that is not earthbound
-    std::vector<std::int32_t> could_fly;      ///< the same of what could fly but bears or is borne by something
-    std::vector<std::uint8_t> is_loaded;      ///< by a contact, by place in awake_bodies; the last is nobody's
-    std::vector<std::uint8_t> is_isolated;    ///< of what flies, by place in awake_bodies: nothing is near
-    std::vector<std::uint8_t> may_be_struck;  ///< by what flies, by place in awake_bodies
+    std::vector<std::int32_t> places;         ///< awake indices as in ContactEdge, by body slot
+    std::vector<std::int32_t> placed;         ///< bodies that have an index in places
+    std::vector<float> swings;                ///< by index in joint_edges, see IslandTally::swing
+    UnionFind sets;                           ///< connected bodies, by awake index; then islands that meet
+    std::vector<UnionFind> more_sets;         ///< for further parts of the edges
+    std::vector<std::int32_t> island_of;      ///< by awake index
+    std::vector<std::int32_t> island_of_edge; ///< by contact edge; none: it gets no constraint
+    std::vector<std::int32_t> flight;         ///< by awake index: solver_owned, none (free), or the hinge about which it turns
+    std::vector<std::int32_t> flying;         ///< awake indices of the bodies that are not solver_owned
+    std::vector<std::int32_t> could_fly;      ///< the same for a body that could fly but bears a load or is borne
+    std::vector<std::uint8_t> is_loaded;      ///< whether a contact loads the body, by awake index; the last element is a dummy
+    std::vector<std::uint8_t> is_isolated;    ///< whether a flier has nothing near, by awake index
+    std::vector<std::uint8_t> may_be_struck;  ///< whether a flier may strike the body, by awake index
     bool has_kinematic = false;               ///< a kinematic body is awake
-    bool has_hung = false;                    ///< of what may fly, something hangs on a hinge
-    bool has_uneven = false;                  ///< a body that moves more easily along one axis is awake
+    bool has_hung = false;                    ///< a body that may fly about a hinge is awake
+    bool has_uneven = false;                  ///< an awake body is locked along one axis of the plane only
     std::vector<EdgesOfTask> edges_of_task;
     std::vector<ContactEdge> edges;
     std::vector<std::vector<JointEdge>> joints_of_task;
     std::vector<JointEdge> joint_edges;
     std::vector<IslandTally> tallies;
-    std::vector<std::int32_t> in_plane; ///< places in awake_bodies, in the order of the plane
-    std::size_t fullest_cell = 0; ///< bodies in the plane cell that has most, of what moves in this step; 0 where nobody asked
-    std::vector<JointEdge> solved_joints;    ///< by island
-    std::vector<std::int32_t> solved_bodies; ///< places in awake_bodies, by island
+    std::vector<std::int32_t> in_plane;   ///< awake indices, sorted by plane cell
+    std::size_t fullest_cell = 0;         ///< bodies in the fullest plane cell, of those awake in this step; 0 where not counted
+    std::vector<JointEdge> solved_joints; ///< by island
+    std::vector<std::int32_t> solved_bodies; ///< awake indices, by island
     std::vector<std::vector<KinematicMeeting>> meetings_with_kinematic_of_task;
-    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by island, then by link
+    std::vector<KinematicMeeting> meetings_with_kinematic; ///< by island, then by edge
 };
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
-// What is walked together is kept together: every 32nd step contacts move, among the slots that they have, to the order in which their lanes were
-// last filled: island by island, colour by colour, and by body within a colour. Walks over contacts then go straight through memory. Colours are chosen
-// in that order as well, so that they stay what they are. Bodies stay where they are, for their records are walked in the order of their slots.
+// Reordering for locality: every 32nd step, contacts move among the slots that they have to the order in which their lanes were last filled: by island, by
+// color, and by body within a color. Passes over contacts then go straight through memory. Colors are chosen in that order as well, so that they remain the
+// same. Bodies do not move, because their records are visited in the order of their slots.
 
 #include "core/grow.h"
 #include "core/index.h"
@@ -24,9 +24,9 @@ namespace {
 
 constexpr std::uint64_t steps_between = 32;
 constexpr std::size_t fewest_cells = 32;
-constexpr std::size_t few_of = 8;     // less than one of so many
-constexpr std::size_t full_of = 4;    // a cell that holds more than one of so many is too full
-constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyhow
+constexpr std::size_t few_of = 8;     // fewer than one in so many
+constexpr std::size_t full_of = 4;    // a cell with more than one in so many bodies is too full
+constexpr std::size_t worth_it = 512; // contacts; fewer stay in the cache anyway
 
 void sort_bodies(SceneState& state)
 {
@@ -37,7 +37,7 @@ void sort_bodies(SceneState& state)
         state.bodies[state.awake_bodies[i]].awake_index = static_cast<std::int32_t>(i);
 }
 
-// Powers of two. As long as they have from half to twice the bodies that they should have, as many as there are.
+// Powers of two. The number of cells stays the same while they have from half to twice the bodies that they should have.
 std::size_t cells_for(std::size_t bodies, std::size_t cells_now)
 {
     const std::size_t each = bodies / cells_now;
@@ -46,8 +46,8 @@ std::size_t cells_for(std::size_t bodies, std::size_t cells_now)
     return std::clamp(std::bit_floor(bodies / bodies_to_a_cell), fewest_cells, std::size_t{plane_cells});
 }
 
-// Into 32 cells, or more of what no cache holds, along a Hilbert curve through where they are; where few would change, all stay in theirs, for contacts are
-// solved in another order then, and what is coming to rest is stirred by that.
+// Partitions the bodies into 32 cells, or more if there are more than a cache holds, along a Hilbert curve through their positions. If few bodies would change
+// cells, all stay in theirs: a change makes the solver visit contacts in another order, and that disturbs bodies that are coming to rest.
 void part_bodies(StepContext& ctx)
 {
     SceneState& state = ctx.state;
@@ -111,7 +111,7 @@ public:
         return true;
     }
 
-    // Into the slots that these contacts have among them, the least first.
+    // Moves the contacts into the slots that they have among them, the lowest first.
     void apply()
     {
         std::vector<std::int32_t>& slots = m_scratch.order;
@@ -134,7 +134,7 @@ public:
     }
 
 private:
-    // Places in awake_bodies, by contact; negative: it is not awake.
+    // The awake index of a body, by contact; negative: the contact is not awake, or has been placed.
     void find_bodies()
     {
         m_bodies.assign(static_cast<std::size_t>(m_state.contacts.capacity()), none);
@@ -148,7 +148,7 @@ private:
                            });
     }
 
-    // Of links that are solved one colour after the other.
+    // Places contact edges that are solved one color after the other.
     void place(std::span<const std::int32_t> edges)
     {
         m_last = {};
@@ -176,13 +176,13 @@ private:
         m_order.push_back({m_color, contact});
     }
 
-    // Of what has been placed.
+    // The body of a contact that has been placed.
     [[nodiscard]] std::uint32_t body_of(const ContactRank& p) const
     {
         return static_cast<std::uint32_t>(~m_bodies[as_index(p.contact)]);
     }
 
-    // By counting; those with the same key stay in order.
+    // A counting sort; contacts with the same key stay in order.
     template <class Key>
     void sort_by(std::size_t keys, const Key& key)
     {
@@ -198,7 +198,7 @@ private:
         m_order.swap(m_sorted);
     }
 
-    // Bodies that have just fallen asleep have no place: whatever lanes their contacts had, they go by their slots.
+    // Bodies that have just fallen asleep have no awake index. Their contacts are ordered by slot, whatever lanes they had.
     void order_equals()
     {
         for (auto first = m_order.begin(); first != m_order.end();)
@@ -211,10 +211,10 @@ private:
         }
     }
 
-    // With what they name renamed.
+    // Moves the contacts, and renames the edges and pairs that refer to them.
     void move_contacts(const std::vector<std::int32_t>& slots)
     {
-        std::ranges::fill(m_state.colors, 0); // chosen in the new order
+        std::ranges::fill(m_state.colors, 0); // they are chosen in the new order
         find_cycles(slots);
         run_tasks(m_tasks, 3,
                   [&](int task)
@@ -248,7 +248,7 @@ private:
                    });
     }
 
-    // First a later contact, then what it names.
+    // Prefetches a later contact first, then what it refers to.
     [[gnu::always_inline]] void prefetch_named(std::span<const std::int32_t> later) const
     {
         if (later.size() > 2 * prefetch_distance)
@@ -261,7 +261,7 @@ private:
         prefetch_line(m_state.box_pairs.data() + std::max(contact.pair, 0));
     }
 
-    // What goes to another's slot, that to a third's, and so on until the first slot is free to be taken: one after the other, the first marked.
+    // Lists the cycles of the permutation, one after the other. A contact moves to the next slot of its cycle, the last one to the first slot, which is marked.
     void find_cycles(const std::vector<std::int32_t>& slots)
     {
         std::vector<std::int32_t>& cycles = m_scratch.reordering.move_cycles;
@@ -288,7 +288,7 @@ private:
     static std::int32_t marked(std::int32_t slot) { return ~slot; } // and back
     static std::int32_t plain(std::int32_t slot) { return is_marked(slot) ? marked(slot) : slot; }
 
-    // From the last of each cycle to its first, so that there is always room.
+    // Goes from the last slot of each cycle to its first, so that the slot to move to is always free.
     template <class At>
     void move_items(const At& at) const
     {
@@ -310,7 +310,7 @@ private:
     void rename_others()
     {
         if (static_cast<std::size_t>(m_state.contacts.count()) != m_order.size())
-        { // asleep, or triggers'
+        { // contacts that are asleep or belong to triggers
             for (int i = 0; i < m_state.contacts.capacity(); ++i)
             {
                 const Contact& c = m_state.contacts[i];
@@ -345,11 +345,11 @@ private:
     Scratch& m_scratch;
     std::vector<ContactRank>& m_order;
     std::vector<ContactRank>& m_sorted;
-    std::vector<std::int32_t>& m_bodies;   ///< by contact slot, while the order is found
-    std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, once it is
+    std::vector<std::int32_t>& m_bodies;   ///< by contact slot, while the order is computed
+    std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, afterwards
     const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
-    ContactEdge m_last; ///< placed among those of one island
+    ContactEdge m_last; ///< last contact edge that was placed in the island
 };
 
 } // namespace
@@ -359,7 +359,7 @@ void reorder(StepContext& ctx)
     if (ctx.state.awake_contacts.size() < worth_it)
         return;
     if (ctx.state.step_count % steps_between != 1)
-    { // who has woken since is in no cell of its own
+    { // a body that has woken since is in no cell of its own
         if (ctx.scratch.graph.fullest_cell * full_of > ctx.state.awake_bodies.size())
             part_bodies(ctx);
         return;
@@ -367,13 +367,13 @@ void reorder(StepContext& ctx)
     sort_bodies(ctx.state);
     part_bodies(ctx);
     if (ctx.scratch.cached_graph.constraints_unchanged_for >= steps_between)
-        return; // in the order that they were left in
+        return; // they are still in the order of the last time
     ContactOrder order(ctx);
     order.find();
     if (order.is_kept_already())
         return;
     order.apply();
-    ctx.state.lanes_stamp = 0; // they name contacts
+    ctx.state.lanes_stamp = 0; // the lanes refer to contact slots
 }
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-// Memory for reordering memory.
+// Memory for reordering contacts and bodies, reused from step to step.
 
 #include "collision/hilbert_order.h"
 
@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// Where a contact should stand among the awake ones.
+/// The rank of a contact among the awake ones.
 struct ContactRank
 {
     std::uint32_t color; ///< counted over all islands
@@ -18,11 +18,11 @@ struct ContactRank
 
 struct ReorderWorkspace
 {
-    std::vector<ContactRank> contact_order; ///< what tidy() makes of them
+    std::vector<ContactRank> contact_order; ///< the order that reorder.cpp computes
     std::vector<ContactRank> sorted_contacts;
     std::vector<std::int32_t> moved_to;    ///< by contact slot
-    std::vector<std::int32_t> move_cycles; ///< see reorder.cpp
-    HilbertOrder plane_order;              ///< of the awake bodies
+    std::vector<std::int32_t> move_cycles; ///< cycles of the permutation, see reorder.cpp
+    HilbertOrder plane_order;              ///< order of the awake bodies
 };
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
-// A wide contact constraint holds all that its contacts are: in a crowd at rest, from step to step, the same contacts with the same number of points, in the same lanes.
-// Then the bodies' poses say the rest. That bodies and contacts are the same is compared; that nothing else has been done to a contact is said by its mark
-// (SceneState::lane_marks); what cannot be followed is found anew by itself, and its lane filled with that.
+// A wide contact constraint holds all data of its contacts. In a crowd at rest, the same contacts, with the same number of points, stay in the same lanes from
+// step to step. Then poses of bodies determine the rest. Bodies and contacts are compared with those of the last step; the lane mark of a contact
+// (SceneState::lane_marks) tells that nothing else has changed it. A contact whose manifold cannot be followed is updated by itself, and its lane is refilled.
 
 #include "dynamics/narrowphase/cached_constraints.h"
 
@@ -35,12 +35,12 @@ bool are_in_place(const StepContext& ctx)
            ctx.state.awake_contacts == kept.contacts && bodies_are_unchanged(ctx);
 }
 
-// What has no lane must go on needing none.
+// A contact without a lane must still need none.
 bool look_at_loose(const StepContext& ctx, std::int32_t index)
 {
     ctx.scratch.narrow.is_looked_at[as_index(index)] = 1;
     Contact& contact = ctx.state.contacts[index];
-    const bool was_solved = is_solved(contact); // or would be, if what it touches moved
+    const bool was_solved = is_solved(contact); // or would be, if the other body moved
     if (update_contact(ctx, index) != TouchChange::Nothing || is_solved(contact) != was_solved)
         return false;
     if (!was_solved)
@@ -67,7 +67,7 @@ bool are_marked(const SceneState& state, const WideContactNotes& notes)
                                { return contact == none || state.lane_marks[as_index(contact)] == LaneMark::InLane; });
 }
 
-// Those of a large island by the threads that solve them, of small ones a few islands to a task.
+// Constraints of a large island are refreshed by the threads that solve it; small islands are processed a few to a task.
 bool constraints_are_unchanged(const StepContext& ctx)
 {
     const std::vector<Island>& islands = ctx.scratch.solver.islands;
@@ -77,12 +77,12 @@ bool constraints_are_unchanged(const StepContext& ctx)
         ConstraintRefresh follower(ctx);
         WideContact* const constraints = ctx.scratch.solver.wide_contacts.data() + island.wide_store;
         WideContactNotes* const all_notes = ctx.scratch.solver.wide_notes.data() + island.wide_store;
-        const bool asks_ahead = !is_shared(island); // a thread has much of a large one in its cache still
+        const bool asks_ahead = !is_shared(island); // much of a large island is still in the thread's cache
         for (int g = first; g < last && stay.load(std::memory_order_relaxed); ++g)
         {
             WideContactNotes& notes = all_notes[g];
             if (asks_ahead)
-            { // beyond the last there is nothing, which does no harm
+            { // prefetching past the end does no harm
                 prefetch(constraints[g + 2]);
                 prefetch(all_notes[g + 2]);
             }
@@ -119,7 +119,7 @@ bool all_are_borne(const StepContext& ctx)
     return true;
 }
 
-// Of two the one that does not give way is static: what is kinematic or asleep has more to say, and so has what lets pass.
+// A body without finite mass must be static: kinematic and sleeping bodies need more checks, and so do one-way contacts.
 bool leans_on_statics(const SceneState& state, const ContactEdge& l)
 {
     const Contact& contact = state.contacts[l.contact];
@@ -138,7 +138,7 @@ bool refresh_cached_constraints(StepContext& ctx)
     const std::uint64_t stayed_for = std::exchange(kept.constraints_unchanged_for, 0);
     scratch.narrow.is_looked_at.clear();
     const bool are_of_this_state = ctx.state.lanes_stamp != 0 && kept.stamp == ctx.state.lanes_stamp;
-    ctx.state.lanes_stamp = 0; // until they have been solved
+    ctx.state.lanes_stamp = 0; // invalid until the constraints have been solved
     kept.are_plain = kept.are_plain && are_of_this_state;
     if (!are_of_this_state || !kept.constraints_apart)
         return false;

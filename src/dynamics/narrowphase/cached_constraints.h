@@ -1,17 +1,17 @@
 #pragma once
 
-// Wide constraints that are what they were.
+// Wide contact constraints that are unchanged since the last step.
 
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// Instead of updating contacts one by one: where islands have stayed, and every contact has still what its lane was made for, normals, arms and separations
-/// are followed where they stand, eight at a time. False where something has changed: then all is to be done as ever, but that some contacts are up to date
-/// (Scratch::narrow.is_looked_at).
+/// Replaces the update of contacts one by one. Where the graph is unchanged and every contact still fits its lane, normals, arms and separations are refreshed
+/// in place, eight at a time. False where something has changed: then all contacts are updated as usual, except for those in Scratch::narrow.is_looked_at,
+/// which are up to date.
 [[nodiscard]] bool refresh_cached_constraints(StepContext& ctx);
 
-/// Once the constraints of islands that stay are known to be filled in this step: may they be followed in the next?
+/// Called once the constraints of unchanged islands are to be filled in this step: may they be refreshed in the next one?
 void cache_constraints(StepContext& ctx);
 
 } // namespace carom::internal

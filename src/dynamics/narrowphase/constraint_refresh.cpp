@@ -1,3 +1,5 @@
+// Refreshes wide contact constraints through a kernel. Contacts that it cannot decide are updated one by one.
+
 #include "dynamics/narrowphase/constraint_refresh.h"
 
 #include "dynamics/narrowphase/contact_update.h"
@@ -43,7 +45,7 @@ RefreshChanges ConstraintRefresh::follow(WideContact& constraint, WideContactNot
     return changes;
 }
 
-// Found anew, or followed, by itself.
+// Updates the contact of one lane by itself and refills the lane.
 void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes, int i, RefreshChanges& changes)
 {
     const std::uint32_t bit = 1u << i;
@@ -65,7 +67,7 @@ void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes
     note_if_loaded(constraint, notes, i, least_separation(contact.manifold));
 }
 
-// What is not borne may fly.
+// A body that is not borne may fly.
 void ConstraintRefresh::note_borne(const WideContact& constraint, int i) const
 {
     for (const std::int32_t s : {constraint.a.v[i], constraint.b.v[i]})

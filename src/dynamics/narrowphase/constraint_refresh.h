@@ -1,26 +1,26 @@
 #pragma once
 
-// Wide constraints whose lanes hold contacts of the last step still: poses and cached manifolds say what has become of them, eight at a time.
+// Wide contact constraints whose lanes still hold the contacts of the last step: poses and cached manifolds refresh them, eight at a time.
 
 #include "dynamics/solver/simd/kernels.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// Lanes of a constraint, as bits.
+/// Lanes of a wide constraint, as bits.
 struct RefreshChanges
 {
-    std::uint32_t gone = 0; ///< their contacts are not what the lanes were made for
-    std::uint32_t told = 0; ///< their contacts begin to touch or end, or may hit a sleeper
+    std::uint32_t gone = 0; ///< their contacts no longer fit the lanes
+    std::uint32_t told = 0; ///< their contacts begin or end to touch, or may hit a sleeper
 };
 
-/// One of a task's constraints after the other.
+/// Refreshes a task's wide constraints, one after the other.
 class ConstraintRefresh
 {
 public:
     explicit ConstraintRefresh(const StepContext& ctx);
 
-    /// Lanes that cannot be followed, or whose touch may begin or end, are updated by themselves and filled again. Those that are gone are left as they come.
+    /// Lanes that cannot be followed, or whose touch may begin or end, are updated one by one and refilled. Lanes that are gone are left in an arbitrary state.
     /// All contacts must have their lane marks.
     [[nodiscard]] RefreshChanges follow(WideContact& constraint, WideContactNotes& notes);
 

@@ -1,3 +1,5 @@
+// Finds the neighbors that lie flush with the shapes of a contact.
+
 #include "dynamics/narrowphase/flush_pair.h"
 
 #include "dynamics/narrowphase/contact_update.h"
@@ -10,7 +12,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double share_of_size = 0.02; // no step of a small shape, or for one
+constexpr double share_of_size =
+    0.02; // fraction of the smaller shape's size: a gap below it is no step, neither of a small shape nor for one
 
 class Neighbourhood
 {
@@ -25,7 +28,7 @@ public:
         return may_be_flush(m_state.shapes[m_touched].leaf) && !(is_dynamic(body) && has_one_leaf(body));
     }
 
-    // Is one of them at the touched points? False only where none is.
+    // May a neighbor be at the touched points? False only where none is.
     [[nodiscard]] bool may_be_near(const LocalManifold& m, bool of_a, const RelativePose& pose) const
     {
         const int body = m_state.shapes[m_touched].body;
@@ -61,7 +64,7 @@ private:
         return record.first_shape == record.last_shape;
     }
 
-    // Only leaves of the same body lie still beside a leaf of a dynamic one.
+    // Only leaves of the same body do not move against a leaf of a dynamic body.
     void find_in(int body) const
     {
         for_each_leaf(m_state, body,
@@ -78,7 +81,7 @@ private:
                overlaps(m_state.broad_phase.box(other), m_state.broad_phase.box(m_visitor));
     }
 
-    // All that the visitor meets: the list of a wall is long.
+    // Searches the contacts of the visitor, because the list of a wall is long.
     void find_by(int visitor_body) const
     {
         for (const int index : contacts_of(m_state, visitor_body))
@@ -101,7 +104,7 @@ private:
     {
         const ShapeRecord& own = m_state.shapes[m_touched];
         const ShapeRecord& shape = m_state.shapes[other];
-        const bool in_one_chain = own.owner == shape.owner; // whose seams say the same
+        const bool in_one_chain = own.owner == shape.owner; // the seams of the chain cover this case
         return !in_one_chain && (shape.body == own.body || (!is_dynamic(shape.body) && !is_dynamic(own.body)));
     }
 

@@ -1,3 +1,5 @@
+// Follows cached manifolds from the poses of their bodies, and finds them again where they may have changed.
+
 #include "dynamics/narrowphase/manifold_cache.h"
 
 #include "collision/edge_rules.h"
@@ -11,10 +13,10 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is likely to be the same
+constexpr float least_cosine = 0.98f; // 11 degrees: the edge that faces best is probably the same
 constexpr float surely_turned = 0.9801f;
 
-// An edge's normal belongs to the body of the edge, that of two corners or circles to none.
+// The normal of an edge is fixed to the body of the edge; the normal of two corners or circles is fixed to neither body.
 bool can_cache(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
     const auto has_edges = [&](int shape)
@@ -31,7 +33,8 @@ const BodySim& sim_of(const SceneState& state, int body) { return state.sims[sta
 
 Vec2 place_of(const BodySim& other, const BodySim& own) { return inverse_rotate(own.rotation, other.center - own.center); }
 
-// How far any point of the other has moved against the edge's body since the manifold was found, and the cosine of the angle that it has turned.
+// Bound on the displacement of any point of the other body relative to the edge's body since the manifold was found, and the cosine of the angle by which it
+// has turned.
 struct Moved
 {
     float displacement;
@@ -43,7 +46,7 @@ Rotation turned_since(const CachedManifold& kept, const BodySim& own, const Body
     return inverse(own.rotation) * other.rotation * inverse(kept.rotation);
 }
 
-// Of a circle of radius 1.
+// Chord of a rotation, on a circle of radius 1.
 float chord_of(Rotation turn) { return std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c)); }
 
 Moved moved_since(const CachedManifold& kept, const BodySim& own, const BodySim& other)
@@ -52,8 +55,7 @@ Moved moved_since(const CachedManifold& kept, const BodySim& own, const BodySim&
     return {length(place_of(other, own) - kept.center) + other.extent * chord_of(turn), turn.c};
 }
 
-// Of two without a point: how far apart they still are for sure. Along the direction that parted them only what goes along it, and turns, takes from
-// their distance.
+// Lower bound on the distance of two shapes without a point. Only displacement along the separating direction, and rotation, reduce it.
 float room(const CachedManifold& kept, const BodySim& own, const BodySim& other)
 {
     const Vec2 displacement = place_of(other, own) - kept.center;
@@ -62,7 +64,7 @@ float room(const CachedManifold& kept, const BodySim& own, const BodySim& other)
     return kept.reach + gain - kept.found.parting.arm * chord_of(turned_since(kept, own, other));
 }
 
-// How far the shape's corners are from the center that they turn about, at the most.
+// Bound on the distance of the shape's corners from the center of rotation.
 float arm_of(const SceneState& state, int shape, const BodySim& sim)
 {
     const Leaf& leaf = state.shapes[shape].leaf;
@@ -94,7 +96,7 @@ void cache_corners(CachedCorners& kept, const BodySim& a, const BodySim& b, cons
     kept.radii[1] = found.radii[1];
 }
 
-// What is kept is seen from b.
+// True if the cached data is in the axes of b.
 bool is_of_b(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
     if (found.count > 0)
@@ -124,23 +126,23 @@ void keep(const SceneState& state, const Contact& contact, const LocalManifold& 
         cache_corners(kept.found.nearest, a, b, pose, found.nearest);
 }
 
-// Within which there are points.
+// Distance within which the shapes get points.
 float margin_of(const StepContext& ctx, const Contact& contact)
 {
     return ctx.scene.tolerances.speculation + relative_motion(ctx.state, contact);
 }
 
-// The two corners before the edge, from the center of the edge's body.
+// The two corners before the edge, relative to the center of the edge's body.
 struct Facing
 {
     float radius;
     bool of_b;
-    Vec2 n;      ///< out of the edge
-    Vec2 offset; ///< from the center of the edge's body to the other's
-    Vec2 start;  ///< of the edge
+    Vec2 n;      ///< outward normal of the edge
+    Vec2 offset; ///< from the center of the edge's body to the center of the other
+    Vec2 start;  ///< start of the edge
     Vec2 corners[2];
-    float along[2]; ///< how far along the edge, times its length
-    float end;      ///< as far is the edge's
+    float along[2]; ///< positions of the corners along the edge, times its length
+    float end;      ///< the same for the end of the edge
 
     Facing(const CachedManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : radius(k.radius), of_b(edge_of_b)
     {
@@ -161,13 +163,13 @@ struct Facing
         }
     }
 
-    // What of the edge between the corners is before the edge ends at its ends.
+    // An end of the segment between the corners, clipped to the part before the edge.
     struct Foot
     {
         Vec2 on_edge;
         Vec2 on_other;
         float separation;
-        bool inside; ///< it is the corner itself
+        bool inside; ///< not clipped: the corner itself
     };
 
     [[nodiscard]] Foot foot(int i) const
@@ -184,10 +186,10 @@ struct Facing
         return f;
     }
 
-    // Does any of the edge between the corners lie before the edge?
+    // Does any of the segment between the corners lie before the edge?
     [[nodiscard]] bool meets() const { return !(along[0] < 0 && along[1] < 0) && !(along[0] > end && along[1] > end); }
 
-    // Clipping a steep edge at the end of the other may cut off its lowest corner, which is still the nearest just beside that end.
+    // Clipping a steep segment at the end of the edge may cut off its lowest corner, which is still the nearest point just beside that end.
     [[nodiscard]] bool is_steep() const
     {
         const float rise = dot(n, corners[1] - corners[0]);
@@ -206,14 +208,14 @@ struct Facing
     }
 };
 
-// Is the edge the one still that faces best? Surely where the lowest corner is outside and before it, and else for a while.
+// Is the edge still the one that faces best? Certainly where the lowest corner is outside and before it; otherwise for small motion only.
 bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved& moved, float longest_path)
 {
     const bool is_outside = lowest.inside && lowest.separation + facing.radius > 0;
     return is_outside || (moved.displacement < longest_path && moved.cosine > least_cosine);
 }
 
-// One corner before the edge, the other too far away to be a second point.
+// One corner is before the edge, and the other is too far away to be a second point.
 bool has_one_point(const CachedManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_path)
 {
     const Facing::Foot near = facing.foot(0);
@@ -222,7 +224,7 @@ bool has_one_point(const CachedManifold& kept, const Facing& facing, const Moved
            is_best_still(facing, near, moved, longest_path);
 }
 
-// Both corners before the edge, and no other has become one of them.
+// Both corners are before the edge, and no other corner has replaced one of them.
 bool has_two_points(const CachedManifold& kept, const Facing& facing, const Moved& moved, float longest_path)
 {
     const Facing::Foot first = facing.foot(0);
@@ -232,15 +234,15 @@ bool has_two_points(const CachedManifold& kept, const Facing& facing, const Move
            moved.displacement <= kept.reach && is_best_still(facing, lowest, moved, longest_path);
 }
 
-// The way from one corner to the other that is nearest to it.
+// The line between the two nearest corners.
 struct Nearest
 {
     const CachedCorners& kept;
-    Vec2 from; ///< the center of a, and to that of b
+    Vec2 from; ///< corner from the center of a; `to`: from the center of b
     Vec2 to;
     Vec2 n;
     float separation;
-    bool leads_out; ///< of both cones: nothing is nearer
+    bool leads_out; ///< the line leads out of both cones: nothing is nearer
 
     Nearest(const CachedCorners& k, const BodySim& a, const BodySim& b) : kept(k)
     {
@@ -280,7 +282,7 @@ void follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, cons
         facing.put(i, m.points[i]);
 }
 
-// Is what it found still what would be found?
+// Would the narrow phase still find the cached features?
 bool can_follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
                 float longest_path)
 {

@@ -1,3 +1,5 @@
+// Rules that mix materials, restitution curves, kicks and one-way shapes.
+
 #include "dynamics/narrowphase/material.h"
 
 #include <algorithm>

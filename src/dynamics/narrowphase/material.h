@@ -1,6 +1,6 @@
 #pragma once
 
-// The contact law: how the materials of two shapes become friction, restitution and kick. Rows and flight ask the same functions.
+// The contact law: how the materials of two shapes determine friction, restitution and kick. Contact constraints and flight use the same functions.
 
 #include "dynamics/state/scene_data.h"
 
@@ -11,7 +11,7 @@ namespace carom::internal {
 /// Restitution at an approach speed, curves included.
 [[nodiscard]] float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float approach_speed);
 
-/// Speed that kicks add at this approach speed; says which shapes fired.
+/// Speed that kicks add at this approach speed, and which shapes fired.
 struct KickResult
 {
     float speed = 0;
@@ -20,7 +20,7 @@ struct KickResult
 };
 [[nodiscard]] KickResult kick_speed(const SceneData& scene, int shape_a, int shape_b, float approach_speed);
 
-/// One-way shapes let pass what comes from behind: does the contact with this normal (world, a to b) let b pass?
+/// A one-way shape lets bodies pass from behind: does the contact with this normal (world, a to b) let b pass?
 [[nodiscard]] bool lets_pass(const SceneData& scene, int shape_a, int shape_b, Vec2 normal);
 
 } // namespace carom::internal

@@ -1,3 +1,5 @@
+// Begins and ends of touches, and their events.
+
 #include "dynamics/narrowphase/touch_tracker.h"
 
 #include "core/grow.h"
@@ -31,7 +33,7 @@ void report_noted(StepContext& ctx, std::span<const std::int32_t> contacts, std:
     ctx.state.graph_dirty |= !contacts.empty();
 }
 
-// Of one that has touched within the step: when it ends it neither bears a load nor touches.
+// For a contact that has touched within the step: when the step ends, it neither bears a load nor touches.
 bool has_bounced(const StepContext& ctx, const Contact& contact)
 {
     if ((contact.flags & contact_flag::loaded) != 0)
@@ -41,7 +43,7 @@ bool has_bounced(const StepContext& ctx, const Contact& contact)
     return m.count == 0;
 }
 
-// On all threads; by places in the list.
+// Flags by index in `begins`, found on all threads.
 std::span<const std::uint8_t> find_bounces(StepContext& ctx, std::span<const RawTouch> begins)
 {
     const SceneState& state = ctx.state;
@@ -62,7 +64,7 @@ bool touches_elsewhere(const SceneState& state, int index)
         return false;
     const int owner_a = state.shapes[contact.shape_a].owner;
     const int owner_b = state.shapes[contact.shape_b].owner;
-    // Lines come before what touches them in the table, arcs after it.
+    // In the collision table, lines come before the shapes that touch them, arcs after.
     const auto is_same = [&](const Contact& other)
     {
         const int a = state.shapes[other.shape_a].owner;
@@ -133,7 +135,7 @@ void report_begins(StepContext& ctx, const IslandOutput& output)
     {
         state.graph_dirty = true;
         if (t.contact != none)
-        { // of several pieces of a chain the first speaks for all
+        { // the first piece of a chain that touches begins the touch for all pieces
             const bool known = touches_elsewhere(state, t.contact);
             state.contacts[t.contact].flags &= ~contact_flag::begun;
             if (known)
@@ -154,7 +156,7 @@ void end_bounces(StepContext& ctx, const IslandOutput& output)
         if (bounced[i] == 0)
             continue;
         end_touch(ctx.scene, touch.contact, ctx.scene.events, ctx.dt);
-        leave_lane(ctx.state, touch.contact); // which takes it for reported
+        leave_lane(ctx.state, touch.contact); // the lane assumes that the touch is reported
     }
 }
 

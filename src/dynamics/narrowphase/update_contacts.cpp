@@ -1,5 +1,5 @@
-// Stage 3, contacts: manifolds of awake pairs, begins and ends, and who takes part in the step because of them (contact_edges.cpp). The first pass writes to its
-// own contact, and marks bodies in ways that commute; it may run on any thread. The second goes through the results in order.
+// Stage 3, contacts: manifolds of awake pairs, begins and ends of touches, and contact edges (contact_edges.cpp). The first pass writes to its own contacts,
+// and marks bodies in ways that commute; it may run on any thread. The second goes through the results in order.
 
 #include "core/grow.h"
 #include "core/prefetch.h"
@@ -66,7 +66,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
         impulses.points[i].normal = before.points[j].normal;
         impulses.points[i].tangent = before.points[j].tangent;
     };
-    if (fresh.count == 0) // kept for the next piece of the chain, should the ball have rolled over to it
+    if (fresh.count == 0) // kept for the next piece of the chain, to which the ball may have rolled
         carry(0, 0);
     for (int i = 0; i < fresh.count; ++i)
     {
@@ -80,7 +80,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
 
 namespace {
 
-// What comes from behind passes until it is free of the shape; so does what already overlaps deeply.
+// A shape that comes from behind passes until it is free of the one-way shape; so does one that already overlaps deeply.
 void update_passing(const StepContext& ctx, Contact& contact)
 {
     const float least = least_separation(contact.manifold);
@@ -123,18 +123,18 @@ bool should_touch(const StepContext& ctx, const Contact& contact)
 {
     if ((contact.flags & contact_flag::passing) != 0)
         return false;
-    // Twice the distance to part: contacts at the edge do not flicker.
+    // Parting takes twice the distance, so that contacts at the limit do not flicker.
     const float limit = touches(contact) ? 2 * ctx.scene.tolerances.slop : ctx.scene.tolerances.slop;
     return least_separation(contact.manifold) <= limit;
 }
 
-// Of a contact with a piece of a chain.
+// The other shape of a contact with a piece of a chain.
 int visitor_of(const SceneState& state, const Contact& contact)
 {
     return state.shapes[contact.shape_a].owner != contact.shape_a ? contact.shape_b : contact.shape_a;
 }
 
-// A ball that rolled over a seam brings the load it had on the piece before. Few have just left one: the walk is for them alone.
+// A ball that rolled over a seam brings along its load on the previous piece. The walk over contacts is only for the few shapes that have just left a piece.
 void inherit_load(StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
@@ -165,7 +165,7 @@ void inherit_load(StepContext& ctx, int index)
                      });
 }
 
-// With the load that a neighboring piece bore, and awake.
+// Begins a touch with the load of a neighboring piece, and wakes both bodies.
 void begin_loaded_touch(StepContext& ctx, int index)
 {
     Contact& contact = ctx.state.contacts[index];
@@ -176,7 +176,7 @@ void begin_loaded_touch(StepContext& ctx, int index)
     begin_touch(ctx.scene, index);
 }
 
-// As wake_body for one that is awake. Threads may do so side by side.
+// Like wake_body, for an awake body. Threads may call it in parallel.
 void keep_awake(const StepContext& ctx, int body)
 {
     const std::atomic_ref sleep_time(ctx.state.sims[static_cast<std::size_t>(body)].sleep_time);
@@ -184,7 +184,7 @@ void keep_awake(const StepContext& ctx, int body)
         sleep_time.store(0, std::memory_order_relaxed);
 }
 
-// Something fast that may hit a sleeper in this step wakes it before the islands are built.
+// A fast body that may hit a sleeper in this step wakes it before the islands are built.
 bool may_hit(const StepContext& ctx, const Contact& contact)
 {
     const bool moves = relative_motion(ctx.state, contact) > ctx.scene.tolerances.speculation;
@@ -223,13 +223,13 @@ namespace {
 
 constexpr std::size_t contacts_at_once = 512;
 
-// Since refresh_cached_constraints has tried to do with less.
+// True if refresh_cached_constraints has already updated the contact in this step.
 bool is_looked_at(const Scratch& scratch, std::int32_t contact)
 {
     return !scratch.narrow.is_looked_at.empty() && scratch.narrow.is_looked_at[static_cast<std::size_t>(contact)] != 0;
 }
 
-// A task's contacts, and what is new of each. Writes to these contacts alone.
+// Updates a task's contacts and collects their changes. Writes to these contacts alone.
 class ContactUpdate
 {
 public:
@@ -263,7 +263,7 @@ public:
     }
 
 private:
-    // First who touches, then what is kept of them and where they are. Turns are short here.
+    // Prefetches the contact first, then its cached manifold and its bodies. The prefetch distance is doubled, because iterations are short here.
     [[gnu::always_inline]] void prefetch_later(std::size_t i) const
     {
         constexpr std::size_t ahead = 2 * prefetch_distance;
@@ -275,10 +275,10 @@ private:
         const std::int32_t index = m_contacts[i + ahead];
         prefetch(state.cached_manifolds[static_cast<std::size_t>(index)]);
         for (const std::int32_t body : {state.contacts[index].body_a, state.contacts[index].body_b})
-            prefetch_line(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbours read
+            prefetch_line(&state.sims[static_cast<std::size_t>(body)]); // the half that neighbors read
     }
 
-    // Events are written when all is known, see report_all.
+    // Events are written later, see report_noted_begins.
     void tell(std::int32_t index, TouchChange what)
     {
         Contact& contact = m_ctx.state.contacts[index];
@@ -328,7 +328,7 @@ private:
         w.count = 0;
     }
 
-    // What cannot be told with others mostly is to be found anew: its shapes are asked for now, their corners a little before its turn.
+    // A contact that cannot be updated in a batch mostly needs a new manifold: its shapes are prefetched now, their corners shortly before its update.
     void put_off(std::size_t i)
     {
         const SceneState& state = m_ctx.state;
@@ -350,7 +350,7 @@ private:
         }
     }
 
-    // For what now begins to touch the next piece.
+    // For a contact that now begins to touch the next piece.
     void note_left_load(const Contact& contact)
     {
         constexpr std::uint32_t loaded_piece = contact_flag::piece | contact_flag::loaded;
@@ -370,7 +370,7 @@ private:
         }
     }
 
-    // For others with as many points.
+    // Contacts that wait for a batch with the same number of points.
     struct Waiting
     {
         LaneInts contacts{};
@@ -378,7 +378,7 @@ private:
         int count = 0;
     };
 
-    // What stays without a point is as it was.
+    // A contact that stays without a point is unchanged.
     void look_whether_apart(const Waiting& w)
     {
         const std::uint32_t apart = m_kernels.stay_apart(w.contacts, m_scene);
@@ -408,17 +408,17 @@ private:
 
     const StepContext& m_ctx;
     std::span<const std::int32_t> m_contacts;
-    std::size_t m_first; ///< of the awake contacts
+    std::size_t m_first; ///< index among the awake contacts
     ContactChanges& m_some;
     FollowedScene m_scene;
     TouchChange m_changes[contacts_at_once];
     std::size_t m_others[contacts_at_once];
     std::size_t m_other_count = 0;
-    Waiting m_waiting[3]; ///< without a point, with one, with two
+    Waiting m_waiting[3]; ///< by number of points: none, one, two
     const WideKernels& m_kernels = wide_kernels();
 };
 
-// Of all tasks, in their order.
+// Concatenates a list of all tasks, in their order.
 std::span<const std::int32_t> gather(StepContext& ctx, std::span<const ContactChanges> parts,
                                      std::vector<std::int32_t> ContactChanges::* which)
 {
@@ -463,8 +463,8 @@ void update_contacts(StepContext& ctx)
     std::ranges::sort(ctx.scratch.narrow.left_loads);
     report_noted_begins(ctx, gather(ctx, parts, &ContactChanges::begins));
     report_noted_ends(ctx, gather(ctx, parts, &ContactChanges::ends));
-    // Woken contacts keep the manifold they slept with; it is still true. Begins come first, so that a chain left over one piece and
-    // touched over the next is never let go.
+    // Woken contacts keep the manifold with which they fell asleep; it is still valid. Begins come first, so that a chain left over one piece and touched over
+    // the next is never let go.
     for (const ContactChange& n : changes)
     {
         if (n.what == TouchChange::Begins)

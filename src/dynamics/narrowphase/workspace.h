@@ -1,6 +1,6 @@
 #pragma once
 
-// Memory of the narrow phase, kept from step to step.
+// Memory of the narrow phase, which keeps its capacity from step to step.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// What the update of a contact found that others must hear of.
+/// Contact change that an update has found.
 enum class TouchChange : std::uint8_t
 {
     Nothing,
@@ -24,25 +24,25 @@ struct ContactChange
     TouchChange what;
 };
 
-/// Of a task's contacts: of those whose news concern nobody else, who has begun or ended to touch; and the news of the others.
+/// Contact changes of a task: `begins` and `ends` are of contacts that concern no other, `others` of the rest.
 struct ContactChanges
 {
     std::vector<std::int32_t> begins{};
     std::vector<std::int32_t> ends{};
     std::vector<ContactChange> others{};
-    std::vector<std::int32_t> left_loads{}; ///< shapes that have left a piece of a chain which bore a load of theirs
-    std::vector<std::int32_t> of_others{};  ///< contacts of whose news others may have more to say
+    std::vector<std::int32_t> left_loads{}; ///< shapes that have left a piece of a chain that bore their load
+    std::vector<std::int32_t> of_others{};  ///< contacts that other contacts may still affect
 };
 
 struct NarrowPhaseWorkspace
 {
     std::vector<ContactChange> changes;
-    std::vector<std::int32_t> left_loads; ///< in order
-    std::vector<std::int32_t> of_others;  ///< contacts, of all tasks
+    std::vector<std::int32_t> left_loads; ///< sorted
+    std::vector<std::int32_t> of_others;  ///< those of all tasks
     std::vector<ContactChanges> changes_of_task;
-    std::vector<std::uint8_t> bounced;      ///< of an island's begins, see commit.cpp
-    std::vector<std::uint8_t> borne;        ///< by state: a contact bears it
-    std::vector<std::uint8_t> is_looked_at; ///< by contact slot, in this step; empty: none
+    std::vector<std::uint8_t> bounced;      ///< by index of an island's begins, see touch_tracker.cpp
+    std::vector<std::uint8_t> borne;        ///< by state: a contact bears the body
+    std::vector<std::uint8_t> is_looked_at; ///< by contact slot: updated in this step already; empty: none
 };
 
 } // namespace carom::internal

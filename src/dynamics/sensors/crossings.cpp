@@ -1,3 +1,5 @@
+// Turns the crossings of leaves into enter and exit events of shapes.
+
 #include "dynamics/sensors/crossings.h"
 
 #include "dynamics/state/contact_store.h"
@@ -10,7 +12,7 @@ namespace carom::internal {
 
 namespace {
 
-// A chain's leaves are crossed one after the other; its pair comes in with the first and goes out with the last.
+// The leaves of a chain are crossed one after the other. The pair enters with the first leaf and exits with the last.
 class CrossingReporter
 {
 public:
@@ -19,7 +21,7 @@ public:
     void run()
     {
         std::vector<Crossing>& all = m_ctx.scratch.sensors.crossings;
-        // In one moment comings before goings: who changes from leaf to leaf stays inside.
+        // At the same time, enters come before exits: a visitor that changes from leaf to leaf stays inside.
         std::sort(all.begin(), all.end(),
                   [](const Crossing& x, const Crossing& y)
                   {
@@ -41,7 +43,7 @@ private:
     {
         int depth = leaves_inside(crossings[0]);
         for (const Crossing& c : crossings)
-            depth -= c.enters ? 1 : -1; // as it was when the step began
+            depth -= c.enters ? 1 : -1; // the depth when the step began
         for (const Crossing& c : crossings)
         {
             const int before = depth;
@@ -51,10 +53,10 @@ private:
         }
     }
 
-    // Now, at the end of the step.
+    // The number of leaf pairs that touch at the end of the step.
     [[nodiscard]] int leaves_inside(const Crossing& pair) const
     {
-        // The body without the chain has the shorter list.
+        // The body without the chain has the shorter list of contacts.
         const int body = m_state.shapes[m_state.shapes[pair.trigger].has_leaf ? pair.trigger : pair.visitor].body;
         int count = 0;
         for (const int index : contacts_of(m_state, body))

@@ -6,7 +6,7 @@
 
 namespace carom::internal {
 
-/// What crossed in this step becomes enters and exits of shapes.
+/// Reports the crossings of this step as enter and exit events of shapes.
 void report_crossings(StepContext& ctx);
 
 } // namespace carom::internal

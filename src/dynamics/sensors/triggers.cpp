@@ -1,14 +1,14 @@
-// Triggers: what is inside, and when it came and went. Both bodies' ways through the step are pieces on which their paths are known exactly
-// (flight/trace.h); on each piece the visitor comes in when the two first touch (collision/time_of_impact.h), and has gone out when they
-// first touch on the piece run backwards. Whether it is inside at the ends of a piece says the contact manifold there, and that is what
-// counts: where rounding or a one-sided line hides the moment from the search, it is found between the two by halving.
+// Triggers: which visitors are inside, and when they enter and exit. The paths of both bodies through the step consist of pieces on which they are known
+// exactly (dynamics/continuous/path/trace.h). On each piece the visitor enters when the two first touch (collision/time_of_impact.h). It exits when they first
+// touch on the piece run backwards. The contact manifolds at the ends of a piece decide whether the visitor is inside there. Where rounding or a
+// one-sided line hides the time from the search, it is found between the ends by bisection.
 //
-// What leaves and comes back within one piece, as the corner of something that turns may, has been inside all the time, unless it is outside
-// half way.
+// A visitor that exits and enters again within one piece, as the corner of a rotating body may, counts as inside all the time, unless it is outside at the
+// middle.
 
 #include "collision/time_of_impact.h"
 #include "dynamics/broadphase/half_space_box.h"
-#include "dynamics/continuous/body_path.h"
+#include "dynamics/continuous/path/body_path.h"
 #include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sensors/crossings.h"
 #include "dynamics/sleep/wake.h"
@@ -30,7 +30,7 @@ BodyPose pose_on(const FramePath& path, const Position& origin)
             path.local_center};
 }
 
-/// A part of the step in which neither body's path bends; the paths are relative to where a set out.
+/// A part of the step in which the path of each body is a single piece. The paths are relative to the starting point of a.
 struct Part
 {
     double start;
@@ -53,7 +53,7 @@ public:
         const double reach = m_a.reach() + m_b.reach();
         const bool far_out = boxes_are_apart(reach);
         const float separation = far_out ? 1 : separation_of(m_a.start(), m_b.start());
-        expect(separation <= 0, 0); // made, moved or changed between the steps
+        expect(separation <= 0, 0); // shapes were created, moved or changed between the steps
         const bool far_in = static_cast<double>(separation) < -2 * reach;
         if (far_out || far_in || reach == 0)
             return;
@@ -96,7 +96,7 @@ private:
             pass(part, in ? *in : other_moment(part, *out, 0), out ? *out : other_moment(part, *in, length));
     }
 
-    // In and out on one part; by a rounding at its ends, perhaps not at all.
+    // The visitor enters and exits on one part. Because of rounding at the ends, it may not enter at all.
     void pass(const Part& part, double in, double out)
     {
         if (out <= in)
@@ -106,7 +106,7 @@ private:
         cross(part.start + out);
     }
 
-    // At the top of a throw it may be outside between two passages.
+    // At the top of its flight, the visitor may be outside between two passages.
     void come_out_half_way(const Part& part, double middle)
     {
         if (is_inside(part, middle))
@@ -120,8 +120,7 @@ private:
         cross(part.start + middle + *in);
     }
 
-    // What goes through a line that only one side of is solid touches it once; the other moment is when its middle goes through, on the way to
-    // that end of the part.
+    // A body that passes through a one-sided line touches it once. The other time is when its middle passes through, on the way to that end of the part.
     [[nodiscard]] double other_moment(const Part& part, double touch, double end) const
     {
         const bool one_sided = m_state.shapes[m_contact.shape_a].leaf.sides != Sides::Both ||
@@ -135,7 +134,7 @@ private:
         return touch;
     }
 
-    // --- looking --------------------------------------------------------------------------------------------------------------------
+    // --- queries --------------------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] float separation_of(const BodyPose& a, const BodyPose& b) const
     {
@@ -143,7 +142,7 @@ private:
     }
     [[nodiscard]] bool is_inside(const BodyPose& a, const BodyPose& b) const { return separation_of(a, b) <= 0; }
 
-    // The leaves' boxes at the start, too far for this step.
+    // Whether the boxes of the leaves are too far apart at the start for this step.
     [[nodiscard]] bool boxes_are_apart(double reach) const
     {
         const Box a = leaf_bounds(leaf_view(m_state, m_contact.shape_a), m_a.start().frame());
@@ -166,7 +165,7 @@ private:
         return touch ? std::optional(touch->time) : std::nullopt;
     }
 
-    // A chain's leaf leaves some directions at its ends to the next one; what it covers itself is the whole of it.
+    // The leaf of a chain leaves some directions at its ends to the neighboring leaf. A trigger tests the whole leaf.
     [[nodiscard]] Leaf free_standing(std::int32_t shape) const
     {
         Leaf leaf = m_state.shapes[shape].leaf;
@@ -183,7 +182,7 @@ private:
         return back ? std::optional(std::max(part.length - *back, 0.0)) : std::nullopt;
     }
 
-    // The visitor is on the other side at the end than at the start, where `m_inside` counts, whatever rounding says.
+    // Bisects for the time at which the visitor changes from `m_inside` to the opposite. Where rounding hides the change, the time is one of the ends.
     [[nodiscard]] double halved(const Part& part, double from, double to) const
     {
         const bool before = is_inside(part, from);
@@ -197,7 +196,7 @@ private:
         return to;
     }
 
-    // --- telling --------------------------------------------------------------------------------------------------------------------
+    // --- reporting ------------------------------------------------------------------------------------------------------------------
 
     void expect(bool inside, double time)
     {
@@ -224,7 +223,7 @@ private:
     bool m_inside;
 };
 
-// What has moved or is new, of sound bodies: the others are about to be put aside.
+// Whether a body is awake or the contact is fresh, and both bodies are sound. Unsound bodies are about to be quarantined.
 bool needs_update(const StepContext& ctx, const Contact& contact)
 {
     const bool moves = is_awake(ctx.state, contact.body_a) || is_awake(ctx.state, contact.body_b);

@@ -1,28 +1,28 @@
 #pragma once
 
-// Memory of triggers, kept from step to step.
+// Memory of triggers, reused from step to step.
 
-#include "dynamics/continuous/body_path_piece.h"
+#include "dynamics/continuous/path/body_path_piece.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace carom::internal {
 
-/// A leaf came into or went out of a leaf of a trigger.
+/// A leaf entered or exited a leaf of a trigger.
 struct Crossing
 {
     std::int32_t contact = none;
     std::int32_t trigger = none; ///< the shapes that own the leaves
     std::int32_t visitor = none;
-    std::int32_t order = 0; ///< among all of the step
+    std::int32_t order = 0; ///< order among all crossings of the step
     double time = 0;
     bool enters = false;
 };
 
 struct SensorWorkspace
 {
-    std::vector<PathPiece> paths; ///< of all islands, by body
+    std::vector<PathPiece> paths; ///< paths of all islands, by body
     std::vector<Crossing> crossings;
 };
 

@@ -1,4 +1,4 @@
-// The last of stage 6: bodies come to rest, islands fall asleep, and what a user asked for this step alone is forgotten.
+// The last part of stage 6: bodies come to rest, islands fall asleep, and forces and targets that apply to this step alone are cleared.
 
 #include "core/grow.h"
 #include "core/nonzero.h"
@@ -19,13 +19,13 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float is_rest_damped = 0.2f;    // of the sleep speed
-constexpr float rest_damping_time = 0.5f; // s
-constexpr float at_rest = 0.05f;          // of the sleep speed, over the time to stay
-constexpr float time_to_stay = 0.25f;     // s, in one place
-constexpr float time_to_sleep = 0.5f;     // s: long enough for a body at the top of its flight not to fall asleep
+constexpr float rest_damping_speed = 0.2f; // share of the sleep speed
+constexpr float rest_damping_time = 0.5f;  // s
+constexpr float at_rest = 0.05f;           // share of the sleep speed, over time_to_stay
+constexpr float time_to_stay = 0.25f;      // s, in one place
+constexpr float time_to_sleep = 0.5f;      // s: long enough for a body at the top of its flight not to fall asleep
 
-// Twice in the time it takes to fall asleep: to look in each step of 1/60 s costs a pile of which some never rest a twentieth.
+// Twice in the time it takes to fall asleep. In each step of 1/60 s, the search costs a twentieth in a pile where some bodies never rest.
 bool looks_for_islands(const StepContext& ctx)
 {
     const double steps_between = 0.5 * static_cast<double>(time_to_sleep) / static_cast<double>(ctx.dt);
@@ -54,23 +54,23 @@ void slow_down(BodySim& sim, float by)
     sim.angular_velocity *= by;
 }
 
-// What is slower is quiet.
+// A slower body is quiet.
 float quiet_speed(const SceneState& state, const BodyRecord& record)
 {
     if (record.type == BodyType::Kinematic)
         return 0;
-    const float share = hangs_on_spring(state, record) ? 0.02f : 1; // a damped spring creeps the last of its way
+    const float share = hangs_on_spring(state, record) ? 0.02f : 1; // a damped spring approaches its rest length slowly
     return share * record.sleep_speed;
 }
 
-// A body that rocks comes back to where it was. One that drifts, rolls, slips or is pushed out of an overlap has gone some way, however slowly.
+// A body that rocks comes back to where it was. A body that drifts, rolls, slips or is pushed out of an overlap has moved on, however slowly.
 bool has_stayed(const BodySim& sim, const QuietStart& start, float speed)
 {
     const float turn = std::fabs((sim.rotation * inverse(start.rotation)).s);
     return std::max(length(sim.center - start.center), turn * sim.extent) <= at_rest * speed * (sim.sleep_time - start.time);
 }
 
-// Counts the time for which a body has been slow. It is tired from time_to_sleep on, if it has also stayed where it was for the last part of that.
+// Counts the time for which a body has been slow. The body is tired from time_to_sleep on, if it has also stayed where it was for the last part of that.
 void count_quiet_time(const StepContext& ctx, int body, BodySim& sim, float speed)
 {
     QuietStart& start = ctx.state.quiet_starts[static_cast<std::size_t>(body)];
@@ -85,13 +85,13 @@ void count_quiet_time(const StepContext& ctx, int body, BodySim& sim, float spee
     start = {sim.center, sim.rotation, sim.sleep_time};
 }
 
-// In a pile nothing rolls or rocks on for ever: what has been quiet for as long as it takes to fall asleep, and creeps, comes to rest even where it
-// may not sleep, because others move or sleeping is off.
+// Rest damping: in a pile nothing rolls or rocks forever. A body that has been quiet for as long as it takes to fall asleep, and moves slowly, comes to rest
+// even where it may not sleep because others move or sleeping is off.
 void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
 {
     const float speed = std::max(length(sim.velocity), std::fabs(sim.angular_velocity) * sim.extent);
     if (speed > ctx.state.greatest_sleep_speed)
-    { // whatever it is
+    { // faster than the sleep speed of any body
         sim.sleep_time = 0;
         return;
     }
@@ -102,12 +102,12 @@ void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
         count_quiet_time(ctx, body, sim, record.sleep_speed);
     else
         sim.sleep_time = 0;
-    if (sim.sleep_time >= time_to_sleep && speed < is_rest_damped * limit && record.type == BodyType::Dynamic &&
+    if (sim.sleep_time >= time_to_sleep && speed < rest_damping_speed * limit && record.type == BodyType::Dynamic &&
         bears_in_crowd(ctx, sim))
         slow_down(sim, std::max(1 - ctx.dt / rest_damping_time, 0.0f));
 }
 
-// What leans on a moving kinematic body, or is joined to it, is carried by it, however slowly.
+// A body that leans on a moving kinematic body, or is joined to it, is carried by it, however slowly.
 void keep_carried_awake(SceneState& state, int body)
 {
     const BodySim& carrier = state.sims[static_cast<std::size_t>(body)];
@@ -128,7 +128,7 @@ void keep_carried_awake(SceneState& state, int body)
     }
 }
 
-// A target is for one step, in which it has been reached.
+// A target applies to one step, in which it has been reached.
 void forget_target(SceneState& state, int body)
 {
     BodySim& sim = state.sims[static_cast<std::size_t>(body)];
@@ -152,7 +152,7 @@ void settle_kinematic_bodies(SceneState& state, bool keeps_awake)
     }
 }
 
-// What hangs together through the tired sleeps, unless one of it has a neighbour who is awake and not tired.
+// Connected tired bodies fall asleep, unless one of them has a neighbor that is awake and not tired.
 class TiredIslands
 {
 public:
@@ -204,7 +204,7 @@ private:
                            });
     }
 
-    // On all threads.
+    // Runs on all threads.
     void link(std::int32_t body_a, std::int32_t body_b)
     {
         const std::int32_t a = place_of(body_a);
@@ -219,7 +219,7 @@ private:
             std::atomic_ref(m_is_kept_awake[static_cast<std::size_t>(a_is_tired ? a : b)]).store(1, std::memory_order_relaxed);
     }
 
-    // Of what is dynamic and awake: nothing else hangs together.
+    // The awake index of a body that is dynamic and awake: only such bodies form islands.
     [[nodiscard]] std::int32_t place_of(std::int32_t body) const
     {
         return body != none && m_state.bodies[body].type == BodyType::Dynamic ? m_state.bodies[body].awake_index : none;
@@ -242,8 +242,8 @@ private:
     StepContext& m_ctx;
     SceneState& m_state;
     UnionFind& m_sets;
-    std::vector<std::uint8_t>& m_is_tired;      ///< by place in awake_bodies
-    std::vector<std::uint8_t>& m_is_kept_awake; ///< a neighbour does; in the end of the root of a set: of one of it
+    std::vector<std::uint8_t>& m_is_tired;      ///< by awake index
+    std::vector<std::uint8_t>& m_is_kept_awake; ///< whether an awake neighbor keeps it awake; finally, by root of a set
 };
 
 } // namespace

@@ -1,3 +1,5 @@
+// Wakes bodies and puts them to sleep: lists of awake bodies and contacts, layers of boxes, and the walk through sleeping neighbors.
+
 #include "dynamics/sleep/wake.h"
 
 #include "dynamics/narrowphase/manifold_cache.h"
@@ -21,12 +23,12 @@ void enter_awake(SceneData& scene, int body)
                   [&](int shape)
                   {
                       state.broad_phase.move_to(shape, Layer::Moving);
-                      look_again(state, shape); // pairs without a contact were let go
+                      look_again(state, shape); // pairs without a contact were dropped
                   });
     for_each_contact(state, body,
                      [&](int contact)
                      {
-                         leave_color(state, state.contacts[contact]); // others may have taken it meanwhile
+                         leave_color(state, state.contacts[contact]); // other contacts may have taken it meanwhile
                          note_sleeper(state, state.contacts[contact]);
                          leave_lane(state, contact);
                          add_awake_contact(state, contact);
@@ -69,7 +71,7 @@ void wake_body(SceneData& scene, int body)
     const bool still = sim.velocity == Vec2{} && sim.angular_velocity == 0 && !state.bodies[body].has_target;
     if (is_awake(state, body) || (state.bodies[body].type == BodyType::Kinematic && still))
         return;
-    // Depth first through sleeping neighbours; entering marks a body as visited.
+    // Depth first through sleeping neighbors; entering marks a body as visited.
     std::vector<std::int32_t> stack{body};
     enter_awake(scene, body);
     ++scene.report.woken;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Sleep and waking. An island sleeps and wakes as a whole; while it sleeps its boxes rest in the other layer and its contacts keep their
-// manifolds and impulses untouched.
+// Sleep and waking. An island sleeps and wakes as a whole. While it sleeps, its boxes are in the resting layer and its contacts keep their manifolds and
+// impulses untouched.
 
 #include "dynamics/state/contact_store.h"
 #include "dynamics/state/scene_data.h"
@@ -15,7 +15,7 @@ namespace carom::internal {
     return state.bodies[body].type == BodyType::Dynamic && !is_awake(state, body);
 }
 
-/// In the contact's flags: who asks that of all contacts need not look at their bodies.
+/// Updates the sleeper flag of a contact, so that passes over all contacts need not look at the bodies.
 inline void note_sleeper(const SceneState& state, Contact& contact)
 {
     contact.flags &= ~contact_flag::sleeper;
@@ -23,13 +23,13 @@ inline void note_sleeper(const SceneState& state, Contact& contact)
         contact.flags |= contact_flag::sleeper;
 }
 
-/// Wakes the body and everything that touches or is joined to it through dynamic bodies. Static and disabled bodies stay.
+/// Wakes the body and everything that touches or is joined to it through dynamic bodies. Static and disabled bodies are left alone.
 void wake_body(SceneData& scene, int body);
 
 /// Puts one body to sleep: the caller takes care of the rest of its island.
 void sleep_body(SceneData& scene, int body);
 
-/// Visits every dynamic body that touches this one or is joined to it, some more than once. Disabled ones are left out.
+/// Visits every dynamic body that touches this one or is joined to it, some more than once. Disabled bodies are left out.
 template <class Visit>
 void for_each_neighbour(const SceneState& state, int body, Visit&& visit)
 {
@@ -50,7 +50,7 @@ void for_each_neighbour(const SceneState& state, int body, Visit&& visit)
     }
 }
 
-/// Appends the bodies that hang together with this one, itself first, as far as others belong(other), and marks them as seen (by body slot).
+/// Appends the bodies connected with this one, itself first, as far as belongs(other) holds, and marks them as seen (by body slot).
 template <class Belongs>
 void gather_island(const SceneState& state, int body, std::vector<std::uint8_t>& seen, std::vector<std::int32_t>& island,
                    const Belongs& belongs)
@@ -65,7 +65,7 @@ void gather_island(const SceneState& state, int body, std::vector<std::uint8_t>&
     for (; next < island.size(); ++next)
     {
         if (state.bodies[island[next]].type != BodyType::Dynamic)
-            continue; // it hangs together with nothing
+            continue; // islands do not extend through it
         for_each_neighbour(state, island[next],
                            [&](int other)
                            {
@@ -75,7 +75,7 @@ void gather_island(const SceneState& state, int body, std::vector<std::uint8_t>&
     }
 }
 
-/// Takes a body into the simulation or out of it, without touching its neighbours: lists and layers only.
+/// Takes a body into the simulation or out of it, without touching its neighbors: lists and layers only.
 void enter_awake(SceneData& scene, int body);
 void leave_awake(SceneData& scene, int body);
 

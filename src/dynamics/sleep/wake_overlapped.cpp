@@ -1,10 +1,10 @@
-// Before a step: a shape that is new, or that the user has moved or changed, wakes the sleepers that it overlaps. Its pairs would find them too, but nobody who
-// sleeps is in a step, and what is static wakes nobody by itself.
+// Before a step, a shape that is new, or that the user has moved or changed, wakes the sleepers that it overlaps. Its pairs would find them too, but a
+// sleeping body is in no step, and a static body wakes nothing by itself.
 
 #include "collision/manifold.h"
 #include "dynamics/broadphase/half_space_box.h"
+#include "dynamics/forces/fields.h"
 #include "dynamics/narrowphase/contact_update.h"
-#include "dynamics/sensors/fields.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"
@@ -20,7 +20,7 @@ class FreshOverlaps
 public:
     explicit FreshOverlaps(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state) {}
 
-    // Those that wake are fresh as well: what they overlap in turn, islands know.
+    // The shapes of woken bodies become fresh as well, but need no query: what they touch wakes with their island.
     void wake()
     {
         const std::size_t count = m_state.fresh_shapes.size();
@@ -80,7 +80,7 @@ private:
         }
     }
 
-    // Deeper than what merely touches; a trigger only where it has a field.
+    // Whether the shapes overlap by more than touching shapes do. A trigger counts only if it has a field.
     [[nodiscard]] bool overlap(int shape, int other) const
     {
         const ShapeRecord& a = m_state.shapes[shape];

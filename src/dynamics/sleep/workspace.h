@@ -1,6 +1,6 @@
 #pragma once
 
-// Memory of sleep, kept from step to step.
+// Memory of sleep, reused from step to step.
 
 #include <cstdint>
 #include <vector>
@@ -9,8 +9,8 @@ namespace carom::internal {
 
 struct SleepWorkspace
 {
-    std::vector<std::uint8_t> is_tired;      ///< has been quiet for long enough, by place in awake_bodies
-    std::vector<std::uint8_t> is_kept_awake; ///< of these, by a neighbour
+    std::vector<std::uint8_t> is_tired;      ///< has been quiet for long enough, by awake index
+    std::vector<std::uint8_t> is_kept_awake; ///< tired, but kept awake by a neighbor
 };
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies as the solver has them.
+// Bodies as the solver sees them: velocities, pose changes within the step, and the constants of a sub-step.
 
 #include "dynamics/state/scene_state.h"
 
@@ -12,30 +12,30 @@ namespace body_flag {
 inline constexpr std::uint16_t dynamic = 1;
 inline constexpr std::uint16_t flier = 2; ///< in flight: moved by flight, not by the solver
 inline constexpr std::uint16_t unbound =
-    4; ///< no forces but those that are even over a sub-step, and joints': it drifts along exact parabolas
-inline constexpr std::uint16_t at_lower = 8;    ///< a hinge limit blocks turning clockwise
-inline constexpr std::uint16_t at_upper = 16;   ///< a hinge limit blocks turning counter-clockwise
+    4; ///< only joints and forces that are constant over a sub-step act on it: it drifts along exact parabolas
+inline constexpr std::uint16_t at_lower = 8;    ///< a hinge limit blocks clockwise rotation
+inline constexpr std::uint16_t at_upper = 16;   ///< a hinge limit blocks counter-clockwise rotation
 inline constexpr std::uint16_t traced = 32;     ///< its path is recorded: it is near a trigger
-inline constexpr std::uint16_t unsound = 64;    ///< its force law gave what is no force: it is put aside after the step
-inline constexpr std::uint16_t stopped = 256;   ///< short of where the solver had it, by a wall on the way
-inline constexpr std::uint16_t pressed = 512;   ///< into a wall, by far more than contacts can bear: its way is checked
-inline constexpr std::uint16_t jointed = 1024;  ///< holds on to a joint that does not stand in a lane
-inline constexpr std::uint16_t free_fall = 128; ///< with nothing near that it could meet in this step
+inline constexpr std::uint16_t unsound = 64;    ///< invalid load of its force law or invalid state: put aside after the step
+inline constexpr std::uint16_t stopped = 256;   ///< a wall in its path stopped it short of the solver's position
+inline constexpr std::uint16_t pressed = 512;   ///< pressed into a wall, by far more than contacts can bear: its path is checked
+inline constexpr std::uint16_t jointed = 1024;  ///< held by a joint outside of lanes
+inline constexpr std::uint16_t free_fall = 128; ///< nothing is near that it could meet in this step
 } // namespace body_flag
 
-/// What every solver pass touches. Pose changes count from the start of the step.
+/// The state that every solver pass touches. Pose changes count from the start of the step.
 struct BodyState
 {
     Vec2 velocity{};
     float angular_velocity = 0;
     std::uint16_t flags = 0;
-    std::int16_t turns = 0; ///< whole ones beside delta_rotation, see turns.h
+    std::int16_t turns = 0; ///< whole turns beyond delta_rotation, see turns.h
     Vec2 delta_position{};
     Rotation delta_rotation{};
 };
 static_assert(sizeof(BodyState) == 32);
 
-/// Of a body, at another time than now; or how much they have changed.
+/// Speeds of a body at another time, or a change of its speeds.
 struct BodySpeeds
 {
     Vec2 velocity{};
@@ -49,11 +49,11 @@ struct StateConstants
     float inverse_inertia = 0;
     float angular_acceleration = 0;
     Vec2 acceleration{};
-    float linear_decay = 1; ///< of the velocity over a sub-step
+    float linear_decay = 1; ///< factor on the velocity over a sub-step
     float angular_decay = 1;
 };
 
-/// A state whose body has a force law, and the accelerations that it has without.
+/// A state whose body has a force law, and its accelerations without that law.
 struct LawWork
 {
     std::int32_t state = none;

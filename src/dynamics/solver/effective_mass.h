@@ -1,8 +1,10 @@
 #pragma once
 
+// Tells an effective mass from rounding error.
+
 namespace carom::internal {
 
-/// False where an inverse mass is the rounding of what its arms could give at most, squared arms times inverse inertia: nothing gives way.
+/// False if an inverse mass is only the rounding error of its largest possible term, squared arms times inverse inertia: then nothing can move.
 template <class Number>
 [[nodiscard]] bool exceeds_rounding(Number inverse_mass, Number by_arms)
 {

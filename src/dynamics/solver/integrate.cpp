@@ -1,3 +1,5 @@
+// Symplectic Euler steps of an island's bodies: velocities from forces, then positions from velocities.
+
 #include "dynamics/solver/integrate.h"
 
 #include "core/float4.h"
@@ -12,7 +14,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int enough_states = 256; // to share
+constexpr int enough_states = 256; // to share among threads
 
 template <class Work>
 void over_ranges(const SolvedIsland& work, const Work& of_range)
@@ -22,21 +24,21 @@ void over_ranges(const SolvedIsland& work, const Work& of_range)
                     [&](int first, int last) { of_range(first_state + first, first_state + last); });
 }
 
-// Not kinematic, and not in flight.
+// True for bodies that are neither kinematic nor in flight.
 bool solver_moves(const BodyState& s) { return (s.flags & (body_flag::dynamic | body_flag::flier)) == body_flag::dynamic; }
 
 static_assert(sizeof(BodySpeeds) == sizeof(F4) && offsetof(BodyState, angular_velocity) == 8);
 
-// Velocity, angular velocity, and 0 where the flags are.
+// Velocity, angular velocity, and 0 in place of the flags.
 F4 speeds_of(const BodyState& s) { return with_last(load4(&s.velocity.x), F4{}); }
 
 void set_speeds(BodyState& s, F4 speeds) { store4(&s.velocity.x, with_last(speeds, load4(&s.velocity.x))); }
 
-// By a sub-step's forces and damping: v + h a, then the decay.
+// Applies a sub-step's forces and damping: v + h a, then the decay.
 F4 accelerated(const BodyState& s, const StateConstants& c, float h)
 {
     static_assert(offsetof(StateConstants, angular_acceleration) == 12 && offsetof(StateConstants, acceleration) == 16);
-    const F4 rest = load4(&c.acceleration.x); // acceleration, and decays of both
+    const F4 rest = load4(&c.acceleration.x); // acceleration, and both decays
     const F4 masses = load4(&c.inverse_mass.x);
     const F4 acceleration = low_and_high(rest, interleaved_high(masses, masses));
     const F4 decay = interleaved_high(rest, rest);

@@ -1,25 +1,25 @@
 #pragma once
 
-// Velocities and positions of an island's bodies over a sub-step, on all threads of its team.
+// Integrates velocities and positions of an island's bodies over a sub-step, on all threads of its worker team.
 
 #include "dynamics/solver/solved_island.h"
 
 namespace carom::internal {
 
-/// How contacts give again what they gave a body in the last sub-step.
+/// How warm starting applies the impulses of the last sub-step again.
 enum class WarmStart : std::uint8_t
 {
     ByConstraint,
-    NotesBodies, ///< and notes what makes ByBody possible in the next sub-step
-    ByBody ///< at once, while velocities are integrated: what its speeds were beyond those that it would have had without constraints
+    NotesBodies, ///< and notes the speeds that ByBody needs in the next sub-step
+    ByBody ///< at once, as velocities are integrated: the change that constraints made to the body's speeds in the last sub-step
 };
 
-/// v += h a, then damping. Bodies in flight have their own path.
+/// v += h a, then damping. Fliers are moved by flight instead.
 void integrate_velocities(const SolvedIsland& work, WarmStart start);
 
 /// x += h v
 void integrate_positions(const SolvedIsland& work);
-/// The same of states first to last, on this thread.
+/// The same for states first to last, on this thread.
 void integrate_positions(const SolvedIsland& work, int first, int last);
 
 } // namespace carom::internal

@@ -1,3 +1,5 @@
+// Fills an island's constraints and joints from records before it is solved, and commits impulses afterwards.
+
 #include "dynamics/solver/island_constraints.h"
 
 #include "core/index.h"
@@ -17,9 +19,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int enough_constraints = 256; // to share
+constexpr int enough_constraints = 256; // to share among threads
 
-// Each of `count` places from the first on.
+// Visits each of `count` slots from `begin` on.
 template <class Visit>
 void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, const Visit& visit)
 {
@@ -31,7 +33,7 @@ void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, co
                });
 }
 
-// The contact of a lane that is filled later.
+// Prefetches the contact of a lane that is filled later.
 [[gnu::always_inline]] inline void prefetch_lane(const StepContext& ctx, std::size_t lane)
 {
     const Scratch& scratch = ctx.scratch;
@@ -42,7 +44,7 @@ void for_each_place(WorkerTeam& team, std::int32_t begin, std::int32_t count, co
     prefetch(ctx.state.impulses[as_index(contact)]);
 }
 
-// The island's g-th.
+// Fills block g of the island.
 void fill_block(const StepContext& ctx, const Island& island, std::int32_t g)
 {
     const Scratch& scratch = ctx.scratch;
@@ -81,7 +83,7 @@ void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t 
     follow_closely(contact, island, constraint);
 }
 
-// The hinge of a lane that is filled later, and still later where it holds.
+// Prefetches the hinge of a lane that is filled later, and the bodies of a hinge that is filled sooner.
 [[gnu::always_inline]] inline void prefetch_hinge(const SceneState& state, std::span<const JointLane> later)
 {
     if (later.size() > 2 * prefetch_distance)
@@ -92,7 +94,7 @@ void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t 
     for (const std::int32_t body : {joint.body_a, joint.body_b})
     {
         if (body != none)
-            prefetch_line(&state.sims[as_index(body)]); // the half that neighbours read
+            prefetch_line(&state.sims[as_index(body)]); // the half that neighbors read
     }
 }
 
@@ -146,7 +148,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
     joint.force = (1 / ctx.dt) * work.force_sum;
     joint.torque = work.torque_sum / ctx.dt;
     if (!is_finite(joint.force) || !is_finite(joint.torque))
-        forget_loads(joint); // the solver cannot start from numbers beyond all bounds
+        forget_loads(joint); // the solver cannot warm start from loads that are not finite
     std::ranges::transform(work.errors(), work.moved, joint.left_errors, std::minus<>());
     joint.yields = work.yields;
 }
@@ -187,7 +189,7 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
                   [&](int g)
                   {
                       if (are_constraints_far(island))
-                      { // beyond the last there is nothing, which does no harm
+                      { // prefetching beyond the last block does no harm
                           prefetch(constraints[as_index(g) + prefetch_distance]);
                           prefetch(notes[as_index(g) + prefetch_distance]);
                       }

@@ -1,15 +1,15 @@
-// One island through all its sub-steps. In every sub-step the soft constraints advance first, then the island's bodies in flight through the same interval, then
-// everything relaxes and bounces.
+// Takes one island through all its sub-steps. In every sub-step the soft constraints advance first,
+// then the island's fliers through the same interval; then everything relaxes and bounces.
 
 #include "dynamics/solver/island_solver.h"
 
 #include "core/index.h"
 #include "dynamics/continuous/flight.h"
+#include "dynamics/forces/force_laws.h"
 #include "dynamics/solver/contact/contact_passes.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/recomputed_contacts.h"
 #include "dynamics/solver/contact/restitution.h"
-#include "dynamics/solver/force_laws.h"
 #include "dynamics/solver/integrate.h"
 #include "dynamics/solver/joint/island_joints.h"
 #include "dynamics/solver/solved_island.h"
@@ -23,10 +23,10 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int passes_in_turns = 3; // of joints and contacts
-constexpr int most_passes = 16;    // until contacts agree
+constexpr int passes_in_turns = 3; // alternating between joints and contacts
+constexpr int most_passes = 16;    // until contacts converge
 
-// Do passes over an island's contacts still change its speeds?
+// Finds whether passes over an island's contacts still change its speeds.
 class Convergence
 {
 public:
@@ -121,12 +121,13 @@ private:
         m_joints.kick_springs_after();
         m_contacts.walls().guard_cores();
         if (m_policy.exact_impacts && m_work.has_fliers())
-            relax(); // they must not meet what overlap is pushed out with
+            relax(); // fliers must not meet the speed that pushes overlaps out
         fly(k);
         relax();
     }
 
-    // Nothing but lanes is solved, and nothing comes between solving and relaxing. In a huge island something always flies: there it flies after both.
+    // True if all constraints are in lanes, and nothing comes between solving and relaxing.
+    // In a huge island some body always flies: there, flight comes after both.
     [[nodiscard]] bool goes_by_partition() const
     {
         const Island& island = m_work.island;
@@ -143,7 +144,7 @@ private:
         m_contacts.relax_struck();
     }
 
-    // The solver has nothing of it: hinges fly with their bodies.
+    // True if the whole island flies and the solver has nothing to do: hinges fly with their bodies.
     [[nodiscard]] bool is_airborne() const
     {
         const Island& island = m_work.island;
@@ -152,7 +153,7 @@ private:
                std::ranges::none_of(fliers_of(m_work.scratch, island), &Flier::landed);
     }
 
-    // What lands on the way is the solver's from there on.
+    // A body that lands on its path belongs to the solver from there on.
     void advance_airborne(int k)
     {
         advance_fliers(m_work.ctx, m_work.island, k, m_work.output, m_work.team);
@@ -190,7 +191,7 @@ private:
         m_contacts.warm_start();
     }
 
-    // Joints have the last word over contacts, unless it leads a body into a wall.
+    // Joints have the last word over contacts, unless that leads a body into a wall.
     void solve(bool use_bias)
     {
         solve_in_turns(use_bias);
@@ -206,8 +207,8 @@ private:
         solve_in_turns(use_bias);
     }
 
-    // Where bodies are few, joints and contacts take turns. Contacts of a few bodies are solved until they agree: what a wall stops last still comes into its
-    // neighbors, and overlap is pushed out against the forces.
+    // With few bodies, joints and contacts alternate. Contacts of a few bodies are solved until they converge: a
+    // body that a wall stops last still stops its neighbors, and overlap is pushed out against the forces.
     void solve_in_turns(bool use_bias)
     {
         const std::size_t contacts = m_work.constraints.size() + m_work.late_constraints().size();
@@ -230,7 +231,7 @@ private:
         }
     }
 
-    // At the poses that have been reached: takes out the speed that pushed overlaps out.
+    // Works at the poses that have been reached: removes the speed that pushed overlaps out.
     void relax()
     {
         m_recomputed.recompute();
@@ -268,7 +269,7 @@ private:
             m_joints.place();
     }
 
-    // And how far joints and contacts are from what they are to hold: they do work on the way there.
+    // Also notes the errors of joints and contacts: constraints do work while they correct these.
     void begin_energy()
     {
         if (!m_policy.conserves_energy)
@@ -310,7 +311,7 @@ private:
         }
     }
 
-    // What is kept for the next step's warm start is of a whole sub-step.
+    // Impulses that are kept for the next step's warm starting are those of a whole sub-step.
     void scale_impulses(float by)
     {
         m_work.for_each_constraint([by](ContactConstraint& constraint) { scale_constraint(constraint, by); });

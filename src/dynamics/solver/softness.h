@@ -1,12 +1,13 @@
 #pragma once
 
-// Soft constraints.
+// Soft constraints: a frequency and a damping ratio as coefficients of an implicit step.
 
 #include "carom/math.h"
 
 namespace carom::internal {
 
-/// A constraint as a damped spring solved implicitly over h (the "soft constraint" of Catto, GDC 2011):
+/// A constraint as a damped spring that is integrated implicitly over h (the "soft constraint" of Catto, GDC 2011):
+/// impulse = -mass_scale m (v + bias_rate C) - impulse_scale accumulated.
 /// impulse = -mass_scale m (v + bias_rate C) - impulse_scale accumulated.
 struct Softness
 {

@@ -1,5 +1,6 @@
-// Stage 5, solve: large islands one after the other on all threads, small ones side by side, a batch of them to a task, or by threads that a large one has
-// nothing for. An island's constraints are filled just before it is solved (island_solver.cpp) and committed right after.
+// Stage 5, solve. All threads solve large islands together, one after the other. Small islands are solved side
+// by side, a batch of them to a task; threads that a large island leaves idle take such batches, too. An
+// island's constraints are filled just before it is solved (island_solver.cpp) and committed right after.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
@@ -20,7 +21,7 @@ namespace carom::internal {
 
 namespace {
 
-// A parabola and an even turn: in double, rounded once. Damping acts after each sub-step, as on everything else.
+// A parabola and an even rotation: in double, rounded once. Damping acts after each sub-step, as for all other bodies.
 void advance_free_fall(const StepContext& ctx, std::int32_t index)
 {
     BodyState& s = ctx.scratch.solver.states[static_cast<std::size_t>(index)];
@@ -61,18 +62,18 @@ void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, WorkerTe
     commit_island(ctx, island, team);
 }
 
-// Batches of about so many bodies: enough work for a task, and a choice that depends on the islands alone.
+// Approximate number of bodies in a batch: enough work for a task, and a choice that depends on the islands alone.
 constexpr int batch_bodies = 64;
 
-// The islands of a batch are solved one after the other in the same memory, which stays in the cache, unless their constraints stay for the
-// next step. Fills Scratch::order with where batches begin.
+// The islands of a batch are solved one after the other in the same memory, which stays in the cache, unless
+// their constraints are cached for the next step. Fills Scratch::order with the starts of the batches.
 void form_batches(Scratch& scratch)
 {
     std::vector<std::int32_t>& starts = scratch.order;
     starts.assign(1, 0);
     std::int32_t store = 0;
     std::int32_t large = 0;
-    std::int32_t most = 0; // groups of an island of the batch
+    std::int32_t most = 0; // blocks of the largest island in the batch
     int bodies = 0;
     for (std::size_t i = 0; i < scratch.solver.islands.size(); ++i)
     {
@@ -110,7 +111,7 @@ void form_batches(Scratch& scratch)
     set_size(scratch.solver.struck, scratch.solver.wide_contacts.size());
 }
 
-// All threads on one after the other.
+// All threads solve the large islands together, one after the other.
 void solve_large(const StepContext& ctx, WorkerTeam& team)
 {
     IslandEnergy energy;

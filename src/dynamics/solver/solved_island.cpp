@@ -1,3 +1,5 @@
+// Puts together the data that the parts of an island's solver share.
+
 #include "dynamics/solver/solved_island.h"
 
 #include "core/index.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// An island while it is solved: what the parts of its solver share.
+// An island while it is solved: the data that the parts of its solver share.
 
 #include "core/worker_team.h"
 #include "dynamics/narrowphase/contact_update.h"
@@ -17,7 +17,7 @@ struct SolvedIsland
 {
     SolvedIsland(const StepContext& step, const Island& island, IslandOutput& output, WorkerTeam& team);
 
-    StepContext ctx; ///< with sub-steps subdivided as the island asks for
+    StepContext ctx; ///< with the island's subdivision of sub-steps
     Scratch& scratch;
     const Island& island;
     IslandOutput& output;
@@ -26,7 +26,7 @@ struct SolvedIsland
     std::span<ContactConstraint> constraints; ///< outside of lanes
     std::span<JointWork> joints;              ///< likewise
 
-    /// Those that have come since the step began.
+    /// Constraints that have come since the step began.
     [[nodiscard]] std::span<ContactConstraint> late_constraints() const { return output.late_constraints; }
 
     template <class Visit>
@@ -40,14 +40,14 @@ struct SolvedIsland
     {
         return !constraints.empty() || !late_constraints().empty() || island.wide_count > 0;
     }
-    [[nodiscard]] bool has_fliers() const; ///< something of it is in flight now
+    [[nodiscard]] bool has_fliers() const; ///< whether any of its bodies is in flight now
     [[nodiscard]] bool is_dynamic(std::int32_t state) const { return (view.states[state].flags & body_flag::dynamic) != 0; }
 
-    /// Of a body within the step, and where its present speeds lead it to in a time `ahead`, s.
+    /// The pose of a body within the step, moved on by its present speeds over a time `ahead`, s.
     [[nodiscard]] BodyPose pose_of(int body, std::int32_t state, float ahead) const;
 };
 
-/// It gets no constraint.
+/// True for a contact that gets no constraint.
 [[nodiscard]] inline bool is_left_out(const Contact& contact)
 {
     return (contact.flags & (contact_flag::trigger | contact_flag::passing)) != 0;

@@ -1,3 +1,5 @@
+// Measures how deep bodies are in walls, and moves them back.
+
 #include "dynamics/solver/walls.h"
 
 #include "core/index.h"
@@ -49,7 +51,7 @@ float Walls::entry(const ContactConstraint& constraint) const
 
 void Walls::guard_cores() const
 {
-    // Between two walls neither is to push it through the other.
+    // Between two walls, neither may push the body through the other.
     float part = 1;
     for (int pass = 0; pass < guard_passes && guard_constraints(part) > 1; ++pass)
         part = 0.5f;
@@ -92,7 +94,7 @@ void Walls::push_out(std::int32_t state, Vec2 displacement) const
     body.flags |= body_flag::pressed;
 }
 
-// Says how many it found too deep.
+// Returns the number of contacts that are too deep.
 int Walls::guard_constraints(float part) const
 {
     int too_deep = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Keeps bodies from being pulled or pressed through walls.
+
 #include "dynamics/solver/contact/contact_solver.h"
 #include "dynamics/solver/contact/wide_contacts.h"
 
@@ -7,7 +9,7 @@
 
 namespace carom::internal {
 
-/// The contacts of an island with bodies that do not give way: nothing goes through these, whatever pulls.
+/// The contacts of an island with immovable bodies: no body may pass through these, whatever pulls it.
 class Walls
 {
 public:
@@ -15,19 +17,19 @@ public:
     {
         std::span<const ContactConstraint> constraints;
         std::span<const ContactConstraint> late_constraints;
-        std::span<const ContactConstraint> pulled; ///< of bodies in joints, that stand in lanes
+        std::span<const ContactConstraint> pulled; ///< contacts of jointed bodies that lie in lanes
         std::span<const WideContact> wide;
         std::span<const WideCore> cores;
     };
 
     Walls(const SolverView& view, const Constraints& constraints) : m_view(view), m_constraints(constraints) {}
 
-    /// How much deeper the present speeds lead bodies in joints into them within the sub-step, in all.
+    /// How much deeper the present speeds lead jointed bodies into walls within the sub-step, summed over their contacts.
     [[nodiscard]] float entry() const;
 
-    /// The last line of defence, for what something far heavier presses into a wall: moves it back where it is deeper than half of what is inside it.
+    /// The last line of defense against a far heavier body that presses another into a wall: moves a body back that is deeper than half of its inner radius.
     void guard_cores() const;
-    /// The same for the lanes of groups first to last alone.
+    /// The same, only for the lanes of blocks first to last.
     void guard_wide_cores(int first, int last) const;
 
 private:

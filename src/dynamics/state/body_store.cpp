@@ -1,3 +1,5 @@
+// Mass, extent and boxes of bodies.
+
 #include "dynamics/state/body_store.h"
 
 #include "dynamics/narrowphase/manifold_cache.h"
@@ -58,7 +60,7 @@ void move_center(SceneState& state, int body, Vec2 local_center)
     state.quiet_starts[static_cast<std::size_t>(body)].center += shift;
     sim.center = center;
     sim.local_center = local_center;
-    state.graph_dirty = true; // lanes of hinges have anchors from there
+    state.graph_dirty = true; // lanes of hinges hold anchors relative to it
 }
 
 void update_inverse_mass(SceneState& state, int body)
@@ -74,8 +76,8 @@ void update_inverse_mass(SceneState& state, int body)
         return;
     sim.inverse_mass = inverse_mass;
     sim.inverse_inertia = inverse_inertia;
-    for_each_contact(state, body, [&](int contact) { leave_lane(state, contact); }); // which has its masses in it
-    state.graph_dirty = true;                                                        // and so have those of hinges
+    for_each_contact(state, body, [&](int contact) { leave_lane(state, contact); }); // a lane holds the inverse masses
+    state.graph_dirty = true;                                                        // and so do lanes of hinges
 }
 
 void obey_locks(const BodyRecord& record, BodySim& sim)
@@ -116,7 +118,7 @@ void update_mass(SceneState& state, int body)
         move_center(state, body, {static_cast<float>(total.center_x), static_cast<float>(total.center_y)});
     }
     update_inverse_mass(state, body);
-    obey_locks(record, sim); // a center that moves takes up the turn of its body
+    obey_locks(record, sim); // a center that moves takes up the rotation of its body
     sim.extent = 0;
     sim.size = 1e30f;
     for_each_leaf(state, body, [&](int shape) { measure(leaf_view(state, shape), sim); });

@@ -1,13 +1,13 @@
 #pragma once
 
-// Bodies and their shapes as objects: mass, boxes, and the walks over a body's leaves.
+// Bodies and their shapes: mass, boxes, and iteration over a body's leaves.
 
 #include "dynamics/state/scene_data.h"
 
 namespace carom::internal {
 
-/// Calls visit(shape slot) for every leaf of the body: its shapes, and the pieces of its chains. Where it goes next is read before the visit; a piece is
-/// followed by the next one, and the last by what follows its chain.
+/// Calls visit(shape slot) for every leaf of the body: its shapes, and the pieces of its chains. The next slot is read before the visit. A
+/// piece is followed by the next piece, and the last one by the shape after its chain.
 template <class Visit>
 void for_each_leaf(const SceneState& state, int body, Visit&& visit)
 {
@@ -26,23 +26,23 @@ void for_each_leaf(const SceneState& state, int body, Visit&& visit)
     return view(state.shapes[shape].leaf, state.leaf_store);
 }
 
-/// Mass, centre and inertia from the shapes (unless overridden), inverse masses from type and locks, and the extent.
-/// The velocity of the centre follows when the centre moves.
+/// Updates mass, center and inertia from the shapes (unless overridden), inverse masses from type and locks, and the extent.
+/// The velocity of the center follows when the center moves.
 void update_mass(SceneState& state, int body);
 
-/// The same after one shape was added: a static body with a million shapes does not look at all of them again.
+/// The same after one shape was added: a static body with a million shapes does not visit all of them again.
 void include_mass(SceneState& state, int body, int shape);
 
-/// Another center of mass: the velocity of the material stays, and cached manifolds are found anew.
+/// Moves the center of mass: the velocity of the material is kept, and cached manifolds are computed anew.
 void move_center(SceneState& state, int body, Vec2 local_center);
 
-/// Takes the speeds that its locks forbid; a kinematic body has no locks.
+/// Clears the velocities that the locks forbid; a kinematic body has no locks.
 void obey_locks(const BodyRecord& record, BodySim& sim);
 
-/// Inverse masses alone, after a change of type or locks.
+/// Updates the inverse masses alone, after a change of type or locks.
 void update_inverse_mass(SceneState& state, int body);
 
-/// It looks for all its pairs in the next step.
+/// The shape searches for all its pairs in the next step.
 inline void look_again(SceneState& state, int shape)
 {
     append(state.fresh_shapes, shape);
@@ -50,13 +50,13 @@ inline void look_again(SceneState& state, int shape)
         state.broad_phase.renew(shape);
 }
 
-/// The fat box of a leaf at its body's present pose.
+/// The fat box of a leaf at its body's current pose.
 [[nodiscard]] FloatBox fat_box(const SceneData& scene, int shape);
 
-/// Puts the leaf into the broad phase, or takes it out.
+/// Puts the leaf into the broad phase.
 void add_to_broad_phase(SceneData& scene, int shape);
 
-/// After a teleport or a change of geometry: new boxes, and a look for pairs.
+/// After a teleport or a change of geometry: computes new boxes, and lets the shapes search for pairs.
 void refresh_boxes(SceneData& scene, int body);
 
 } // namespace carom::internal

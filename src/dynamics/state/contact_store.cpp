@@ -1,3 +1,5 @@
+// Creation and destruction of contacts, and the lists that hold them.
+
 #include "dynamics/state/contact_store.h"
 
 #include "collision/manifold.h"
@@ -144,7 +146,7 @@ void follow_again(SceneState& state, int index)
     state.box_pairs.push_back({contact.shape_a, contact.shape_b, index});
 }
 
-// Along both bodies' lists at once: one may be the ground's.
+// Walks both bodies' lists at once: one of them may be the long list of the ground.
 bool has_contact(const SceneState& state, int shape_a, int shape_b)
 {
     int edge_a = state.bodies[state.shapes[shape_a].body].first_contact;
@@ -173,7 +175,7 @@ bool is_plain(const Leaf& leaf) { return leaf.type != LeafType::Arc && !is_of_ch
 Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32_t pair)
 {
     const SceneState& state = scene.state;
-    // The first shape is the trigger, or the one whose type comes first in the table: then every pair is computed one way.
+    // The first shape is the trigger, or the one whose type comes first in the table, so that every pair is computed in one order.
     const ShapeRecord* a = &state.shapes[shape_a];
     const ShapeRecord* b = &state.shapes[shape_b];
     const bool trigger = a->trigger || b->trigger;
@@ -257,7 +259,7 @@ void destroy_contact(SceneData& scene, int index, Events& events, float time)
 
 namespace {
 
-// Whatever rested on the body must notice that it is gone.
+// A body that rested on this one wakes, for its support is gone.
 void destroy_and_wake(SceneData& scene, int index, int body)
 {
     const Contact contact = scene.state.contacts[index];

@@ -1,6 +1,6 @@
 #pragma once
 
-// Contacts as objects: making and destroying them, and the lists they hang in.
+// Contacts: creation, destruction, and the lists that hold them.
 
 #include "dynamics/state/scene_data.h"
 
@@ -9,44 +9,44 @@
 
 namespace carom::internal {
 
-/// Of pairs, and of contacts. Where there are more, they and their boxes come from memory: walks are to go straight through it.
+/// Number of pairs, or of contacts, that stay near in the cache. A larger number comes from memory with their boxes, and is walked sequentially.
 inline constexpr std::size_t most_near_pairs = 131'072;
 
-/// May these two shapes have a contact at all: types, filters, joints, ignored pairs, triggers?
+/// Whether two shapes may have a contact at all, by types, filters, joints, ignored pairs and triggers.
 [[nodiscard]] bool may_collide(const SceneState& state, int shape_a, int shape_b);
 
-/// By groups, categories and masks alone.
+/// Compares groups, categories and masks alone.
 [[nodiscard]] bool filters_agree(const Filter& a, const Filter& b);
 
-/// The filter as trees of boxes go by it: what shares a positive group meets whatever its categories are.
+/// The filter as trees of boxes apply it: shapes that share a positive group meet whatever their categories are.
 [[nodiscard]] inline FilterBits filter_bits(const Filter& filter)
 {
     return filter.group > 0 ? FilterBits{} : FilterBits{filter.category, filter.mask};
 }
 
-/// Of a pair in SceneState::box_pairs, whose shapes must be allowed to collide and have no contact yet.
+/// Creates the contact of a pair in SceneState::box_pairs. Its shapes must be allowed to collide and have no contact yet.
 void create_contact(SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
 
-/// Such a contact as it begins, in no list yet.
+/// Such a contact in its initial state, in no list yet.
 [[nodiscard]] Contact new_contact(const SceneData& scene, int shape_a, int shape_b, std::int32_t pair);
 
-/// What is kept of contacts in arrays of their own: room for as many as there are slots.
+/// Makes room in the arrays beside the contacts (cached manifolds, impulses, lane marks) for as many contacts as there are slots.
 void make_room_beside_contacts(SceneState& state);
 
-/// Into and out of the list of one of its bodies: side 0 is that of body_a.
+/// Links a contact into the list of one of its bodies, or unlinks it: side 0 is that of body_a.
 void link_side(SceneState& state, int contact, int side);
 void unlink_side(SceneState& state, int contact, int side);
 
-/// The pair that it has, if any, is without a contact then.
+/// Detaches the contact from its pair, if it has one.
 void leave_pair(SceneState& state, int contact);
 
-/// Takes it from its pair and from the list of awake ones. Bodies' lists and colours are the caller's.
+/// Removes the contact from its pair and from the awake list, and frees its slot. The caller updates bodies' lists and colors.
 void give_up_slot(SceneState& state, int contact);
 
-/// Ends what has begun: the event goes to `events` at `time`. Wakes nothing.
+/// Ends a touch that has begun: the event goes to `events` at `time`. Wakes nothing.
 void destroy_contact(SceneData& scene, int contact, Events& events, float time);
 
-/// Destroys the contacts of a shape or of a body; bodies that leaned on them wake.
+/// Destroys the contacts of a shape or of a body; bodies that rested on it wake.
 void destroy_contacts_of_shape(SceneData& scene, int shape);
 void destroy_contacts_of_body(SceneData& scene, int body);
 
@@ -56,15 +56,15 @@ void mix_materials(const SceneData& scene, Contact& contact);
 void add_awake_contact(SceneState& state, int contact);
 void remove_awake_contact(SceneState& state, int contact);
 
-/// Have the two shapes a contact?
+/// Whether the two shapes have a contact.
 [[nodiscard]] bool has_contact(const SceneState& state, int shape_a, int shape_b);
 
-/// Puts its pair back into SceneState::box_pairs, where it is not.
+/// Puts the contact's pair back into SceneState::box_pairs, if it is not there.
 void follow_again(SceneState& state, int contact);
 
 [[nodiscard]] inline int edge_contact(int edge) { return edge >> 1; }
 
-/// The contacts of a body, by index, while none of them comes or goes.
+/// The contacts of a body, by index. None may be created or destroyed during the iteration.
 class ContactsOf
 {
 public:
@@ -96,7 +96,7 @@ private:
 
 [[nodiscard]] inline ContactsOf contacts_of(const SceneState& state, int body) { return {state, body}; }
 
-/// Calls visit(contact index) for every contact of the body; the contact visited may be destroyed meanwhile.
+/// Calls visit(contact index) for every contact of the body; the visit may destroy its contact.
 template <class Visit>
 void for_each_contact(SceneState& state, int body, Visit&& visit)
 {
@@ -108,7 +108,7 @@ void for_each_contact(SceneState& state, int body, Visit&& visit)
     }
 }
 
-/// Of a contact that nothing solves any more.
+/// For a contact that is no longer solved.
 inline void forget_impulses(SceneState& state, int contact)
 {
     state.contacts[contact].flags &= ~contact_flag::loaded;
@@ -120,7 +120,7 @@ inline void forget_impulses(SceneState& state, int contact)
     return contact.body_a == body ? contact.body_b : contact.body_a;
 }
 
-/// None for the world.
+/// The other body of a joint; none for the world.
 [[nodiscard]] inline int other_body(const JointRecord& joint, int body)
 {
     return joint.body_a == body ? joint.body_b : joint.body_a;
@@ -128,18 +128,18 @@ inline void forget_impulses(SceneState& state, int contact)
 
 /// Public ids of slots.
 [[nodiscard]] BodyId body_id(const SceneState& state, int slot);
-[[nodiscard]] ShapeId user_shape_id(const SceneState& state, int slot); ///< of one that is no piece
+[[nodiscard]] ShapeId user_shape_id(const SceneState& state, int slot); ///< of a shape that is no piece
 [[nodiscard]] ShapeId shape_id(const SceneState& state, int slot);      ///< of the owner, for pieces of chains
 [[nodiscard]] JointId joint_id(const SceneState& state, int slot);
 
-/// Back; -1: null.
+/// Slot of a public id; -1 for the null id.
 template <class Kind>
 [[nodiscard]] int slot_of(Id<Kind> id)
 {
-    return static_cast<int>(id.slot - 1u); // of any number, and so of an id that was never given
+    return static_cast<int>(id.slot - 1u); // defined for any number, and so for an id that was never issued
 }
 
-/// An event of any kind: of these two shapes, and what else it says in its order.
+/// An event of any kind between two shapes; `rest` are its other fields in order.
 template <class Event, class... Rest>
 [[nodiscard]] Event event_between(const SceneState& state, int shape_a, int shape_b, const Rest&... rest)
 {
@@ -147,7 +147,7 @@ template <class Event, class... Rest>
             body_id(state, state.shapes[shape_b].body), rest...};
 }
 
-/// The same of a contact, without a look at shapes that are the user's own.
+/// The same for a contact, without access to the shapes unless one is a piece.
 template <class Event, class... Rest>
 [[nodiscard]] Event event_of(const SceneState& state, const Contact& c, const Rest&... rest)
 {

@@ -1,3 +1,5 @@
+// Removes bodies whose motion is no longer finite.
+
 #include "dynamics/state/quarantine.h"
 
 #include "dynamics/sleep/wake.h"
@@ -11,7 +13,7 @@ namespace carom::internal {
 
 namespace {
 
-// The loads of the step are as wrong as the body's state.
+// The joint loads of the step are as wrong as the body's state.
 void forget_loads_of_joints(SceneState& state, int body)
 {
     for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])

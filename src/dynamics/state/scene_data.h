@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene: its state, what lives beside the state (user data, callbacks, force laws), the events of the last step, and
+// A scene: its state, what is stored beside the state (user data, callbacks, force laws), the events of the last step, and
 // scratch memory that keeps its capacity from step to step.
 
 #include "carom/scene.h"
@@ -15,19 +15,19 @@
 
 namespace carom::internal {
 
-/// Lengths and speeds below which things count as equal, from SceneDef::length_scale.
+/// Lengths and speeds below which values count as equal, from SceneDef::length_scale.
 struct Tolerances
 {
-    float slop = 0;        ///< shapes this near touch; what overlaps by no more may fly
-    float speculation = 0; ///< gap within which quiet pairs get constraints
-    float keep = 0;        ///< in crowds manifolds are followed until bodies have moved so far against each other
-    float box_margin = 0;  ///< how fat boxes are
+    float slop = 0;        ///< shapes this near touch; bodies that overlap by no more may fly
+    float speculation = 0; ///< gap within which quiet pairs get speculative contacts
+    float keep = 0;        ///< in crowds, cached manifolds are followed until bodies have moved this far relative to each other
+    float box_margin = 0;  ///< margin of fat boxes
     float push_speed = 0;  ///< overlap is removed no faster
-    float sleep_speed = 0; ///< of bodies that are given none of their own
-    float rest_speed = 0;  ///< approach slower than this is not an impact
+    float sleep_speed = 0; ///< for bodies without a sleep speed of their own
+    float rest_speed = 0;  ///< slower approach is not an impact
 };
 
-/// A touch that begins, until the events stage.
+/// A touch that begins, stored until the events stage.
 struct RawTouch
 {
     std::int32_t contact = none; ///< none: the pair has no contact, and the touch ends in the step it began
@@ -56,7 +56,7 @@ struct Events
     }
 };
 
-/// What an event is sorted by: its time and its shapes; then where it stood, so that events of one pair at one time keep the order in which they happened.
+/// Sort key of an event: its time and shapes, then its index, so that events of one pair at one time keep the order in which they happened.
 struct EventKey
 {
     std::uint64_t time_and_first;
@@ -64,7 +64,7 @@ struct EventKey
     friend auto operator<=>(const EventKey&, const EventKey&) = default;
 };
 
-/// An impact that a body's force law is to be told in the next step.
+/// An impact that is passed to a body's force law in the next step.
 struct PendingImpact
 {
     std::int32_t body = none;
@@ -76,24 +76,24 @@ struct SceneData
     SceneDef def{};
     Tolerances tolerances{};
     SceneState state{};
-    // Beside the state, by slot: restored snapshots keep it.
+    // Beside the state, by slot: restoring a snapshot keeps it.
     std::vector<std::uint64_t> body_user_data;
     std::vector<std::uint64_t> shape_user_data;
     std::vector<std::uint64_t> joint_user_data;
-    std::vector<ForceLaw> laws; ///< of bodies, as far as any has had one
+    std::vector<ForceLaw> laws; ///< by body slot, up to the last body that has had one
     std::vector<std::shared_ptr<const ShapeCallbacks>>
-        callbacks; ///< of shapes, likewise; one that runs may replace or destroy them
+        callbacks; ///< by shape slot, likewise; a running callback may replace or destroy them
     Events events{};
-    std::array<std::vector<EventKey>, 2> event_keys{}; ///< memory: of impacts, and of the others
-    Events pending{}; ///< ends and exits that user verbs cause between steps; delivered with the next step
+    std::array<std::vector<EventKey>, 2> event_keys{}; ///< scratch memory: for impacts, and for other events
+    Events pending{}; ///< ends and exits that user calls cause between steps; delivered with the next step
     std::vector<PendingImpact> pending_impacts;
     StepReport report{};
     Scratch scratch{};
-    ForcedPolicy forced_policy{}; ///< by tests alone
-    int callback_count = 0;       ///< shapes that have callbacks
-    int law_count = 0;            ///< bodies that have a force law
+    ForcedPolicy forced_policy{}; ///< set by tests alone
+    int callback_count = 0;       ///< number of shapes with callbacks
+    int law_count = 0;            ///< number of bodies with a force law
     bool stepping = false;
-    int frame_step = 0; ///< inside update(): which of its steps
+    int frame_step = 0; ///< index of the step within update()
 };
 
 } // namespace carom::internal

@@ -1,8 +1,8 @@
 #pragma once
 
 // All simulation state of a scene, in trivially copyable records without pointers: a snapshot is a copy of this struct.
-// A body is three records, by who reads them: BodyRecord (identity and lists), BodySim (what a step reads and writes once),
-// BodyState (the 32 bytes the solver touches in every pass, made anew each step, in solver/body_state.h).
+// A body has three records, by access: BodyRecord (identity and lists), BodySim (read and written once per step), and
+// BodyState (the 32 bytes that the solver accesses in every pass, made anew each step, in solver/body_state.h).
 
 #include "carom/scene.h"
 #include "collision/broad_phase.h"
@@ -20,8 +20,8 @@ namespace carom::internal {
 
 inline constexpr std::int32_t none = -1;
 
-inline constexpr int plane_cells = 256;       ///< at most
-inline constexpr int bodies_to_a_cell = 2048; ///< where there are more than 32 cells
+inline constexpr int plane_cells = 256;       ///< greatest number
+inline constexpr int bodies_to_a_cell = 2048; ///< if there are more than 32 cells
 
 struct BodyRecord
 {
@@ -30,12 +30,12 @@ struct BodyRecord
     bool enabled = true;
     bool can_sleep = true;
     bool mass_overridden = false;
-    std::uint8_t plane_cell = 0;     ///< in which share of the awake bodies, as tidy() last parted them by where they are
+    std::uint8_t plane_cell = 0;     ///< cell of the awake bodies in which reorder() last put it, by its position
     bool has_finite_mass = false;    ///< dynamic, with an inverse mass or inertia that is not 0
-    bool has_target = false;         ///< kinematic: SceneState::targets has one that is to be reached in the next step
-    bool had_target = false;         ///< and that it has reached in the last step
+    bool has_target = false;         ///< kinematic: SceneState::targets has a pose to be reached in the next step
+    bool had_target = false;         ///< it has reached such a pose in the last step
     bool ignores = false;            ///< is or was in a pair of SceneState::ignored
-    std::int32_t awake_index = none; ///< place in SceneState::awake_bodies; none: static, asleep or disabled
+    std::int32_t awake_index = none; ///< index in SceneState::awake_bodies; none: static, asleep or disabled
     std::int32_t first_shape = none;
     std::int32_t last_shape = none;
     std::int32_t first_joint = none; ///< edge: joint * 2 + side
@@ -45,7 +45,7 @@ struct BodyRecord
 };
 static_assert(sizeof(BodyRecord) == 40);
 
-/// The first half is what neighbours read: a cache line.
+/// The first half is one cache line: the part that neighbors read.
 struct alignas(64) BodySim
 {
     Position center{}; ///< of mass, in the world
@@ -57,7 +57,7 @@ struct alignas(64) BodySim
     float size = 1e30f; ///< least inner radius of its shapes
     float mass = 0;
     float inertia = 0;
-    bool crowded = false;       ///< was solved in a large island in the last step; or never is, for it is not dynamic
+    bool crowded = false;       ///< solved in a large island in the last step, or not dynamic
     Position previous_center{}; ///< at the start of the last step
     Rotation previous_rotation{};
     float sleep_time = 0; ///< s below the sleep speed
@@ -74,16 +74,16 @@ struct alignas(64) BodySim
 
 static_assert(sizeof(BodySim) == 128);
 
-/// Where a kinematic body is to be at the end of the next step.
+/// The pose that a kinematic body is to reach at the end of the next step.
 struct BodyTarget
 {
     Position center{}; ///< of mass
     Rotation rotation{};
-    Vec2 velocity{}; ///< of the way to it, once it has been reached: to be read
+    Vec2 velocity{}; ///< mean velocity to it, for reading once it has been reached
     float angular_velocity = 0;
 };
 
-/// Of Scene::update: for the part of a frame that no step has covered yet, N s; and, while a frame is begun, its forces.
+/// For Scene::update: impulses for the part of a frame that no step has covered yet, N s; and, while a frame runs, its forces.
 struct WaitingForce
 {
     Vec2 impulse{};
@@ -94,7 +94,7 @@ struct WaitingForce
     friend constexpr bool operator==(const WaitingForce&, const WaitingForce&) = default;
 };
 
-/// What few shapes have.
+/// Traits that few shapes have.
 struct RareTraits
 {
     RestitutionCurve restitution_curve{};
@@ -104,14 +104,14 @@ struct RareTraits
     double kick_ready = 0; ///< scene time from which the kick may fire again
 };
 
-/// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces. The first cache line is all that boxes and
-/// contacts read, but for arcs.
+/// A public shape, or a piece of a chain. A chain is a record without a leaf that owns pieces. Boxes and contacts read the first cache line
+/// only, except for arcs.
 struct alignas(64) ShapeRecord
 {
     std::int32_t body = none;
     std::int32_t owner = none;      ///< the public shape: itself, or the chain
     std::int32_t next_piece = none; ///< of a chain: its first piece; of a piece: the next
-    std::int32_t next_shape = none; ///< of the body, public ones only
+    std::int32_t next_shape = none; ///< next public shape of the body
     bool has_leaf = false;
     bool trigger = false;
     bool yields_material = false;
@@ -121,7 +121,7 @@ struct alignas(64) ShapeRecord
     float restitution = 0;
     float rolling_resistance = 0;
     float surface_speed = 0;
-    std::int32_t rare_traits = none; ///< in SceneState::rare_traits; pieces have those of their chain
+    std::int32_t rare_traits = none; ///< index in SceneState::rare_traits; pieces share those of their chain
     Filter filter{};
 };
 
@@ -147,26 +147,26 @@ struct Manifold
 namespace contact_flag {
 inline constexpr std::uint32_t trigger = 1;      ///< b visits trigger a
 inline constexpr std::uint32_t touching = 2;     ///< begun and not ended; for triggers: inside
-inline constexpr std::uint32_t passing = 4;      ///< one-way: went through from behind, until it is free
+inline constexpr std::uint32_t passing = 4;      ///< one-way: came through from behind, until it is free
 inline constexpr std::uint32_t fresh = 8;        ///< never updated
-inline constexpr std::uint32_t round = 16;       ///< a circle takes part
+inline constexpr std::uint32_t round = 16;       ///< one of the shapes is a circle
 inline constexpr std::uint32_t loaded = 32;      ///< had an impulse at the end of the last step
-inline constexpr std::uint32_t begun = 64;       ///< began to touch while the islands were solved, and this is not yet told
-inline constexpr std::uint32_t one_way = 128;    ///< a one-way shape takes part
+inline constexpr std::uint32_t begun = 64;       ///< began to touch during the solve, not yet reported
+inline constexpr std::uint32_t one_way = 128;    ///< one of the shapes is one-way
 inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
-inline constexpr std::uint32_t kept = 256;       ///< its manifold is fixed to the bodies in SceneState::cached_manifolds
-inline constexpr std::uint32_t edge_of_b = 2048; ///< what is kept is seen from b
-inline constexpr std::uint32_t nearest = 4096;   ///< kept are two corners that are nearest to each other, not an edge
-inline constexpr std::uint32_t sleeper = 8192;   ///< one of the bodies sleeps, or both
-inline constexpr std::uint32_t piece = 16384; ///< of a chain or the like: others may touch for the same two shapes of the user's
+inline constexpr std::uint32_t kept = 256;       ///< its manifold is cached in SceneState::cached_manifolds, fixed to the bodies
+inline constexpr std::uint32_t edge_of_b = 2048; ///< the cached manifold is relative to b
+inline constexpr std::uint32_t nearest = 4096;   ///< cached are the two nearest corners, not an edge
+inline constexpr std::uint32_t sleeper = 8192;   ///< one or both of the bodies sleep
+inline constexpr std::uint32_t piece = 16384;    ///< of a chain or the like: other contacts may touch for the same public shapes
 inline constexpr std::uint32_t of_union =
-    32768; ///< flush neighbours have turned or emptied its manifold: no points are not apart
+    32768; ///< flush neighbors have turned or emptied its manifold: no points does not mean apart
 inline constexpr std::uint32_t all_cached = kept | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
-    1024; ///< in its constraint alone: normal, anchors and separations are older than the step, see settled_manifold
+    1024; ///< its constraint alone is current: normal, anchors and separations here are older than the step, see settled_manifold
 } // namespace contact_flag
 
-/// Of a manifold's points, for warm starting and for who asks.
+/// Impulses of a manifold's point, for warm starting and for queries.
 struct PointImpulses
 {
     float normal = 0; ///< of the last sub-step
@@ -180,7 +180,7 @@ struct ContactImpulses
     PointImpulses points[2];
 };
 
-/// Two cache lines: who it is, and how it touches.
+/// Two cache lines: identity, and manifold.
 struct alignas(64) Contact
 {
     std::int32_t shape_a = none;
@@ -189,22 +189,22 @@ struct alignas(64) Contact
     std::int32_t body_b = none;
     std::int32_t next[2] = {none, none}; ///< edges in the bodies' lists
     std::int32_t previous[2] = {none, none};
-    std::int32_t awake_index = none; ///< place in awake_contacts or trigger_contacts
-    std::int32_t pair = none;        ///< place in box_pairs; none: both sleep
+    std::int32_t awake_index = none; ///< index in awake_contacts or trigger_contacts
+    std::int32_t pair = none;        ///< index in box_pairs; none: both sleep
     std::uint32_t flags = 0;
     float friction = 0;
     float rolling_resistance = 0;
     float surface_speed = 0;   ///< of b against a along perp(normal)
-    std::int32_t color = none; ///< of its constraint; kept as long as it has one, see coloring.h
-    std::int32_t wide = none;  ///< during a step: where its wide contact constraint is, group * lane_count + lane
+    std::int32_t color = none; ///< color of its constraint, kept as long as it has one, see coloring.h
+    std::int32_t wide = none;  ///< during a step: its wide contact constraint, block * lane_count + lane
     Manifold manifold{};
 };
 static_assert(sizeof(Contact) == 128);
 
-/// Or, of a trigger, its visitor is inside.
+/// Whether the shapes touch; for a trigger, whether the visitor is inside.
 [[nodiscard]] inline bool touches(const Contact& contact) { return (contact.flags & contact_flag::touching) != 0; }
 
-/// An edge of one body, and two corners of the other that it faces, from their centers of mass and in their axes.
+/// An edge of one body, and the two corners of the other that it faces, relative to their centers of mass and in their axes.
 struct CachedEdge
 {
     Vec2 edge[2];
@@ -215,38 +215,38 @@ struct CachedEdge
 /// The corners of a and b that are nearest to each other, likewise; see NearestCorners.
 struct CachedCorners
 {
-    static constexpr float least_distance = 1e-6f; ///< nearer they have no direction from one to the other
+    static constexpr float least_distance = 1e-6f; ///< nearer corners have no direction between them
 
     Vec2 corners[2];
     Vec2 cones[2];
     float radii[2] = {};
 };
 
-/// Of two without a point, the direction from one to the other along which they were apart, in the axes of the one; 0: none is known.
+/// For two shapes without a contact point: the direction from one to the other along which they were apart, in the axes of the one; 0: unknown.
 struct CachedParting
 {
     Vec2 direction{};
-    float arm = 0; ///< of the other's corners about its center of mass, at the most
+    float arm = 0; ///< greatest, of the other's corners about its center of mass
 };
 
-/// What the narrow phase last found of a contact in a crowd, fixed to the two bodies. Features are those of the manifold.
+/// Last result of the narrow phase for a contact in a crowd, fixed to the two bodies. Features are those of the manifold.
 struct alignas(64) CachedManifold
 {
     union Found
     {
         CachedEdge edge;
         CachedCorners nearest; ///< with contact_flag::nearest
-        CachedParting parting; ///< without a point
+        CachedParting parting; ///< without a contact point
 
         Found() : edge{} {}
     } found;
-    Vec2 center{};       ///< where the other's center of mass was, seen from a, or from b with contact_flag::edge_of_b
-    Rotation rotation{}; ///< of the other, likewise
+    Vec2 center{};       ///< former center of mass of the other body, relative to a, or to b with contact_flag::edge_of_b
+    Rotation rotation{}; ///< of the other body, likewise
     float reach = 0;     ///< see LocalManifold::reach
-    float radius = 0;    ///< of the corners before the edge
+    float radius = 0;    ///< of the corners that the edge faces
 };
 
-/// Does a wide contact constraint of the last step still hold all that a contact is? As far as lanes_stamp holds.
+/// Whether a wide contact constraint of the last step still represents all of a contact. Valid as long as lanes_stamp is.
 enum class LaneMark : std::uint8_t
 {
     None,
@@ -269,7 +269,7 @@ enum class JointType : std::uint8_t
     Prismatic,
 };
 
-/// Where a joint's constraints keep their impulses.
+/// Index of a constraint in JointRecord::impulses.
 enum JointSlot
 {
     slot_x, ///< a point held along x, or a slider held across its axis
@@ -283,10 +283,10 @@ enum JointSlot
     joint_slots
 };
 
-/// What a joint may be off by: its held constraints, then how far it has passed its lower and upper limit, as numbers below 0.
+/// Errors of a joint: of its bilateral constraints, then how far it has passed its lower and upper limit, as negative numbers.
 inline constexpr int joint_errors = 4;
 
-/// The pose of a body a while ago, or when it became quiet. It is valid while the sleep_time is not 0.
+/// The pose of a body some time ago, or when it became quiet. Valid while its sleep_time is not 0.
 struct QuietStart
 {
     Position center{};
@@ -300,18 +300,18 @@ struct JointRecord
     bool collide_connected = true;
     bool enable_limit = false;
     bool enable_motor = false;
-    bool yields = false;        ///< held open, by a wall or by others, see DirectSolve::yield
-    bool knows_errors = true;   ///< left_errors are those of the bodies as they stand
+    bool yields = false;        ///< held open by a wall or by other bodies, see DirectSolve::yield
+    bool knows_errors = true;   ///< left_errors are valid for the current poses
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
-    float torque = 0; ///< over the last step, to be read; so is force
+    float torque = 0; ///< over the last step, for reading; force likewise
     Vec2 force{};
     float impulses[joint_slots] = {}; ///< of the last sub-step, by JointSlot, for warm starting
     float hertz = 0;                  ///< of the soft limits, or of the spring along the free axis
     float limit_restitution = 0;
     Vec2 anchor_a{};
     Vec2 anchor_b{};
-    std::int32_t turns = 0; ///< that the bodies had counted when it was made
+    std::int32_t turns = 0; ///< counted by the bodies when the joint was made
     std::int32_t next[2] = {none, none};
     std::int32_t previous[2] = {none, none};
     Vec2 axis_a{1, 0};
@@ -324,8 +324,7 @@ struct JointRecord
     float max_motor = 0;
     float damping_ratio = 0;
     float spring_target = 0;
-    float left_errors[joint_errors] =
-        {}; ///< that are its own when the last step was done with it; what differs from them, others have moved
+    float left_errors[joint_errors] = {}; ///< errors left by the last step itself; a difference from them comes from elsewhere
 };
 
 inline void forget_impulses(JointRecord& joint) { std::fill(std::begin(joint.impulses), std::end(joint.impulses), 0.0f); }
@@ -340,10 +339,10 @@ struct SceneState
 {
     Pool<BodyRecord> bodies;
     std::vector<BodySim> sims;            ///< by body slot
-    std::vector<std::uint64_t> colors;    ///< by body slot: a bit for each that its contacts have, while it is dynamic and awake
+    std::vector<std::uint64_t> colors;    ///< by body slot: a bit for each color of its contacts, while it is dynamic and awake
     std::vector<std::int32_t> turns;      ///< by body slot: whole turns, see turns.h
     std::vector<QuietStart> quiet_starts; ///< by body slot
-    std::vector<BodyTarget> targets;      ///< by body slot, as far as any body has had one
+    std::vector<BodyTarget> targets;      ///< by body slot, up to the last body that has had one
     std::vector<WaitingForce> waiting_forces; ///< likewise
     Pool<ShapeRecord> shapes;
     Pool<RareTraits> rare_traits;
@@ -354,27 +353,27 @@ struct SceneState
     std::vector<CachedManifold> cached_manifolds; ///< by contact slot
     std::vector<LaneMark> lane_marks;             ///< by contact slot
     std::vector<BoxPair> box_pairs;
-    std::vector<std::uint64_t> parted_pairs; ///< of these, keys of those whose boxes do not meet, sorted
+    std::vector<std::uint64_t> parted_pairs; ///< keys of those of these pairs whose boxes do not meet, sorted
     PairSet ignored;                         ///< body pairs that never touch
     BroadPhase broad_phase;
     std::vector<std::int32_t> awake_bodies;
     std::vector<std::int32_t> awake_contacts;
     std::vector<std::int32_t> trigger_contacts;
-    std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they look for pairs whatever their type
+    std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they search for pairs whatever their type
     std::uint64_t lanes_stamp =
-        0; ///< of the wide contact constraints in Scratch that hold the impulses of this state; 0: none do
-    float substep_of_impulses = 0; ///< s, of which the impulses are that contacts and joints keep
-    float longest_substep = 0;     ///< s, of late
+        0; ///< identifies the wide contact constraints in Scratch that hold the impulses of this state; 0: none do
+    float substep_of_impulses = 0; ///< s, length of the sub-step to which the impulses of contacts and joints belong
+    float longest_substep = 0;     ///< s, longest recent sub-step
     bool graph_dirty = true;       ///< touches, joints, masses, types or sleep have changed since islands were built
     Vec2 gravity{};
     float slop = 0;                 ///< the scene's, see Tolerances
-    float greatest_sleep_speed = 0; ///< that any body has had; the scene's, or more
+    float greatest_sleep_speed = 0; ///< greatest of any body so far, and at least the scene's
     double time = 0;
     std::uint64_t step_count = 0;
     double accumulator = 0;
 };
 
-/// The contact has been changed, or will be, by other than its constraint.
+/// For a contact that has been changed, or will be, by other means than its constraint.
 inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static_cast<std::size_t>(contact)] = LaneMark::None; }
 
 [[nodiscard]] inline ContactImpulses& impulses_of(SceneState& state, int contact)
@@ -386,7 +385,7 @@ inline void leave_lane(SceneState& state, int contact) { state.lane_marks[static
     return state.impulses[static_cast<std::size_t>(contact)];
 }
 
-/// Without effect where the shape has none.
+/// The traits of a shape; neutral ones if it has none.
 [[nodiscard]] inline const RareTraits& rare_traits_of(const SceneState& state, const ShapeRecord& shape)
 {
     static constexpr RareTraits without{};

@@ -1,3 +1,5 @@
+// Whole turns of bodies, and the angles of hinges.
+
 #include "dynamics/state/turns.h"
 
 #include "core/trigonometry.h"
@@ -16,7 +18,7 @@ std::int32_t nearest_turns(double angle)
 
 double angle_of(Rotation q) { return arc_tangent(q.s, q.c); }
 
-// Wraps around, after 2^31.
+// Wraps around after 2^31 turns.
 void add_turns(std::int32_t& sum, std::int32_t turns)
 {
     sum = static_cast<std::int32_t>(static_cast<std::uint32_t>(sum) + static_cast<std::uint32_t>(turns));
@@ -53,7 +55,7 @@ HingeTurn hinge_turn(const SceneState& state, const JointRecord& joint)
     return {angle, nearest_turns(whole_angle(b) - whole_angle(a) - static_cast<double>(joint.reference_angle) - angle)};
 }
 
-// A turn by less than a quarter passes pi, where another turn begins, if it changes the half plane on the negative side.
+// A rotation by less than a quarter turn passes pi, where another turn begins, if it changes the sign of s on the negative side.
 std::int32_t turns_across(Rotation before, Rotation after)
 {
     const int change = (after.s < 0 ? 1 : 0) - (before.s < 0 ? 1 : 0);
@@ -92,7 +94,7 @@ float hinge_angle(const SceneState& state, const JointRecord& joint)
     const HingeTurn h = hinge_turn(state, joint);
     if (joint.kind == JointType::Prismatic)
         return static_cast<float>(h.angle);
-    return static_cast<float>(h.angle) + 2 * pi * static_cast<float>(h.turns - joint.turns); // as the lanes do
+    return static_cast<float>(h.angle) + 2 * pi * static_cast<float>(h.turns - joint.turns); // as the lanes compute it
 }
 
 void begin_counting(const SceneState& state, JointRecord& joint) { joint.turns = hinge_turn(state, joint).turns; }

@@ -1,7 +1,7 @@
 #pragma once
 
-// Whole turns of bodies, so that a hinge's angle grows beyond pi. A rotation has an angle from -pi to pi; the turns beside it are counted wherever a body
-// turns, in the sub-steps and when the step is committed.
+// Whole turns of bodies, so that a hinge's angle can grow beyond pi. A rotation has an angle from -pi to pi; the turns beside it are counted
+// wherever a body rotates, in the sub-steps and when the step is committed.
 
 #include "dynamics/solver/body_state.h"
 #include "dynamics/state/scene_state.h"
@@ -10,17 +10,17 @@
 
 namespace carom::internal {
 
-/// As turns_by, of any two rotations.
+/// As turns_by, for any two rotations.
 [[nodiscard]] std::int32_t whole_turns(Rotation before, Rotation after, double displacement);
 
-/// The whole turns that the angles of two rotations leave out when a body turns by `way` from one to the other, rad.
+/// The whole turns that the angles of two rotations leave out when a body rotates by `displacement` from one to the other, rad.
 [[nodiscard]] inline std::int32_t turns_by(Rotation before, Rotation after, double displacement)
 {
     const bool is_far_from_pi = before.c >= 0 && after.c >= 0 && std::fabs(displacement) < 3;
     return is_far_from_pi ? 0 : whole_turns(before, after, displacement);
 }
 
-/// Within a step: by an angle, rad.
+/// Rotates a body within a step by an angle, rad.
 inline void turn_by(BodyState& s, float angle)
 {
     const Rotation before = s.delta_rotation;
@@ -28,24 +28,25 @@ inline void turn_by(BodyState& s, float angle)
     s.turns = static_cast<std::int16_t>(s.turns + turns_by(before, s.delta_rotation, static_cast<double>(angle)));
 }
 
-/// From the start of the step, rad.
+/// Sets a body's rotation since the start of the step, rad.
 inline void turn_from_start(BodyState& s, double angle)
 {
     s.delta_rotation = angle != 0 ? Rotation::from_angle(static_cast<float>(angle)) : Rotation{};
     s.turns = static_cast<std::int16_t>(turns_by({}, s.delta_rotation, angle));
 }
 
-/// Adds to the turns of a body those between two rotations by `way`, rad.
+/// Adds to the turns of a body those between two rotations by `displacement`, rad.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, double displacement);
-/// The same by the shortest way.
+/// The same for the smallest rotation between the two.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after);
-/// The same of a step that has been solved.
+/// The same for a step that has been solved.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, const BodyState& s);
 
-/// angle_b - angle_a - reference_angle, rad: of a hinge with all turns since it was made, when it was within -pi and pi; of a slider within them always.
+/// angle_b - angle_a - reference_angle, rad. For a hinge it includes all turns since it was made, when it was within -pi and pi; for a slider
+/// it is always within them.
 [[nodiscard]] float hinge_angle(const SceneState& state, const JointRecord& joint);
 
-/// A joint that is being made has no turns.
+/// Starts the count of a joint that is being made: it has no turns.
 void begin_counting(const SceneState& state, JointRecord& joint);
 
 } // namespace carom::internal

@@ -1,8 +1,8 @@
 #pragma once
 
 // A static tree of boxes: leaves along a Hilbert curve, each node the union of eight children in sequence. No pointers: level k of the tree
-// is an array an eighth as long as level k - 1, and the children of node i are 8 i ... 8 i + 7. Siblings lie side by side, a coordinate
-// at a time, so that all eight are tested at once. Building it is a radix sort and one pass; boxes may shrink, grow and vanish
+// is an array an eighth as long as level k - 1, and the children of node i are 8 i ... 8 i + 7. Siblings are stored side by side, a coordinate
+// at a time, so that all eight are tested at once. Building it is a radix sort and one pass. Boxes may shrink, grow and vanish
 // afterwards without moving.
 
 #include "core/float4.h"
@@ -17,7 +17,7 @@
 
 namespace carom::internal {
 
-/// Of an item, or of all below a node: the categories that they have, and those that they meet.
+/// Collision filter of an item, or the union of filters below a node: its categories, and the categories that it collides with.
 struct FilterBits
 {
     std::uint64_t categories = ~std::uint64_t{0};
@@ -68,7 +68,7 @@ struct alignas(32) BoxBlock
         return all;
     }
 
-    /// A bit for each box that overlaps.
+    /// One bit per box, set where it overlaps.
     [[nodiscard]] unsigned overlapping(const FloatBox& b) const { return overlapping_half(b, 0) | overlapping_half(b, 4) << 4; }
 
 private:
@@ -87,7 +87,7 @@ public:
     static constexpr int max_levels = 12; // 8^11 leaves
 
     void build(const TaskHooks& tasks, std::span<const TreeLeaf> leaves);
-    /// New boxes for all leaves, in the order in which they are: box_of(item).
+    /// Sets new boxes for all leaves, whose order is unchanged: box_of(item).
     template <class BoxOf>
     void refit(const TaskHooks& tasks, const BoxOf& box_of)
     {
@@ -106,28 +106,28 @@ public:
 
     /// Replaces a leaf's box; the boxes above it grow as needed.
     void update(int leaf, const FloatBox& box);
-    /// What the leaf meets now as well.
+    /// Widens the filters above a leaf by its new filter.
     void widen_filter(int leaf, const FilterBits& filter);
-    /// An empty box overlaps nothing. The leaf stays until the next build.
+    /// Gives a leaf an empty box, which overlaps nothing. The leaf stays until the next build.
     void remove(int leaf);
 
     [[nodiscard]] int leaf_count() const { return static_cast<int>(m_items.size()); }
     [[nodiscard]] int live_count() const { return m_live; }
-    /// Of the leaves.
+    /// Items in the order of the leaves.
     [[nodiscard]] std::span<const std::int32_t> items() const { return {m_items.data(), m_items.size()}; }
-    /// -1 where it was removed.
+    /// The item of a leaf; -1 where it was removed.
     [[nodiscard]] std::int32_t item(int leaf) const { return m_items[static_cast<std::size_t>(leaf)]; }
     [[nodiscard]] FloatBox box(int leaf) const { return block(leaf / arity).box(leaf % arity); }
     [[nodiscard]] FloatBox bounds() const { return m_items.empty() ? FloatBox{} : m_levels.back()[0].bounds(); }
 
-    /// Leaves lie in blocks of eight neighbours: leaf i is box i % 8 of block i / 8.
+    /// Leaves are stored in blocks of eight neighbors: leaf i is box i % 8 of block i / 8.
     [[nodiscard]] int block_count() const { return m_items.empty() ? 0 : static_cast<int>(m_levels[0].size()); }
     [[nodiscard]] const BoxBlock& block(int i) const { return m_levels[0][static_cast<std::size_t>(i)]; }
 
-    /// Level 0 are the leaves; node i of a level covers block i of the level below.
+    /// Level 0 holds the leaves; node i of a level covers block i of the level below.
     [[nodiscard]] int level_count() const { return static_cast<int>(m_levels.size()); }
     [[nodiscard]] const BoxBlock* level(int i) const { return m_levels[static_cast<std::size_t>(i)].data(); }
-    /// Of the blocks of a level, all that has been below them since the tree was built.
+    /// By the blocks of a level, the union of all filters that have been below them since the tree was built.
     [[nodiscard]] const FilterBits* filters(int level) const { return m_filters[static_cast<std::size_t>(level)].data(); }
     [[nodiscard]] const FilterBits& filter() const { return m_filters.back()[0]; }
 
@@ -136,7 +136,7 @@ public:
         return m_levels.size() > 1 ? m_levels[1][static_cast<std::size_t>(i / arity)].box(i % arity) : block(i).bounds();
     }
 
-    /// Calls visit(block) for every block of leaves that may have a box which overlaps.
+    /// Calls visit(block) for every block of leaves that may have an overlapping box.
     template <class Visit>
     void query_blocks(const FloatBox& box, Visit&& visit) const
     {
@@ -148,7 +148,7 @@ public:
              });
     }
 
-    /// Calls visit(item) for every leaf whose box overlaps; visit returns false to stop. False if stopped.
+    /// Calls visit(item) for every leaf whose box overlaps; visit returns false to stop. The result is false if it was stopped.
     template <class Visit>
     bool query(const FloatBox& box, Visit&& visit) const
     {
@@ -170,8 +170,8 @@ public:
         return walk(test_all, 0, [&](std::int32_t leaf) { return visit(m_items[static_cast<std::size_t>(leaf)]); });
     }
 
-    /// Calls visit(own leaf, other leaf) where leaves of block k, a bit for each, overlap those of another tree: of its block o those in lanes_of(o). The
-    /// eight go through it together.
+    /// Calls visit(own leaf, other leaf) where leaves of block k, given as one bit each, overlap leaves of another tree: in its block o those in lanes_of(o).
+    /// The eight leaves traverse it together.
     template <class LanesOf, class Visit>
     void for_each_overlap(int k, unsigned lanes, const BoxTree& others, const LanesOf& lanes_of, const Visit& visit) const
     {
@@ -194,7 +194,7 @@ public:
     }
 
 private:
-    // Down to the nodes of a level: 0 the leaves, 1 the blocks of leaves.
+    // Descends to the nodes of a level: 0 the leaves, 1 the blocks of leaves.
     template <class Test, class Visit>
     bool walk(const Test& test, int last_level, const Visit& visit) const
     {
@@ -202,7 +202,7 @@ private:
             return true;
         struct Entry
         {
-            std::int32_t level; ///< of the nodes in the block
+            std::int32_t level; ///< level of the nodes in the block
             std::int32_t block;
         };
         Entry stack[arity * max_levels];
@@ -237,7 +237,7 @@ private:
 
     std::vector<std::int32_t> m_items;
     std::vector<std::vector<BoxBlock>> m_levels;    ///< [0]: leaves
-    std::vector<std::vector<FilterBits>> m_filters; ///< of each block
+    std::vector<std::vector<FilterBits>> m_filters; ///< by level and block
     int m_live = 0;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
 
-// Which boxes overlap. Two layers: what moves (awake bodies) and what rests (static and sleeping ones), so that the resting world costs
-// nothing per step. A layer is a few trees, each at least twice as large as the next: new boxes gather in a short list and are
+// The broad phase: which boxes overlap. There are two layers, moving (awake bodies) and resting (static and sleeping ones), so that the resting world costs
+// nothing per step. A layer is a few trees, each at least twice as large as the next. New boxes gather in a short list and are
 // merged into trees of growing size, so that adding one shape to a million costs little.
-// Boxes without bounds (half-spaces) stand in a list of their own.
+// Boxes without bounds (half-spaces) are in a separate list.
 
 #include "collision/box_tree.h"
 #include "core/prefetch.h"
@@ -21,31 +21,31 @@ enum class Layer : std::int8_t
     Resting = 1,
 };
 
-/// A leaf's box at the start of a step, and how it moves in it.
+/// A leaf's box at the start of a step, and its motion during the step.
 struct BoxPath
 {
     FloatBox box{};
-    Vec2 shift{};       ///< of the whole box, along its path
-    float any_path = 0; ///< how far any point of it may come beside that
+    Vec2 shift{};               ///< displacement of the whole box
+    float any_displacement = 0; ///< bound on the displacement of any point of it besides that
 };
 
-/// What sets an item apart from those with a box that meet what they touch.
+/// Properties that set an item apart from bounded leaves with contact response.
 struct ItemTraits
 {
     bool trigger = false;
     bool unbounded = false; ///< a half-space
 };
 
-[[nodiscard]] inline F4 swept(F4 box, Vec2 displacement, float any_path)
+[[nodiscard]] inline F4 swept(F4 box, Vec2 displacement, float any_displacement)
 {
     const F4 shift = four_of(displacement.x, displacement.y, displacement.x, displacement.y);
-    return grown(box + low_and_high(least(shift, F4{}), greatest(shift, F4{})), any_path);
+    return grown(box + low_and_high(least(shift, F4{}), greatest(shift, F4{})), any_displacement);
 }
 
-/// The box around all that it covers.
-[[nodiscard]] inline FloatBox swept(const BoxPath& p) { return box_of(swept(load4(&p.box.lx), p.shift, p.any_path)); }
+/// The box around all that the path covers.
+[[nodiscard]] inline FloatBox swept(const BoxPath& p) { return box_of(swept(load4(&p.box.lx), p.shift, p.any_displacement)); }
 
-/// How near the two may come, less than 0 where they may meet. Seen from one of them: what moves along with it stays away.
+/// Lower bound on the gap of two boxes along their paths; less than 0 where they may meet. The relative motion counts, so boxes that move together stay apart.
 [[nodiscard]] inline float least_gap(const BoxPath& a, const BoxPath& b)
 {
     const F4 d = four_of(b.shift.x - a.shift.x, b.shift.y - a.shift.y, a.shift.x - b.shift.x, a.shift.y - b.shift.y);
@@ -54,10 +54,10 @@ struct ItemTraits
     const F4 low = low_halves(from, to) + least(d, F4{});
     const F4 gap = low - high_halves(to, from);
     const F4 by_axis = greatest(gap, swapped_halves(gap));
-    return first_lane(greatest(by_axis, swapped_neighbours(by_axis))) - (a.any_path + b.any_path);
+    return first_lane(greatest(by_axis, swapped_neighbours(by_axis))) - (a.any_displacement + b.any_displacement);
 }
 
-/// All that decides about an item's pairs.
+/// The data that decides which pairs an item has.
 struct alignas(64) SweptBox
 {
     BoxPath path{};
@@ -68,14 +68,14 @@ struct alignas(64) SweptBox
 };
 static_assert(sizeof(SweptBox) == 64);
 
-/// Eight neighbours of the moving layer, when pairs were last looked for.
+/// Boxes of a block of eight neighbors in the moving layer at the last search for pairs.
 struct BlockPast
 {
     BoxBlock before;
-    unsigned changed = 0; ///< a bit for each whose box is another one now
+    unsigned changed = 0; ///< one bit per box, set where it differs now
 };
 
-/// The tree of the moving layer, its levels from the leaves up, and what its blocks of leaves were.
+/// The tree of the moving layer, its levels from the leaves up, and the earlier boxes of its blocks of leaves.
 struct MovingBlocks
 {
     const BoxBlock* levels[BoxTree::max_levels];
@@ -96,26 +96,26 @@ public:
 
     void set_filter(int item, const FilterBits& filter);
 
-    /// The boxes of these items of the moving layer changed. Few: their paths in the tree are widened; many: all boxes are fitted anew, and now
-    /// and then sorted. True: all are fitted.
+    /// Sets the changed boxes of these items of the moving layer. For few items, their paths in the tree are widened; for many, all boxes are fitted anew and
+    /// from time to time sorted. True where all are fitted.
     bool update_moving(const TaskHooks& tasks, std::span<const std::int32_t> items, std::span<const FloatBox> boxes);
 
-    /// Of this step; between steps, and for what rests, the box stands still.
+    /// Sets the path of the current step. Between steps, and for resting items, the box stands still.
     void set_path(int item, const BoxPath& path) { m_places[static_cast<std::size_t>(item)].path = path; }
     [[nodiscard]] const BoxPath& path(int item) const { return m_places[static_cast<std::size_t>(item)].path; }
     [[nodiscard]] bool moves(int item) const { return m_places[static_cast<std::size_t>(item)].layer == Layer::Moving; }
     [[nodiscard]] ItemTraits traits(int item) const { return m_places[static_cast<std::size_t>(item)].traits; }
 
-    /// Asks memory for all that decides about the item's pairs.
+    /// Prefetches the data that decides which pairs the item has.
     [[gnu::always_inline]] void prefetch_place(int item) const
     {
         if (item < static_cast<int>(m_places.size()))
             prefetch(m_places[static_cast<std::size_t>(item)]);
     }
 
-    /// For kernels that write its path.
+    /// For kernels that write the item's path.
     [[nodiscard]] SweptBox& place(int item) { return m_places[static_cast<std::size_t>(item)]; }
-    /// By item.
+    /// Swept boxes by item.
     [[nodiscard]] const SweptBox* places() const { return m_places.data(); }
     [[nodiscard]] const FloatBox& box(int item) const { return m_places[static_cast<std::size_t>(item)].box; }
     [[nodiscard]] bool has(int item) const
@@ -123,7 +123,7 @@ public:
         return item < static_cast<int>(m_places.size()) && m_places[static_cast<std::size_t>(item)].layer != Layer::None;
     }
 
-    /// Its box when pairs were last looked for; empty for what is new, or must look for all its pairs again.
+    /// The item's box at the last search for pairs; empty for an item that is new or must search for all its pairs again.
     [[nodiscard]] const FloatBox& box_before(int item) const { return m_places[static_cast<std::size_t>(item)].before; }
     [[nodiscard]] bool has_changed(int item) const
     {
@@ -131,14 +131,14 @@ public:
         return p.box.lx != p.before.lx || p.box.ly != p.before.ly || p.box.ux != p.before.ux || p.box.uy != p.before.uy;
     }
     void renew(int item) { m_places[static_cast<std::size_t>(item)].before = {}; }
-    /// Pairs have been looked for.
+    /// Marks the search for the item's pairs as done.
     void settle(int item)
     {
         SweptBox& p = m_places[static_cast<std::size_t>(item)];
         p.before = p.box;
     }
 
-    /// Calls visit(item) for every box that overlaps; false from visit stops.
+    /// Calls visit(item) for every box that overlaps; visit returns false to stop.
     template <class Visit>
     bool query(Layer layer, const FloatBox& box, Visit&& visit) const
     {
@@ -156,12 +156,12 @@ public:
         return true;
     }
 
-    /// Of the blocks of a layer's trees, one tree after the other, a bit for each item but those that are left out; and for empty boxes, which nothing
-    /// overlaps.
+    /// Chooses all items of a layer except those left out: one byte per block, tree after tree, with one bit per item. Bits of empty boxes are set, but these
+    /// overlap nothing.
     void choose_all_but(Layer layer, std::span<const std::int32_t> left_out, std::vector<std::uint8_t>& chosen) const;
 
-    /// Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those of a layer: of its trees what was chosen, and what is in
-    /// none of them yet.
+    /// Calls visit(item, other) where boxes of block k of a tree, given as one bit each, overlap boxes of a layer: the chosen ones in its trees, and all that
+    /// are in no tree yet.
     template <class Visit>
     void for_each_overlap(const BoxTree& tree, int k, unsigned lanes, Layer layer, std::span<const std::uint8_t> chosen,
                           const Visit& visit) const
@@ -177,10 +177,10 @@ public:
         for_each_recent(tree, k, lanes, forest, visit);
     }
 
-    /// Blocks of eight neighbours of the moving layer: all of it where update_moving has fitted all boxes.
+    /// Number of blocks of eight neighbors in the moving layer: all of it where update_moving has fitted all boxes.
     [[nodiscard]] int block_count() const { return m_forests[0].trees.empty() ? 0 : m_forests[0].trees[0].block_count(); }
 
-    /// Which of these holds an item; -1: none.
+    /// Index of the block that holds an item; -1: none.
     [[nodiscard]] int block_of(int item) const
     {
         const Leaf leaf = m_leaves[static_cast<std::size_t>(item)];
@@ -188,10 +188,10 @@ public:
     }
     [[nodiscard]] FloatBox block_bounds(int block) const { return m_forests[0].trees[0].block_bounds(block); }
 
-    /// Notes what has changed in a block; before anything looks for new overlaps.
+    /// Records which boxes of a block have changed; to be called before any search for new overlaps.
     void note_changes(int block);
 
-    /// For kernels that look for what has come to overlap among these; leaf i of block k stands for moving_item(8 k + i).
+    /// For kernels that search for new overlaps within the moving layer; leaf i of block k stands for moving_item(8 k + i).
     [[nodiscard]] MovingBlocks moving_blocks() const
     {
         const BoxTree& tree = m_forests[0].trees[0];
@@ -205,8 +205,8 @@ public:
     }
     [[nodiscard]] std::int32_t moving_item(int leaf) const { return m_forests[0].trees[0].item(leaf); }
 
-    /// Calls visit(item, other) where the box of an item of this block has changed and overlaps one of the resting layer that it did not before. Left out are
-    /// those whose filters say that they do not meet, as far as whole blocks and trees show it.
+    /// Calls visit(item, other) where the box of an item of this block has changed and overlaps a box of the resting layer that it did not overlap before.
+    /// Trees are left out where the block's filters exclude all of their items.
     template <class Visit>
     void for_each_new_overlap_at_rest(int k, const Visit& visit) const
     {
@@ -248,12 +248,12 @@ public:
 
 private:
     static constexpr int fits_per_sort = 8;
-    static constexpr std::size_t recent_limit = 32; // longer lists cost queries more than the merge they put off
+    static constexpr std::size_t recent_limit = 32; // longer lists cost queries more than the merge that they postpone
 
     struct Leaf
     {
         std::int32_t tree = -1;  ///< -1: in the recent list
-        std::int32_t index = -1; ///< in the tree, or place in the list
+        std::int32_t index = -1; ///< in the tree, or in the list
     };
 
     struct Forest
@@ -262,7 +262,7 @@ private:
         std::vector<std::int32_t> recent;
     };
 
-    // Calls visit(item, other) where boxes of block k of a tree, a bit for each, overlap those that no tree holds yet.
+    // Calls visit(item, other) where boxes of block k of a tree, given as one bit each, overlap boxes that are in no tree yet.
     template <class Visit>
     void for_each_recent(const BoxTree& tree, int k, unsigned lanes, const Forest& forest, const Visit& visit) const
     {
@@ -283,13 +283,13 @@ private:
     void rebuild(const TaskHooks& tasks, Forest& forest, std::size_t from_tree);
 
     std::vector<SweptBox> m_places;
-    std::vector<Leaf> m_leaves;        ///< by item, as the places
+    std::vector<Leaf> m_leaves;        ///< by item, like the swept boxes
     std::vector<FilterBits> m_filters; ///< by item
     Forest m_forests[2];
-    std::vector<BlockPast> m_past; ///< of the blocks of the moving layer, once all are fitted
+    std::vector<BlockPast> m_past; ///< by block of the moving layer, once all boxes are fitted
     std::vector<std::int32_t> m_unbounded;
     std::int32_t m_trigger_count = 0;
-    int m_fits = 0; ///< of the moving layer since it was sorted
+    int m_fits = 0; ///< fits of the moving layer since it was sorted
 };
 
 } // namespace carom::internal

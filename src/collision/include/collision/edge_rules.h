@@ -1,6 +1,6 @@
 #pragma once
 
-// What the two files on convex outlines (manifold_hull_hull.cpp, manifold_outlines.cpp) choose by the same rule.
+// Rules that the two files on convex outlines (manifold_hull_hull.cpp, manifold_outlines.cpp) share.
 
 #include "carom/math.h"
 #include "geometry/leaf.h"
@@ -10,17 +10,17 @@
 
 namespace carom::internal {
 
-constexpr float prefers_bias = 2e-4f; ///< of the longer edge
+constexpr float prefers_bias = 2e-4f; ///< relative to the longer edge
 
-/// While they overlap a little in favour of the longer edge, or of a, so that the choice (and with it the features that carry impulses) does not
-/// flicker between equals: rounding alone tips a stack of boxes.
+/// Whether the reference edge is b's. While the hulls overlap, a small bias favors the longer edge, or a, so that the choice (and with it the features that
+/// carry impulses) does not flicker between equals: rounding alone tips a stack of boxes.
 [[nodiscard]] inline bool prefers_b(float separation_a, float edge_a, float separation_b, float edge_b)
 {
     const float bias = separation_b < 0 ? prefers_bias * std::max(edge_a, edge_b) : 0;
     return separation_b > separation_a + (edge_b > 1.001f * edge_a ? -bias : bias);
 }
 
-/// Of count edges, normal(i) being their normals: the one that faces n most.
+/// Index of the edge that faces n most, among `count` edges with the normals normal(i).
 template <class Normal>
 [[nodiscard]] int most_opposed_edge(int count, const Normal& normal, Vec2 n)
 {
@@ -38,8 +38,8 @@ template <class Normal>
     return edge;
 }
 
-/// Keeps the part of an edge on the side where dot(n, p) >= offset; false where nothing is left. A point has a core, and goes between two others by
-/// put_between(a, b, t); what else it has stays.
+/// Keeps the part of an edge on the side where dot(n, p) >= offset; false where nothing is left. A point has a core, and is moved between two others by
+/// put_between(a, b, t), which leaves its other members unchanged.
 template <class Point>
 [[nodiscard]] bool clip(Point points[2], Vec2 n, float offset)
 {
@@ -52,15 +52,15 @@ template <class Point>
     return true;
 }
 
-/// Of a point that was clipped to an edge; flipped: the edge is b's.
+/// Feature of a point that was clipped to an edge; flipped: the edge is b's.
 [[nodiscard]] inline std::uint32_t feature_id(bool flipped, int reference_edge, int incident_point)
 {
     return (flipped ? 1u << 31 : 0u) | (static_cast<std::uint32_t>(reference_edge) << 16) |
            static_cast<std::uint32_t>(incident_point);
 }
 
-/// Does a seam leave the normal to the neighbour? Allowed are normals between the two pieces' own, over a convex corner. Normal, out of the piece, and
-/// tangent are given in a frame that the piece's is turned to.
+/// Whether the normal leans so far over a seam that it belongs to the neighbor. Over a convex corner, normals between the two pieces' own are allowed.
+/// The normal, out of the piece, and the tangent are given in a frame to which `turn` rotates the piece's.
 [[nodiscard]] inline bool leans_over_seam(const Leaf& piece, Vec2 normal, Vec2 tangent, Rotation turn)
 {
     const auto leans = [&](Vec2 into_piece, Vec2 into_neighbour)
@@ -69,16 +69,12 @@ template <class Point>
            (piece.has_next && leans(-tangent, rotate(turn, piece.next_tangent)));
 }
 
-/// Has a hull its center, in the piece's frame and `side` to the left of its line, behind that line but before the neighbour, over a convex corner? Then
-/// the neighbour has it.
+/// Whether a hull's center, in the piece's frame and `side` to the left of its line, is behind that line but before the neighbor, over a convex corner. Then
+/// the contact belongs to the neighbor.
 [[nodiscard]] inline bool is_behind_seam(const Leaf& piece, float side, Vec2 center)
 {
     return piece.sides == Sides::Both && (piece.has_previous || piece.has_next) &&
            is_left_of_chain(piece, center.x, center.y) != (side > 0);
 }
-
-/// Between two corners, or of a surface without edges: no edge's normal.
-[[nodiscard]] inline bool is_of_edge(std::uint32_t feature) { return (feature & (0x4000u << 16)) == 0; }
-[[nodiscard]] inline bool edge_is_of_b(std::uint32_t feature) { return (feature & (1u << 31)) != 0; }
 
 } // namespace carom::internal

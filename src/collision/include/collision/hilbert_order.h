@@ -1,6 +1,6 @@
 #pragma once
 
-// Points of the plane along a Hilbert curve: what is near in the order is near in the plane, and mostly the other way round.
+// Sorts points of the plane along a Hilbert curve: points that are near in the order are near in the plane, and mostly the reverse.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
@@ -23,7 +23,7 @@ public:
         std::uint32_t index;
     };
 
-    /// Sorts 0 ... count by where the points at(i) lie in their bounding square, 65536 cells a side; of those in one cell the least comes first.
+    /// Sorts 0 ... count by where the points at(i) are in their bounding square, 65536 cells a side. Within a cell, indices ascend.
     template <class At>
     void sort(const TaskHooks& tasks, std::size_t count, const At& at)
     {
@@ -74,7 +74,7 @@ private:
 
     static constexpr std::size_t points_per_task = 1024;
 
-    std::vector<FloatBox> m_bounds; ///< of parts
+    std::vector<FloatBox> m_bounds; ///< by chunk
     std::vector<Key> m_keys;
     std::vector<Key> m_other;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// Everything convex with corners is one thing to the manifold code: points with radii and the outward normals of the edges between
+// Every convex leaf with corners is one kind of object to the manifold code: points with radii and the outward normals of the edges between
 // them. A capsule or segment is a hull of two points and two edges.
 
 #include "collision/manifold.h"
@@ -71,7 +71,7 @@ protected:
     int m_count = 0;
 
 private:
-    Vec2 m_sides[4]; ///< of a capsule or segment
+    Vec2 m_sides[4]; ///< points and normals of a capsule or segment
     float m_radii[2] = {};
 };
 

@@ -10,7 +10,7 @@
 
 namespace carom::internal {
 
-/// Frame of body b as seen from body a. Taken in double, exact far from the world's origin.
+/// Frame of body b as seen from body a. Computed in double, exact far from the world's origin.
 struct RelativePose
 {
     Vec2 position{};
@@ -36,23 +36,23 @@ struct LocalPoint
 /// Cosine of the angle between the normals at two points up to which one normal serves both.
 inline constexpr float one_normal = 0.94f;
 
-/// What a manifold was clipped from, in a's frame: as long as these two face each other, its points follow from them.
+/// The edges that a manifold was clipped from, in a's frame: as long as these two face each other, its points follow from them.
 struct ClippedEdges
 {
-    Vec2 edge[2];      ///< ends of the edge whose normal it is, on the surface
-    Vec2 corners[2];   ///< of the other leaf, without their radius; the first point is of the first
-    bool of_b = false; ///< the edge
-    float radius = -1; ///< of both corners; negative: of none, or they differ
+    Vec2 edge[2];      ///< ends of the reference edge, on the surface
+    Vec2 corners[2];   ///< ends of the incident edge, without their radius; the first belongs to the first point
+    bool of_b = false; ///< whether the reference edge is b's
+    float radius = -1; ///< radius of both corners; negative: no clipped edges, or the radii differ
 };
 
-/// Two corners that are nearest to each other, or the centers of circles, in a's frame: as long as the way from one to the other lies in both cones, nothing
-/// is nearer.
+/// Two corners that are nearest to each other, or the centers of circles, in a's frame. As long as the direction from one to the other lies in both cones,
+/// nothing is nearer.
 struct NearestCorners
 {
     Vec2 at[2];
-    /// Of the normals out of either: n with dot(n, cone) >= dot(cone, cone), the middle of the two edges' normals. 0: any.
+    /// Normal cones at either corner: n with dot(n, cone) >= dot(cone, cone), where cone is the mean of the two edges' normals. 0: any normal.
     Vec2 cones[2];
-    float radii[2] = {-1, -1}; ///< negative: it was none
+    float radii[2] = {-1, -1}; ///< negative: the nearest features were not corners
 };
 
 struct LocalManifold
@@ -62,14 +62,14 @@ struct LocalManifold
     int count = 0;
     ClippedEdges clipped;
     NearestCorners nearest;
-    /// Without a point: nothing nearer than this could have been left out, were the margin as wide. With one: none but the corners that it was clipped
-    /// from. With two: how far the leaves may move before another corner could be one of them.
+    /// Without a point: a lower bound on the gap that would hold for a wider margin too. With one point: the same bound for all but the corners that it was
+    /// clipped from. With two: how far the leaves may move before another corner could be one of them.
     float reach = 0;
-    /// Without a point, the direction from a to b, in a's frame, along which they are that far apart; 0: none is known.
+    /// Without a point, the direction from a to b, in a's frame, along which they are `reach` apart; 0: none is known.
     Vec2 parting{};
-    bool is_of_union = false; ///< flush neighbours have turned or emptied it
+    bool is_of_union = false; ///< flush neighbors have turned or emptied the manifold
 
-    /// The lowest point's separation, m; 3e38 without a point.
+    /// Separation of the lowest point, m; 3e38 without a point.
     [[nodiscard]] float least_separation() const
     {
         const float first = count > 0 ? points[0].separation : 3e38f;
@@ -83,7 +83,7 @@ struct LocalManifold
         reach = separation;
     }
 
-    // By the separations of the lowest other corner of the clipped edge's leaf, and of what of that edge itself was too far away to be a point.
+    // `third`: separation of the lowest other corner of the incident leaf. `left_out`: separation of the part of the incident edge that is beyond the margin.
     void bound_by_third(float third, float left_out)
     {
         const float farther = points[0].separation < points[1].separation ? points[1].separation : points[0].separation;
@@ -99,11 +99,11 @@ struct LocalManifold
     }
 };
 
-/// Fills the manifold with points whose separation is at most margin. Its reach is the margin; it may write more.
+/// Fills the manifold with points whose separation is at most `margin`. The manifold's reach is set to the margin beforehand; the function may replace it.
 using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin,
                                  LocalManifold& out);
 
-/// The table over leaf types, row 2 of the design: every permutation that can meet is there; null where both types are massless
+/// The table over leaf types: every ordered pair that can meet is there; null where both types are massless
 /// or both are half-spaces. One implementation per unordered pair, mirrored for the other order.
 [[nodiscard]] CollideFunction collide_function(LeafType a, LeafType b);
 
@@ -111,7 +111,7 @@ using CollideFunction = void (*)(const LeafView& a, const LeafView& b, const Rel
 [[nodiscard]] LocalManifold collide(const LeafView& a, const LeafView& b, const RelativePose& pose, float margin);
 
 /// Clips b to one edge of a (a polygon, capsule or segment), lengthened by `beyond` at both ends. The normal is that edge's; `out` is empty where
-/// no part of b lies before it.
+/// no part of b lies before the edge.
 void clip_to_own_edge(const LeafView& a, int edge, const LeafView& b, const RelativePose& pose, float margin, float beyond,
                       LocalManifold& out);
 

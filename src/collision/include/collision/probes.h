@@ -1,6 +1,6 @@
 #pragma once
 
-// A leaf as circles fixed to its body. Whatever it touches, it touches with one of them, or with its flat sides the probes of the other.
+// A leaf as circles fixed to its body, its probes. A leaf touches another with one of them, or with a flat side that meets a probe of the other.
 
 #include "collision/time_of_impact.h"
 #include "geometry/surface.h"
@@ -11,7 +11,7 @@ struct Probe
 {
     Vec2 point{}; ///< in the body's frame
     double radius = 0;
-    LeafView piece{}; ///< the segment or arc of which it is a part: only some of the circle is surface
+    LeafView piece{}; ///< the segment or arc that the probe is a part of: only some of the circle is surface
     enum class Part : std::uint8_t
     {
         All,
@@ -19,13 +19,13 @@ struct Probe
         End,
         Bulge
     } part = Part::All;
-    Vec2 before{}; ///< of a polygon's vertex: normals of the edges that meet there
+    Vec2 before{}; ///< for a polygon's vertex: normals of the edges that meet there
     Vec2 after{};
-    Vec2 outward{};  ///< where the shape is not, seen from a vertex or an end; 0 for circles
-    double band = 0; ///< so far beyond a line without thickness the probe still counts as on the side that its shape is on
+    Vec2 outward{};  ///< direction away from the shape at a vertex or an end; 0 for circles
+    double band = 0; ///< depth beyond a line without thickness up to which the probe still counts as on the side of its shape
 };
 
-/// Whether the probe's surface looks that way; direction in the probe's frame.
+/// Whether the probe's surface faces a direction, given in the probe's frame.
 [[nodiscard]] inline bool faces(const Probe& probe, double dx, double dy)
 {
     if (probe.part == Probe::Part::All)
@@ -47,7 +47,7 @@ struct Probe
                static_cast<double>(probe.piece.span->cos_half_sweep);
 }
 
-/// Calls visit(probe) for each; bands only matter against lines.
+/// Calls visit(probe) for each probe; bands matter only against lines.
 template <class Visit>
 void for_each_probe(const LeafView& v, bool against_line, Visit&& visit)
 {
@@ -86,7 +86,8 @@ void for_each_probe(const LeafView& v, bool against_line, Visit&& visit)
     }
 }
 
-/// Probes of a meet the surface of b and probes of b that of a; a circle is one probe and needs no others. Calls visit(probe, number, on_a).
+/// Calls visit(probe, number, on_a) for probes of a, which meet the surface of b, and probes of b, which meet that of a. A circle is one probe and needs
+/// no others.
 template <class Visit>
 void for_each_probe_pair(const LeafView& a, const LeafView& b, Visit&& visit)
 {

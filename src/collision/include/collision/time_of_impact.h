@@ -1,9 +1,9 @@
 #pragma once
 
-// When do two leaves that move first touch? Both paths are exact functions of time: a point of the body along a parabola, and a turn about it
+// Time of impact of two moving leaves. Both paths are exact functions of time: a point of the body along a parabola, and a rotation about it
 // with steady angular acceleration. All in double; the target is zero distance.
 //
-// Two leaves always touch at a corner of one: a circle, an end of a capsule, a vertex, the bulge of an arc. So a leaf is seen as a few
+// Two leaves always touch at a corner of one: a circle, an end of a capsule, a vertex, the bulge of an arc. So a leaf is treated as a few
 // probes, circles fixed to its body, and the question becomes when a probe meets the surface of the other leaf.
 
 #include "carom/math.h"
@@ -15,7 +15,7 @@
 
 namespace carom::internal {
 
-/// By the square root, which every machine rounds alike; hypot is the library's affair.
+/// Computed by the square root, which every machine rounds alike; hypot depends on the library.
 [[nodiscard]] inline double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// x + v t + a t²/2 for each coordinate.
@@ -31,20 +31,20 @@ struct CenterPath
 
 struct FramePath
 {
-    CenterPath center;   ///< of the point the body turns about: its center of mass, or a pivot
-    Vec2 local_center{}; ///< where that is in the body's frame
+    CenterPath center;   ///< path of the point that the body turns about: its center of mass, or a pivot
+    Vec2 local_center{}; ///< that point in the body's frame
     double c = 1;        ///< rotation at t = 0
     double s = 0;
     double w = 0;     ///< rad/s at t = 0
     double alpha = 0; ///< rad/s²
 };
 
-/// The same path seen from `time` on.
+/// The same path starting at `time`.
 [[nodiscard]] FramePath path_after(const FramePath& path, double time);
 /// The same path run backwards from t = 0.
 [[nodiscard]] FramePath run_back(const FramePath& path);
 
-/// Corners of both leaves, a bit each.
+/// Corners of both leaves, one bit each.
 struct ProbeSet
 {
     std::uint32_t of_a = 0;
@@ -54,7 +54,7 @@ struct ProbeSet
     [[nodiscard]] bool has(int probe, bool on_a) const { return (((on_a ? of_a : of_b) >> (probe & 31)) & 1) != 0; }
 };
 
-/// Of unit length; 0: none.
+/// A direction of unit length; 0: none.
 struct Axis
 {
     double x = 0;
@@ -70,19 +70,19 @@ struct Touch
     double y = 0;
     double nx = 0; ///< unit normal from a to b
     double ny = 0;
-    double distance = 0;     ///< the gap; negative: they overlap
-    double rate = 0;         ///< of the gap, m/s; negative: they approach
-    double acceleration = 0; ///< of the gap while the paths go on, m/s²; negative: they press
-    double curvature = 0;    ///< of the surface as seen from the probe, see Surface
+    double distance = 0;     ///< the gap; negative: the leaves overlap
+    double rate = 0;         ///< rate of the gap, m/s; negative: the leaves approach
+    double acceleration = 0; ///< acceleration of the gap along the paths, m/s²; negative: the leaves press
+    double curvature = 0;    ///< curvature of the surface as seen from the probe, see Surface
     int feature = 0;
     ProbeSet probes{}; ///< the corners that touch: one, or two on each other
 };
 
-/// Of the size: so deep at the most comes what presses before it touches anew.
+/// Relative to the size: the greatest depth of a pressing contact before it touches anew.
 inline constexpr double nearly_touch = 1e-3;
 
-/// What touches and presses is taken in blows: as fast as what presses makes it in `wait` seconds, but no slower than `least_blow` unless it would
-/// come deeper than `depth` for that.
+/// A pressing contact is resolved by micro-collisions. Their speed is the one that the acceleration causes in `wait` seconds, but at least `least_blow` unless
+/// reaching that would take a depth of more than `depth`.
 struct MicroCollision
 {
     double wait = 0;
@@ -90,12 +90,12 @@ struct MicroCollision
     double depth = 0;      ///< m
 };
 
-/// How fast the gap closes by then, or once it is pressed as deep as nearly_touch; acceleration of the gap as in Touch.
+/// Speed at which the gap closes after `wait`, limited by the depth nearly_touch; acceleration of the gap as in Touch.
 [[nodiscard]] double pressed_speed(double acceleration, const MicroCollision& press, double length);
 
 struct FlushNeighbours;
 
-/// The flush neighbours of either leaf; null where it has none. See flush.h.
+/// The flush neighbors of either leaf; null where there are none. See flush.h.
 struct Flush
 {
     const FlushNeighbours* of_a = nullptr;
@@ -104,26 +104,26 @@ struct Flush
     [[nodiscard]] bool is_empty() const { return of_a == nullptr; }
 };
 
-/// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. What overlaps and
-/// approaches touches at 0; what touches and separates does not until it comes back. What presses touches anew by `press`. The corners of
-/// `held` are left out. Along `axis`, from a to b, corners on the far side are told without a look. Adds the looks taken to `looks`.
+/// The first time in [0, duration] at which the leaves touch and approach each other faster than least_approach. Leaves that overlap and
+/// approach touch at 0; leaves that touch and separate do not touch until they come back. Pressing contacts touch anew by `press`. The corners of
+/// `held` are left out. With `axis`, from a to b, corners on the far side are left out without a look. Adds the number of looks to `looks`.
 [[nodiscard]] std::optional<Touch> first_touch(const LeafView& a, const FramePath& path_a, const LeafView& b,
                                                const FramePath& path_b, double duration, double least_approach,
                                                const MicroCollision& press = {}, const ProbeSet& held = {}, Axis axis = {},
                                                const Flush& flush = {}, std::int64_t* looks = nullptr);
 
-/// True where nothing of the two can meet in that time: along an axis from a to b they stay apart. False says nothing.
+/// True where the leaves cannot meet in that time: they stay apart along an axis from a to b. False says nothing.
 [[nodiscard]] bool stay_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
                               double duration);
 
-/// True where they are farther apart than that along the axis at t = 0. False says nothing.
+/// True where the leaves are farther apart than `distance` along the axis at t = 0. False says nothing.
 [[nodiscard]] bool are_apart(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b, Axis axis,
                              double distance);
 
-/// From the center that a turns about to that of b; none where they are in one place.
+/// Direction from the center that a turns about to that of b; none where they coincide.
 [[nodiscard]] Axis line_of_centers(const FramePath& a, const FramePath& b);
 
-/// All points at which the leaves are nearer than `tolerance` at t = 0.
+/// The points at which the leaves are nearer than `tolerance` at t = 0, as far as there is room.
 struct Touches
 {
     static constexpr int capacity = 8;
@@ -136,7 +136,7 @@ struct Touches
 [[nodiscard]] Touches touches_now(const LeafView& a, const FramePath& path_a, const LeafView& b, const FramePath& path_b,
                                   double tolerance, const Flush& flush = {});
 
-/// The nearest of a leaf's probes to zero size: what tolerances of distance are measured by.
+/// Characteristic size of a leaf, to which tolerances of distance are relative.
 [[nodiscard]] double probe_size(const LeafView& v);
 
 } // namespace carom::internal

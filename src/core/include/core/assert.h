@@ -1,6 +1,6 @@
 #pragma once
 
-// Asserts for what the library promises itself. Bad input of users never gets here: public functions refuse it first.
+// Asserts for the library's own invariants. Bad input from users never gets here: public functions refuse it first.
 
 #include <cstdio>
 #include <cstdlib>

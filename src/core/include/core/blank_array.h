@@ -1,7 +1,7 @@
 #pragma once
 
-// Room for items that are written before they are read. It grows without copying or touching anything: the first to write an item pays for its page, and where
-// threads write side by side they share that.
+// An array for items that are written before they are read. It grows without copying or touching memory: the first write to an item pays for its page, and
+// threads that write concurrently share that cost.
 
 #include <cstddef>
 #include <memory>
@@ -15,14 +15,14 @@ class BlankArray
     static_assert(std::is_trivial_v<T>);
 
 public:
-    /// Room for `size` items in all; where there was not enough, what they held is lost. Grows by a quarter at least.
+    /// Room for `size` items in all. Where there was not enough, the old items are lost. Grows by at least a quarter.
     void make_room(std::size_t size)
     {
         if (size <= m_size)
             return;
         const std::size_t wanted = m_size + m_size / 4;
         m_size = size > wanted ? size : wanted;
-        m_items.reset(); // before there are both
+        m_items.reset(); // frees the old items before the new ones are allocated
         m_items = std::make_unique_for_overwrite<T[]>(m_size);
     }
 

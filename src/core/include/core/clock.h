@@ -6,11 +6,11 @@
 
 namespace carom::internal {
 
-/// One look at the clock to a stage: in a step of microseconds looks count.
+/// Reads the clock once per stage: in a step of microseconds, readings count.
 class Stopwatch
 {
 public:
-    /// Runs a stage and adds the wall time since the stage before has ended, ms.
+    /// Runs a stage and adds the wall time since the end of the previous stage, in ms.
     template <class Stage>
     void time(float& elapsed_ms, const Stage& stage)
     {
@@ -20,7 +20,7 @@ public:
         elapsed_ms += ms_between(before, m_now);
     }
 
-    /// ms since the beginning.
+    /// Time since the construction, ms.
     [[nodiscard]] float total() const { return ms_between(m_start, Clock::now()); }
 
 private:

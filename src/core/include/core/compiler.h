@@ -1,6 +1,6 @@
 #pragma once
 
-// Extensions of compilers, under one name each. The lane backends (core/lanes/) are the only other place for anything that is not ISO C++. A compiler
+// Compiler extensions, under one name each. The lane backends (core/lanes/) are the only other place for anything that is not ISO C++. A compiler
 // that is not named here gets plain C++.
 
 #include <cstddef>
@@ -14,14 +14,14 @@
 #error "Carom needs floats that are rounded to floats: on 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 
-// CAROM_GNU: the extensions of GCC, which Clang has too, also where it takes the place of MSVC.
+// CAROM_GNU: the extensions of GCC, which Clang has too, even as a replacement for MSVC.
 #if defined(__GNUC__) || defined(__clang__)
 #define CAROM_GNU 1
 #else
 #define CAROM_GNU 0
 #endif
 
-// CAROM_INLINE: a function that is inlined whatever the compiler thinks of its size.
+// CAROM_INLINE: a function that is inlined whatever its size.
 #if CAROM_GNU
 #define CAROM_INLINE inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
@@ -37,7 +37,7 @@
 #define CAROM_X86 0
 #endif
 
-// CAROM_HAS_AVX_KERNELS: the engine is built with kernels for AVX2 and AVX-512 beside those for SSE2. CMake defines CAROM_WITH_AVX where it passes the
+// CAROM_HAS_AVX_KERNELS: the engine is built with kernels for AVX2 and AVX-512 besides those for SSE2. CMake defines CAROM_WITH_AVX where it passes the
 // options for them.
 #if defined(CAROM_WITH_AVX) && CAROM_X86 && CAROM_GNU && !defined(CAROM_SCALAR_LANES)
 #define CAROM_HAS_AVX_KERNELS 1
@@ -47,7 +47,7 @@
 
 namespace carom::internal {
 
-/// Asks for the cache line at a place, into the second cache.
+/// Prefetches the cache line at an address into the second-level cache.
 CAROM_INLINE void prefetch_line([[maybe_unused]] const void* place)
 {
 #if CAROM_GNU
@@ -61,7 +61,7 @@ CAROM_INLINE void prefetch_line([[maybe_unused]] const void* place)
 
 #if defined(_MSC_VER)
 
-/// Bits of what the processor has (cpuid, leaf 7), if the system keeps these parts of its registers (xgetbv), else none.
+/// The processor's feature bits (cpuid, leaf 7) if the system saves the given parts of its registers (xgetbv), else none.
 inline unsigned extended_features(unsigned kept_registers)
 {
     int answer[4];
@@ -74,7 +74,7 @@ inline unsigned extended_features(unsigned kept_registers)
     __cpuidex(answer, 7, 0);
     return static_cast<unsigned>(answer[1]);
 }
-/// Whether processor and system can run what is compiled for AVX2; for AVX-512 with vectors of every length.
+/// Whether processor and system can run code compiled for AVX2, and below for AVX-512 with vectors of every length.
 inline bool has_avx2() { return (extended_features(0x6) >> 5 & 1u) != 0; }
 inline bool has_avx512()
 {
@@ -84,7 +84,7 @@ inline bool has_avx512()
 
 #else
 
-/// Whether processor and system can run what is compiled for AVX2; for AVX-512 with vectors of every length.
+/// Whether processor and system can run code compiled for AVX2, and below for AVX-512 with vectors of every length.
 inline bool has_avx2()
 {
     __builtin_cpu_init();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Four floats that are calculated with at once: every machine that we build for has registers of that size. Eight, in a kernel
+// Vectors of four floats: every machine that the engine is built for has registers of that size. Vectors of eight, in a kernel
 // per instruction set, are in lane_math.h.
 
 #include "core/lanes/vectors.h"
@@ -22,9 +22,9 @@ CAROM_INLINE void store4(float* p, F4 v) { lanes::store(p, v.v); }
 CAROM_INLINE void store2(double* p, D2 v) { lanes::store(p, v.v); }
 
 CAROM_INLINE float first_lane(F4 a) { return lanes::first_lane(a.v); }
-CAROM_INLINE unsigned bits(I4 mask) { return lanes::signs(mask.v); } ///< one for each lane of a comparison that holds
+CAROM_INLINE unsigned bits(I4 mask) { return lanes::signs(mask.v); } ///< one bit per lane, set where a comparison holds
 
-// Moves, with a = a0 a1 a2 a3.
+// Shuffles, with a = a0 a1 a2 a3.
 CAROM_INLINE F4 low_halves(F4 a, F4 b) { return lanes::low_halves(a.v, b.v); }             ///< a0 a1 b0 b1
 CAROM_INLINE F4 high_halves(F4 a, F4 b) { return lanes::high_halves(a.v, b.v); }           ///< a2 a3 b2 b3
 CAROM_INLINE F4 low_and_high(F4 a, F4 b) { return lanes::low_and_high(a.v, b.v); }         ///< a0 a1 b2 b3

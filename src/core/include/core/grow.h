@@ -1,7 +1,7 @@
 #pragma once
 
-// Arrays that grow by a quarter of what they have, or by a third. What doubles, as std::vector does, leaves a quarter of its memory unused in the mean, these a
-// tenth and an eighth; on the way an item is copied four times, or three times, not once.
+// Arrays that grow by a quarter of their capacity, or by a third. An array that doubles, as std::vector does, leaves a quarter of its memory unused on average;
+// these leave a tenth and an eighth. In return, an item is copied four times, or three times, instead of once.
 
 #include <cstddef>
 #include <span>
@@ -13,7 +13,7 @@ namespace carom::internal {
 enum class Growth : std::size_t
 {
     Quarter = 4,
-    Third = 3, ///< what grows while a scene is stepped
+    Third = 3, ///< for arrays that grow while a scene is stepped
 };
 
 /// Room for `size` items in all.
@@ -42,7 +42,7 @@ void set_size(std::vector<T>& items, std::size_t size)
     items.resize(size);
 }
 
-/// The item may be one of them.
+/// Appends an item, which may be one of `items`.
 template <Growth growth = Growth::Quarter, class T>
 void append(std::vector<T>& items, std::type_identity_t<T> item)
 {
@@ -50,7 +50,7 @@ void append(std::vector<T>& items, std::type_identity_t<T> item)
     items.push_back(item);
 }
 
-/// None of them may be one of `items`.
+/// Appends several items, none of which may be one of `items`.
 template <Growth growth = Growth::Quarter, class T>
 void append_all(std::vector<T>& items, std::span<const std::type_identity_t<T>> more)
 {

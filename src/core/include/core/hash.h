@@ -1,13 +1,13 @@
 #pragma once
 
-// A hash over values, field by field: padding bytes never count.
+// A hash over values that are added field by field, so that padding bytes never count.
 
 #include <bit>
 #include <cstdint>
 
 namespace carom::internal {
 
-/// The finaliser of splitmix64: mixes every bit into every other.
+/// The finalizer of splitmix64: mixes every bit into every other.
 [[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x)
 {
     x ^= x >> 30;
@@ -23,7 +23,7 @@ class Hasher
 public:
     constexpr void add(std::uint64_t bits) { m_hash = mix_bits(m_hash ^ (bits + 0x9e3779b97f4a7c15u)); }
     constexpr void add(int value) { add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(value))); }
-    // -0 and +0 behave alike in every comparison but divide differently, so they count as different.
+    // -0 and +0 compare equal but divide differently, so they count as different.
     constexpr void add(float value) { add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(value))); }
     constexpr void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
     [[nodiscard]] constexpr std::uint64_t value() const { return m_hash; }

@@ -1,11 +1,13 @@
 #pragma once
 
+// Conversion of signed indices for standard containers.
+
 #include <cstddef>
 #include <cstdint>
 
 namespace carom::internal {
 
-/// A number that is known not to be negative, as standard containers want it.
+/// Converts an index that is known not to be negative to the type that standard containers take.
 [[nodiscard]] constexpr std::size_t as_index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-// Storage of eight floats side by side: what lane_math.h calculates with at once.
+// Storage of eight floats side by side, which lane_math.h loads at once.
 
 #include <cstdint>
 

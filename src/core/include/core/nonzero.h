@@ -1,5 +1,7 @@
 #pragma once
 
+// Iteration over the bytes of an array that are not 0.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +9,7 @@
 
 namespace carom::internal {
 
-/// Calls visit(i) for each of `count` bytes that is not 0, in order. Where most are, eight are passed over at once.
+/// Calls visit(i) for each of `count` bytes that is not 0, in order. Eight bytes that are all 0 are skipped at once.
 template <class Visit>
 void for_each_nonzero(const std::uint8_t* bytes, std::size_t count, const Visit& visit)
 {

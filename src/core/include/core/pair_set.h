@@ -1,7 +1,7 @@
 #pragma once
 
-// A set of unordered index pairs: open addressing over 64-bit keys, linear probing, backward-shift deletion. Only asked, and
-// iterated to erase alone: its order cannot leak into the simulation.
+// A set of unordered index pairs: open addressing over 64-bit keys, linear probing, backward-shift deletion. It is only queried, and
+// iterated only to erase or to hash, so that its order cannot leak into the simulation.
 
 #include "core/hash.h"
 
@@ -30,7 +30,7 @@ class PairSet
 {
 public:
     [[nodiscard]] bool empty() const { return m_count == 0; }
-    /// Of the set, whatever the order in which it came to be.
+    /// Hash of the set, independent of the order of insertions.
     [[nodiscard]] std::uint64_t hash() const
     {
         std::uint64_t sum = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Objects in numbered slots: a plain array, generations, and a free list, so that a copy of a pool is a copy of memory and
-// ids stay good in it. A slot's generation is odd while it is alive.
+// Objects in numbered slots: a plain array, generations, and a free list, so that a copy of a pool is a copy of memory in which
+// ids stay valid. A slot's generation is odd while it is alive.
 
 #include "core/assert.h"
 #include "core/grow.h"
@@ -25,7 +25,7 @@ public:
         return slot;
     }
 
-    /// A slot in which still stands what it last held.
+    /// Takes a slot without clearing it: it may still hold its last object.
     int take()
     {
         int slot;
@@ -53,7 +53,7 @@ public:
         --m_count;
     }
 
-    /// Destroys what is in a slot, which is taken again at once.
+    /// Destroys the object in a slot and takes the slot again at once.
     void renew(int slot)
     {
         CAROM_ASSERT(is_live(slot), "what is destroyed is there");

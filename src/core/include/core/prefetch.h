@@ -1,7 +1,7 @@
 #pragma once
 
-// Lists of bodies and contacts name records all over memory. A loop that asks for those of a later turn does not wait for them then. They are asked into the
-// second cache: the first is too small for what is turns away, and has too few places for lines on their way.
+// Lists of bodies and contacts name records all over memory. A loop that prefetches the records of a later iteration does not wait for them then. They go into
+// the second-level cache: the first is too small for data that is iterations away, and has too few buffers for lines in flight.
 
 #include "core/compiler.h"
 
@@ -9,9 +9,9 @@
 
 namespace carom::internal {
 
-inline constexpr std::size_t prefetch_distance = 8; ///< of loops over bodies: some hundred ns, what memory takes
+inline constexpr std::size_t prefetch_distance = 8; ///< for loops over bodies: some hundred ns, the latency of memory
 
-/// Asks for a record, all of its cache lines where they begin with it. Inlined in any case: g++ leaves out calls of functions that do nothing else.
+/// Prefetches all cache lines of a record that begins with one. Always inlined: g++ drops calls of functions that do nothing else.
 template <class Record>
 CAROM_INLINE void prefetch(const Record& record)
 {

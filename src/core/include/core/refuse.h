@@ -36,7 +36,7 @@ struct Checker
     bool positive(const char* field, float value) const;
     bool not_negative(const char* field, float value) const;
     bool in_range(const char* field, float value, float low, float high) const;
-    /// Refuses what is none of an enumeration's values, which run from 0 to `last`.
+    /// Refuses a value that is not in an enumeration, whose values run from 0 to `last`.
     template <class Enum>
     bool one_of(const char* field, Enum value, Enum last) const
     {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The program around the engine may have set another rounding mode; results are those of rounding to nearest whatever it is.
+// Rounding to nearest within a scope: results do not depend on the rounding mode that the host program has set.
 
 #include <cfenv>
 

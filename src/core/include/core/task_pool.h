@@ -1,7 +1,7 @@
 #pragma once
 
-// The one place that knows of threads. A stage gives it a number of independent tasks; whether they run one after another or on the
-// user's workers, the result is the same, because each task writes only what is its own.
+// The only place that knows of threads. A stage gives it a number of independent tasks. Whether they run one after another or on the
+// user's workers, the result is the same, because each task writes only its own data.
 
 #include "carom/scene.h"
 
@@ -12,7 +12,7 @@
 
 namespace carom::internal {
 
-/// A task by its address: whether tasks run here or on workers, the compiler makes one function of them.
+/// A task is called by its address: whether tasks run here or on workers, the compiler makes one function of them.
 using TaskCall = void (*)(const void* task, int index);
 
 void run_tasks(const TaskHooks& hooks, int count, const void* task, TaskCall call);
@@ -24,14 +24,14 @@ void run_tasks(const TaskHooks& hooks, int count, const Task& task)
     run_tasks(hooks, count, &task, [](const void* context, int index) { (*static_cast<const Task*>(context))(index); });
 }
 
-/// Of tasks that run side by side any may raise a flag. Written once: threads that read it do not wait for each other.
+/// Raises a flag that any of several concurrent tasks may raise. It is written once, so that threads that read it do not wait for each other.
 inline void raise(std::atomic<bool>& flag)
 {
     if (!flag.load(std::memory_order_relaxed))
         flag.store(true, std::memory_order_relaxed);
 }
 
-/// Calls both, side by side where there are threads.
+/// Calls both, concurrently where there are threads.
 template <class One, class Other>
 void run_both(const TaskHooks& hooks, const One& one, const Other& other)
 {
@@ -45,7 +45,7 @@ void run_both(const TaskHooks& hooks, const One& one, const Other& other)
               });
 }
 
-/// Calls work(first, last) for parts of 0 ... count, a task each.
+/// Calls work(first, last) for chunks of 0 ... count, one task per chunk.
 template <class Work>
 void run_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part, const Work& work)
 {
@@ -57,7 +57,7 @@ void run_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part, con
               });
 }
 
-/// Calls visit(i) for each of 0 ... count, a part of them to a task.
+/// Calls visit(i) for each of 0 ... count, one task per chunk.
 template <class Visit>
 void for_each_in_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part, const Visit& visit)
 {
@@ -69,8 +69,8 @@ void for_each_in_chunks(const TaskHooks& hooks, std::size_t count, std::size_t p
                });
 }
 
-/// Calls work(first, last, found) for parts of 0 ... count; what each finds stands in the order of the parts. Results keep their memory: the span
-/// holds those of this call, not cleared.
+/// Calls work(first, last, found) for chunks of 0 ... count; the results are in the order of the chunks. `results` keeps its memory: the span
+/// holds the results of this call, and they are not cleared before it.
 template <class Found, class Work>
 [[nodiscard]] std::span<Found> find_in_chunks(const TaskHooks& hooks, std::size_t count, std::size_t part,
                                               std::vector<Found>& results, const Work& work)

@@ -1,6 +1,6 @@
 #pragma once
 
-// sin, cos, atan2 and exp from + - * / alone, so that every platform gives the same bits. Errors below 1e-15 relative to 1
+// sin, cos, atan2 and exp computed with + - * / and square roots alone, so that every platform gives the same bits. Errors are below 1e-15 relative to 1
 // in double for arguments up to 1e6.
 
 #include "core/compiler.h"
@@ -8,9 +8,9 @@
 namespace carom::internal {
 
 inline constexpr double half_pi = 1.57079632679489661923;
-inline constexpr double tan_of_sixteenth = 0.19891236737965801; ///< of pi / 16
+inline constexpr double tan_of_sixteenth = 0.19891236737965801; ///< tan(pi / 16)
 
-/// atan on |x| <= tan(pi/16), of one double or several: alternating series, the terms left out are below 1e-17.
+/// atan on |x| <= tan(pi/16), for one double or a vector of them: an alternating series whose omitted terms are below 1e-17.
 template <class D>
 CAROM_INLINE D atan_small(D x)
 {

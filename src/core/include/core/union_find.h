@@ -1,6 +1,6 @@
 #pragma once
 
-// Who hangs together: union-find over 0 ... size, also by several threads at once. The least of a set is its root, whatever the order of the links.
+// Connected sets: union-find over 0 ... size, also by several threads at once. The root of a set is its least element, whatever the order of the links.
 
 #include <algorithm>
 #include <atomic>
@@ -13,39 +13,40 @@ namespace carom::internal {
 class UnionFind
 {
 public:
-    /// Each by itself.
+    /// Makes each element a set of its own.
     void reset(std::size_t size)
     {
-        m_parents.resize(size + 1); // the last is nobody's
+        m_parents.resize(size + 1); // the last is a dummy element
         for (std::size_t i = 0; i <= size; ++i)
             m_parents[i] = static_cast<std::int32_t>(i);
     }
 
-    /// Before anything is linked: the later one hangs under the other, whatever it hung under until now. So most links are known by a store each, and
-    /// where neighbours have near numbers few sets are left to be linked. Negative: nobody.
+    /// Before anything is linked: the later element becomes a child of the other, whatever its parent was. One store each makes most links known, and where
+    /// neighbors have near indices few sets are left to be linked. A negative index is no element.
     void guess(std::int32_t a, std::int32_t b)
     {
         const std::int32_t under = std::min(a, b);
         const auto nobody = static_cast<std::int32_t>(m_parents.size()) - 1;
-        m_parents[static_cast<std::size_t>(under >= 0 ? std::max(a, b) : nobody)] = under; // no branch: it would be guessed wrong
+        m_parents[static_cast<std::size_t>(under >= 0 ? std::max(a, b) : nobody)] =
+            under; // branch-free: the branch would be mispredicted
     }
 
-    /// Everyone hangs right under a root.
+    /// Makes each element a child of its root. The parents are those of reset and guess.
     void flatten()
     {
         for (std::size_t i = 0; i + 1 < m_parents.size(); ++i)
-            m_parents[i] = m_parents[static_cast<std::size_t>(m_parents[i])]; // which comes before it, and is done
+            m_parents[i] = m_parents[static_cast<std::size_t>(m_parents[i])]; // the parent comes earlier and is done
     }
 
-    /// False where they hung together already. Negative, of one: nobody. `shared`: other threads link as well.
+    /// False where both are in one set already. A negative index is no element. `shared`: other threads link at the same time.
     bool link(std::int32_t a, std::int32_t b, bool shared)
     {
         a = a >= 0 ? a : b;
         b = b >= 0 ? b : a;
-        return above(above(a)) != above(above(b)) && join(a, b, shared); // most hang together already
+        return above(above(a)) != above(above(b)) && join(a, b, shared); // most are in one set already
     }
 
-    /// Whoever hangs together in `other`, which is as large; both have been flattened.
+    /// Joins the elements that are joined in `other`, which has the same size. Both have been flattened.
     void join_all(const UnionFind& other)
     {
         for (std::size_t i = 0; i + 1 < other.m_parents.size(); ++i)
@@ -68,11 +69,11 @@ public:
         }
     }
 
-    /// One of the same set that comes before it, or itself where none does.
+    /// An element of the same set with a lower index, or the element itself where it is the root.
     [[nodiscard]] std::int32_t before(std::size_t i) const { return m_parents[i]; }
 
 private:
-    // A parent comes before its children, and only ever gives way to one that comes before it: whatever a thread reads is of the same set.
+    // A parent comes before its children, and is replaced only by an earlier one: whatever a thread reads is of the same set.
     std::atomic_ref<std::int32_t> parent(std::int32_t i) { return std::atomic_ref(m_parents[static_cast<std::size_t>(i)]); }
     std::int32_t above(std::int32_t i) { return parent(i).load(std::memory_order_relaxed); }
 
@@ -89,7 +90,7 @@ private:
         }
     }
 
-    // True if it was a root still.
+    // True if `root` was still a root.
     bool hang(std::int32_t root, std::int32_t under, bool shared)
     {
         if (shared)

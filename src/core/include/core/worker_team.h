@@ -1,9 +1,9 @@
 #pragma once
 
-// Many short rounds of shared work inside one long task: passes over a large island. Tasks of the user's job system are too dear for that, so
-// one set of them stays together: the first to come leads, the others serve. A round has a part for each; a member takes its own part of every round, so
-// that what it has worked on before is still in its cache, and whoever is ready takes those of members that have not come. Parts write only what
-// is their own; so who takes which does not matter.
+// Many short rounds of shared work inside one long task: passes over a large island. Tasks of the user's job system are too expensive for that, so
+// one set of them stays together: the first to arrive leads, the others serve. A round has a part for each worker. A worker takes its own part of every
+// round, so that its data is still in its cache, and an idle worker takes the parts of workers that have not arrived. A part writes only its own data, so
+// the result does not depend on which worker takes it.
 
 #include "core/task_pool.h"
 
@@ -16,14 +16,14 @@ namespace carom::internal {
 class WorkerTeam
 {
 public:
-    /// Runs lead(worker team) once, with the others of the hooks' workers at hand.
+    /// Runs lead(worker team) once, with the hooks' other workers available to it.
     template <class Lead>
     static void run(const TaskHooks& hooks, const Lead& lead)
     {
         run(hooks, lead, 0, [](int) {});
     }
 
-    /// The same, and aside(i) for each of 0 ... count: by members that the leader has had nothing for in a while, and by all when it is done.
+    /// The same, and background(i) for each of 0 ... count: by workers that have had no part for a while, and by all when the leader is done.
     template <class Lead, class BackgroundTask>
     static void run(const TaskHooks& hooks, const Lead& lead, int count, const BackgroundTask& background)
     {
@@ -59,15 +59,15 @@ public:
     [[nodiscard]] int workers() const { return m_workers; }
     [[nodiscard]] bool has_helpers() const { return m_workers > 1; }
 
-    /// Calls work(part, parts) for each part. For the leader.
+    /// Calls work(part, parts) for each part. Only the leader calls this.
     template <class Work>
     void in_parts(const Work& work)
     {
         in_parts(&work, call_of<Work>, m_workers);
     }
 
-    /// Calls work(piece) for each of 0 ... pieces. A member begins with its own slice of them, from either end, and then takes what others have
-    /// left of theirs: who does which is chance.
+    /// Calls work(piece) for each of 0 ... pieces. A worker begins with its own share of them, from either end, and then takes pieces that are left of the
+    /// other shares: which worker does which piece is left to chance.
     template <class Work>
     void in_pieces(int pieces, bool backwards, const Work& work)
     {
@@ -90,7 +90,7 @@ public:
             });
     }
 
-    /// Calls work(first, last) for a slice of 0 ... count to each part, where there is enough to share.
+    /// Calls work(first, last) for a share of 0 ... count per part, or for all of it at once where `count` is below `enough`.
     template <class Work>
     void share(int count, int enough, const Work& work)
     {
@@ -100,7 +100,7 @@ public:
         in_parts(&slice, call_of<decltype(slice)>, count < enough ? 1 : m_workers);
     }
 
-    /// Where the slice of a part begins.
+    /// Index at which the share of a part begins.
     [[nodiscard]] static int bound(int count, int part, int parts)
     {
         return static_cast<int>(std::int64_t{count} * part / parts);
@@ -108,10 +108,10 @@ public:
 
 private:
     static constexpr int most_workers = 16;
-    static constexpr int looks_at_own = 64;   // before a member looks for parts of others
-    static constexpr int looks_at_all = 1024; // before it takes what is to be done aside: some microseconds
+    static constexpr int looks_at_own = 64;   // looks between those at the parts of other workers
+    static constexpr int looks_at_all = 1024; // looks before a worker takes a background task: some microseconds
 
-    // By its address, as in run_tasks.
+    // Work is passed by its address, as in run_tasks.
     using Call = void (*)(const void*, int, int);
 
     template <class Work>
@@ -122,9 +122,9 @@ private:
 
     struct alignas(64) Part
     {
-        std::atomic<std::uint32_t> offered{0}; ///< in this round, and nobody has taken it; 0: none
-        std::atomic<std::uint32_t> done{0};    ///< the last round in which it was
-        Call work = nullptr;                   ///< stays until it is done
+        std::atomic<std::uint32_t> offered{0}; ///< the round in which the part is offered and not yet taken; 0: none
+        std::atomic<std::uint32_t> done{0};    ///< the last round in which the part was done
+        Call work = nullptr;                   ///< unchanged until the part is done
         const void* context = nullptr;
     };
 
@@ -146,7 +146,7 @@ private:
 
     std::atomic<int> m_arrived{0};
     alignas(64) std::atomic<bool> m_over{false};
-    alignas(64) std::uint32_t m_round = 0; ///< the leader's
+    alignas(64) std::uint32_t m_round = 0; ///< used by the leader only
     int m_workers = 1;
     Part m_parts[most_workers];
 };

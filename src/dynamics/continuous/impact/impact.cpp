@@ -1,10 +1,10 @@
-// An impact in flight. Gathered are all contacts that touch at this moment and hang together through bodies in flight; reflect.cpp gives
-// their impulses; then they are told, and what is left pressing is held.
+// An impact in flight. All contacts that touch at this moment and are connected through bodies in flight are gathered; reflect.cpp computes
+// their impulses. Then they are reported, and contacts that still press become resting contacts.
 //
-// Resting is an outcome: a bounce so small that the pressing acceleration would end it within half a sub-step (e u <= a_n h / 2) and low is none.
-// Zero gravity never rests by that rule, nor does a slow body with room to bounce; but of two that both give way and lean on each other a bounce of
-// the blows that this is taken in is none either (Press). What is held takes the part of the acceleration that
-// presses, for the rest of the sub-step, and is then the solver's.
+// Resting is an outcome: a bounce counts as none if it is low and so slow that the pressing acceleration would end it within half a sub-step
+// (e u <= a_n h / 2). By that rule nothing rests in zero gravity, nor does a slow body with room to bounce. Between two bodies of finite mass
+// that lean on each other, a bounce no faster than their micro-collisions is none either (MicroCollision). A resting contact takes the
+// pressing part of the acceleration for the rest of the sub-step; then the solver takes over.
 
 #include "dynamics/continuous/impact/impact.h"
 #include "dynamics/continuous/flight.h"
@@ -20,8 +20,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t work_of_an_impact = 50; // beside its rows: who takes part, and when they meet next
-constexpr int crowd_limit = 8;                // impacts of a body in a sub-step
+constexpr std::size_t work_of_an_impact = 50; // besides its rows: gathering, and the searches for the next events
+constexpr int crowd_limit = 8;                // impacts per body in a sub-step
 constexpr double deep_in = 0.002;             // of the size
 constexpr double low_hop = 1e-3;              // of the size
 constexpr double soon_turned = 0.5;           // rad
@@ -56,7 +56,7 @@ void ImpactSet::run(std::vector<std::int32_t>& changed)
         stop_until_next();
 }
 
-// What is jammed would strike and strike again at the same moment.
+// Jammed bodies would strike each other again and again at the same moment.
 void ImpactSet::stop_until_next()
 {
     for (Member& m : m_members)
@@ -97,7 +97,7 @@ Bounce ImpactSet::law(int index, double u)
         if (!s.kicked)
             bounce.kick = kick(s, speed);
     }
-    // What is held elsewhere may press here.
+    // Resting contacts elsewhere may press here.
     const double resting_forces = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_resting, row), 0.0});
     const double rest = std::max({hop_speed(s, resting_forces), last_bounces(row, resting_forces, bounce.restitution),
                                   both_have_finite_mass(row) ? blow_of(s) : 0}) +
@@ -110,7 +110,7 @@ Bounce ImpactSet::law(int index, double u)
     return bounce;
 }
 
-// A hop this slow is none: it is over within a sub-step, and low. What turns fast has accelerations that last no sub-step.
+// A hop this slow counts as none: it is over within a sub-step, and low. The accelerations of a fast rotation do not last a sub-step.
 double ImpactSet::hop_speed(const Source& s, double resting_forces) const
 {
     const double within_time = 0.5 * resting_forces * m_span.h;
@@ -118,7 +118,8 @@ double ImpactSet::hop_speed(const Source& s, double resting_forces) const
     return is_limit ? within_time : std::min(within_time, std::sqrt(2 * resting_forces * low_hop * size_of(s)));
 }
 
-// A blow this slow is the last: it and all lower bounces after it are over within a sub-step, and before the bodies have turned to press elsewhere.
+// An impact this slow is the last: it and all lower bounces after it are over within a sub-step, before the bodies have turned to press
+// elsewhere.
 double ImpactSet::last_bounces(const ImpactRow& row, double resting_forces, double restitution) const
 {
     const auto turning = [&](int member) { return std::fabs(m_members[static_cast<std::size_t>(member)].path.w); };
@@ -126,7 +127,7 @@ double ImpactSet::last_bounces(const ImpactRow& row, double resting_forces, doub
     return 0.5 * resting_forces * time * (1 - restitution);
 }
 
-// They swing about each other's surface: where such blows took all speed, each would leave them a little deeper.
+// Such bodies swing about each other's surface: if these micro-collisions took all speed, each would leave the bodies a little deeper.
 bool ImpactSet::is_small_blow(const ImpactRow& row, const Source& s, double u) const
 {
     return both_have_finite_mass(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s);
@@ -137,14 +138,14 @@ double ImpactSet::size_of(const Source& s) const
     return std::min(probe_size(leaf_view(m_state, s.own)), probe_size(leaf_view(m_state, s.other)));
 }
 
-// As fast as what presses two that both give way is let become.
+// Speed that two bodies of finite mass may reach, when pressed together, before a micro-collision.
 double ImpactSet::blow_of(const Source& s) const
 {
     const MicroCollision press = m_span.press(m_state.shapes[s.own].body, m_state.shapes[s.other].body);
     return pressed_speed(s.touch.acceleration, press, size_of(s));
 }
 
-// Bodies that go on striking each other, as in a heap that collapses, come to rest against each other.
+// Bodies that strike each other again and again, as in a collapsing pile, come to rest against each other.
 bool ImpactSet::is_crowded(const ImpactRow& row) const
 {
     const Member& a = m_members[static_cast<std::size_t>(row.a)];
@@ -169,7 +170,7 @@ void ImpactSet::note_stopped_joints()
     {
         const std::int32_t a = m_members[static_cast<std::size_t>(r.a)].state;
         const std::int32_t b = m_members[static_cast<std::size_t>(r.b)].state;
-        if (r.kind == ImpactRow::Kind::RestingContact && r.energy_lost != 0)
+        if (r.kind == ImpactRow::Kind::Bilateral && r.energy_lost != 0)
             m_span.output.stopped_joints.push_back({a != none ? a : b, r.energy_lost});
     }
 }
@@ -203,7 +204,7 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
         changed.push_back(m.state);
 }
 
-// What the solver has now but could fly.
+// The flier of a body that is solver-owned now, but could fly.
 Flier* ImpactSet::could_fly(const Member& m) const
 {
     const std::int32_t f = m.state == none ? none : m_span.scratch.flight.flier_of_state[static_cast<std::size_t>(m.state)];
@@ -226,7 +227,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     m_span.output.capped |= is_capped(m_span, f);
 }
 
-// Of another island, or asleep: it takes effect at the end of the step.
+// For a body of another island, or asleep: the impulse takes effect at the end of the step.
 void ImpactSet::defer(int index) const
 {
     for (const ImpactRow& r : m_rows)

@@ -1,4 +1,4 @@
-// Who takes part in an impact: from what touches first through everything that touches it at that moment.
+// Gathers the bodies and contacts of an impact, from the first touch through everything that touches at that moment.
 
 #include "dynamics/continuous/impact/impact_set.h"
 #include "dynamics/continuous/resting_contact.h"
@@ -32,7 +32,7 @@ void ImpactSet::gather()
     }
 }
 
-// Thrown off its way a body may be held by what it has no contact with.
+// A deflected body may rest against a shape with which it has no contact.
 void ImpactSet::look_again(RestingContact h)
 {
     const auto is_it = [&](const Source& s)
@@ -88,7 +88,7 @@ int ImpactSet::member_of(int body)
     m_bodies.push_back(b);
     m_resting.push_back(resting);
     const int index = static_cast<int>(m_members.size()) - 1;
-    // What was held takes part: it is held anew, or let go on both sides.
+    // The other bodies of released resting contacts take part: the contacts come to rest again, or are released on both sides.
     for (const RestingContact& h : released)
     {
         m_released.push_back(h);
@@ -120,7 +120,7 @@ void ImpactSet::set_masses(const Member& m, ImpactBody& b) const
     b.inverse_inertia = sim.inverse_inertia;
 }
 
-// All that touches the member, if its way is this island's to say.
+// Adds everything that touches the member, if its path is computed in this island.
 void ImpactSet::expand(int index)
 {
     const Member m = m_members[static_cast<std::size_t>(index)];
@@ -128,7 +128,7 @@ void ImpactSet::expand(int index)
         return;
     add_limits(index);
     if (!m_span.island.policy.exact_impacts)
-        return; // crowds hit two by two
+        return; // crowds resolve impacts pair by pair
     if (m.flier == nullptr)
         add_joints(m.body);
     for (const int other_index : contacts_of(m_state, m.body))
@@ -141,7 +141,7 @@ void ImpactSet::expand(int index)
     }
 }
 
-// What a joint holds it holds through an impact.
+// Joints keep their bilateral rows through an impact.
 void ImpactSet::add_joints(int body)
 {
     for (int edge = m_state.bodies[body].first_joint; edge != none; edge = m_state.joints[edge >> 1].next[edge & 1])
@@ -157,7 +157,7 @@ void ImpactSet::add_joints(int body)
         for (const JointRow& r : rows.holds())
         {
             ImpactRow row;
-            row.kind = ImpactRow::Kind::RestingContact;
+            row.kind = ImpactRow::Kind::Bilateral;
             row.a = a;
             row.b = b;
             row.nx = static_cast<double>(r.d.x);
@@ -223,7 +223,7 @@ void ImpactSet::add_touches(int member, std::int32_t own, std::int32_t other, st
     }
 }
 
-// What was held or is in the solver's hands touches with its overlap or gap.
+// Released resting contacts and contacts of solver-owned bodies touch with their overlap or gap.
 double ImpactSet::nearness(int member, std::int32_t own, std::int32_t other, int other_body) const
 {
     const bool solved = m_members[static_cast<std::size_t>(member)].flier == nullptr &&

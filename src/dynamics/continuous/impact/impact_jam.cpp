@@ -1,5 +1,5 @@
-// The last resort in a jam. Between bodies that close in on each other no impulses are found that part them all; bodies that approach then go on as one, at
-// the speeds that keep momentum and angular momentum: nothing in it approaches any more, and energy has only been lost.
+// The last resort in a jam, where no impulses separate all bodies that close in on each other. Approaching bodies then go on as one rigid
+// body, at speeds that conserve momentum and angular momentum: nothing in it approaches any more, and energy has only been lost.
 
 #include "core/index.h"
 #include "dynamics/continuous/impact/impact_set.h"
@@ -14,7 +14,7 @@ namespace {
 
 bool may_move(const ImpactBody& b) { return b.inverse_mass_x > 0 || b.inverse_mass_y > 0 || b.inverse_inertia > 0; }
 
-/// The motion of a rigid body, told at one of its points.
+/// The motion of a rigid body, given at one of its points.
 struct RigidMotion
 {
     double x = 0;
@@ -35,7 +35,7 @@ public:
         note_free();
     }
 
-    // False where bodies that do not give way close in on one another.
+    // False if bodies of infinite mass close in on one another.
     bool unite()
     {
         while (unite_what_approaches())
@@ -98,7 +98,7 @@ private:
         }
     }
 
-    // A group moves with a body of it that does not give way. It stands still with one that can move in part only.
+    // A group moves with a member of infinite mass. It stands still with a member that can move only in part.
     [[nodiscard]] RigidMotion motion_of(int group) const
     {
         for (std::size_t i = 0; i < m_groups.size(); ++i)
@@ -149,8 +149,8 @@ private:
 
     ImpactSet& m_of;
     std::vector<ImpactBody> m_start; ///< bodies before they were united
-    std::vector<int> m_groups;       ///< by body, as the next: the first body of its group
-    std::vector<bool> m_is_free;     ///< neither locked nor in a joint: its motion can be any
+    std::vector<int> m_groups;       ///< by body: the first body of its group
+    std::vector<bool> m_is_free;     ///< by body: neither locked nor in a joint, so any motion is allowed
 };
 
 bool ImpactSet::unite_jammed() { return Jam(*this).unite(); }

@@ -1,4 +1,4 @@
-// What the user hears of an impact.
+// Reports an impact to the user.
 
 #include "core/grow.h"
 #include "core/index.h"
@@ -17,14 +17,14 @@ namespace carom::internal {
 
 namespace {
 
-// The mass that a body shows at the arm's end along the row's normal; 0 where it does not give way.
+// The effective mass of a body at the arm's end along the row's normal; 0 if it is infinite.
 float point_mass(const ImpactBody& b, const ImpactRow& row, double turn, double arm_x, double arm_y)
 {
     const double k = row.nx * row.nx * b.inverse_mass_x + row.ny * row.ny * b.inverse_mass_y + turn * turn * b.inverse_inertia;
     return exceeds_rounding(k, (arm_x * arm_x + arm_y * arm_y) * b.inverse_inertia) ? static_cast<float>(1 / k) : 0;
 }
 
-// Impulses along one line add up to one between their points.
+// Impulses along parallel lines add up to one between their points.
 double between(double a, double b, double part) { return a + part * (b - a); }
 
 ContactVelocities between(const ContactVelocities& a, const ContactVelocities& b, double part)
@@ -32,7 +32,7 @@ ContactVelocities between(const ContactVelocities& a, const ContactVelocities& b
     return {between(a.ax, b.ax, part), between(a.ay, b.ay, part), between(a.bx, b.bx, part), between(a.by, b.by, part)};
 }
 
-// By the work of the impulse: what the two have after less what they had before, for whatever else they got meanwhile is its own work.
+// The energy lost is the impulse times the mean of the velocities before and after: other impulses on the bodies meanwhile do work of their own.
 double energy_lost(const Blow& blow, const ImpactRow& row)
 {
     const double x = blow.normal * row.nx - blow.tangent * row.ny;
@@ -111,7 +111,7 @@ void ImpactSet::report_touch(std::size_t i)
                              static_cast<float>(m_span.time_of_step(m_time))});
 }
 
-// For the force that a hinge reads back.
+// For the reaction that a hinge reports.
 void ImpactSet::sum_impulse(const ImpactRow& r)
 {
     const double px = r.normal * r.nx - r.tangent * r.ny;
@@ -130,8 +130,8 @@ void ImpactSet::sum_impulse(const ImpactRow& r)
     }
 }
 
-// Slower than what presses the body on gives in a sub-step is settling, and so are the blows that pressing is taken in; shallower than half a degree
-// along a chain is rolling.
+// An approach slower than the speed that pressing gives in a sub-step is settling, and so are micro-collisions. An approach shallower than
+// half a degree along a chain is rolling.
 bool ImpactSet::is_worth_reporting(const Blow& blow) const
 {
     const ImpactRow& row = m_rows[static_cast<std::size_t>(blow.row)];

@@ -1,4 +1,4 @@
-// What goes on pressing after an impact is held: by a force for the rest of the sub-step, where one of the two does not give way.
+// Contacts that still press after an impact become resting contacts: a force for the rest of the sub-step, if one body has infinite mass.
 
 #include "dynamics/continuous/impact/impact_set.h"
 #include "dynamics/continuous/resting_contact.h"
@@ -12,14 +12,14 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double resting_turn = 0.05;            // rad: so far a hold is followed before it is looked at again
+constexpr double resting_turn = 0.05;            // rad: a resting contact is followed this far before it is renewed
 constexpr double at_once = 0.002;                // of a sub-step
-constexpr double at_once_held = 0.01;            // for what was held already
+constexpr double at_once_held = 0.01;            // for resting contacts that existed before
 constexpr double least_resting_time = 1.0 / 256; // of a sub-step
 
 } // namespace
 
-// Contacts that no longer part press, on all bodies of this island.
+// All contacts that do not separate press together.
 void ImpactSet::let_rest_what_presses(std::vector<std::int32_t>& changed)
 {
     std::vector<ImpactBody> accelerations(m_bodies.size());
@@ -33,7 +33,7 @@ void ImpactSet::let_rest_what_presses(std::vector<std::int32_t>& changed)
     std::vector<RestingForce> resting_forces;
     for (std::size_t i = 0; i < m_rows.size(); ++i)
     {
-        if (m_rows[i].kind == ImpactRow::Kind::RestingContact || !has_stopped(i))
+        if (m_rows[i].kind == ImpactRow::Kind::Bilateral || !has_stopped(i))
             continue;
         if (both_have_finite_mass(m_rows[i]))
             rest_on_each_other(m_rows[i], m_sources[i]);
@@ -57,7 +57,8 @@ void ImpactSet::let_rest_what_presses(std::vector<std::int32_t>& changed)
         accelerate(m_members[i], accelerations[i], changed);
 }
 
-// Friction on an arm may lift what rests, and the way along a bend what is held: where the pressing acceleration ends that at once, it is no hop.
+// Friction on an arm may lift a resting body, and so may the curvature of a held body's path: if the pressing acceleration ends that at once,
+// it is no hop.
 bool ImpactSet::has_stopped(std::size_t i)
 {
     const double rate = std::fabs(gap_rate(m_bodies, m_rows[i]));
@@ -78,7 +79,7 @@ bool ImpactSet::both_have_finite_mass(const ImpactRow& row) const
     return row.kind == ImpactRow::Kind::Contact && gives(row.a) && gives(row.b);
 }
 
-// A force over a time on two that turn about each other would feed them energy: they are the solver's when the sub-step is over.
+// A force over time on two bodies that turn about each other would add energy: the solver takes over when the sub-step ends.
 void ImpactSet::rest_on_each_other(const ImpactRow& row, const Source& s)
 {
     if (!s.rests)
@@ -93,7 +94,7 @@ void ImpactSet::rest_on_each_other(const ImpactRow& row, const Source& s)
 void ImpactSet::accelerate(Member& m, const ImpactBody& a, std::vector<std::int32_t>& changed) const
 {
     if (m.flier == nullptr || (a.vx == 0 && a.vy == 0 && a.w == 0))
-        return; // the solver's bodies get their share when the hold ends
+        return; // solver-owned bodies get their share when the resting contact ends
     if (!m.changed)
         changed.push_back(m.state);
     m.changed = true;
@@ -102,7 +103,7 @@ void ImpactSet::accelerate(Member& m, const ImpactBody& a, std::vector<std::int3
     m.flier->alpha += a.w;
 }
 
-// What friction has to make up for: the slip, by the end of the sub-step, and what accelerates it.
+// The acceleration that friction has to cancel: the slip, by the end of the sub-step, and the tangential acceleration.
 double ImpactSet::slip_acceleration(std::size_t i) const
 {
     const ImpactRow& r = m_rows[i];
@@ -121,7 +122,7 @@ double ImpactSet::slip_acceleration(std::size_t i) const
     return slip_rate(m_bodies, r) / left + along(r.b, r.arm_b_x, r.arm_b_y) - along(r.a, r.arm_a_x, r.arm_a_y);
 }
 
-// Of the paths as they are now: the velocities have changed.
+// Acceleration of the gap on the present paths: the velocities have changed.
 double ImpactSet::gap_acceleration(std::size_t i)
 {
     const ImpactRow& row = m_rows[i];
@@ -209,7 +210,7 @@ void ImpactSet::add_resting_contact(Flier& f, const RestingContact& h) const
     sets[static_cast<std::size_t>(f.resting_set)][static_cast<std::size_t>(f.resting_count++)] = h;
 }
 
-// Whatever turns under it: the bend of the surface, what carries the surface, and the body itself where it is no ball.
+// The time depends on all that turns: the curvature of the surface, the body that carries it, and the held body itself unless it is a ball.
 void ImpactSet::set_resting_time(std::size_t i)
 {
     const ImpactRow& row = m_rows[i];

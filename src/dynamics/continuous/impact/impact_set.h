@@ -1,6 +1,6 @@
 #pragma once
 
-// All contacts that touch at one moment and hang together through bodies in flight.
+// All contacts that touch at one moment and are connected through bodies in flight.
 
 #include "collision/time_of_impact.h"
 #include "dynamics/continuous/impact/reflect.h"
@@ -11,7 +11,7 @@
 
 namespace carom::internal {
 
-/// Of the size: what was held or is in the solver's hands touches with its overlap or gap.
+/// Fraction of the size: resting contacts and contacts of solver-owned bodies touch with an overlap or gap up to this.
 inline constexpr double still_rests = 1e-3;
 
 class ImpactSet
@@ -31,7 +31,7 @@ private:
         bool changed = false;
     };
 
-    /// Where a row comes from; none of the shapes: a limit of a hinge.
+    /// Origin of a row; without shapes: a joint, or a limit of a hinge.
     struct Source
     {
         std::int32_t own = none; ///< on body b of the row
@@ -41,10 +41,10 @@ private:
         Touch touch{};
         double slide = 0; ///< speed of the own center along perp(n) before
         bool kicked = false;
-        bool rests = false; ///< its bounce was none
+        bool rests = false; ///< its bounce counts as none
     };
 
-    // Who takes part: impact_gather.cpp
+    // Gathering: impact_gather.cpp
     void gather();
     [[nodiscard]] std::int32_t contact_between(std::int32_t own, std::int32_t other) const;
     int member_of(int body);
@@ -61,7 +61,7 @@ private:
     void add_limits(int index);
     void add_limit(int index, double turn);
 
-    // What they do, and back into the bodies: impact.cpp
+    // Impulses, and their effect on the bodies: impact.cpp
     void stop_until_next();
     void note_before();
     Bounce law(int index, double u);
@@ -82,8 +82,8 @@ private:
     class Jam;
     [[nodiscard]] bool unite_jammed();
 
-    // What the user hears: impact_report.cpp
-    /// A blow of one contact, or of both that two flat faces have.
+    // Events for the user: impact_report.cpp
+    /// An impact at one contact, or at both contacts of two flat faces.
     struct Strike
     {
         Blow blow{};
@@ -100,7 +100,7 @@ private:
     [[nodiscard]] bool own_is_a(const Source& s) const;
     [[nodiscard]] ImpactEvent event_of(const Strike& strike) const;
 
-    // What goes on pressing: impact_rest.cpp
+    // Resting contacts: impact_rest.cpp
     void let_rest_what_presses(std::vector<std::int32_t>& changed);
     [[nodiscard]] bool has_stopped(std::size_t i);
     [[nodiscard]] bool both_have_finite_mass(const ImpactRow& row) const;
@@ -115,14 +115,14 @@ private:
     const FlightSpan& m_span;
     SceneState& m_state;
     Flier& m_first;
-    bool m_renewed; ///< a hold, and nothing strikes
+    bool m_renewed; ///< the event renews a resting contact; nothing strikes
     double m_time;
     Position m_origin;
     std::vector<RestingContact> m_released{};
-    std::vector<Member> m_members{}; ///< beside m_bodies
+    std::vector<Member> m_members{}; ///< parallel to m_bodies
     std::vector<ImpactBody> m_bodies{};
-    std::vector<ImpactBody> m_resting{}; ///< what held them up to now, as accelerations
-    std::vector<Source> m_sources{};     ///< beside m_rows
+    std::vector<ImpactBody> m_resting{}; ///< accelerations by the resting contacts that were released
+    std::vector<Source> m_sources{};     ///< parallel to m_rows
     std::vector<ImpactRow> m_rows{};
     std::vector<Blow> m_blows{};
 };

@@ -1,6 +1,8 @@
+// Simultaneous impacts, see reflect.h: rounds of reflections, each solved by projected Gauss-Seidel.
+
 #include "dynamics/continuous/impact/reflect.h"
 
-#include "dynamics/solver/effective_mass.h"
+#include "dynamics/continuous/impact/impact_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,59 +12,11 @@ namespace carom::internal {
 
 namespace {
 
-using Bodies = std::vector<ImpactBody>;
+constexpr int passes_with_rising_friction = 20; // in a steep wedge normal force and friction would raise each other without end
+constexpr int pass_limit = 100;
+constexpr int least_passes = 4; // when the work is spent
 
-// Impulses along a direction change the velocities by (d, turn) on b and its opposite on a.
-struct Direction
-{
-    double x;
-    double y;
-    double turn_a;
-    double turn_b;
-};
-
-Direction normal_of(const ImpactRow& r) { return {r.nx, r.ny, r.turn_a, r.turn_b}; }
-
-Direction tangent_of(const ImpactRow& r)
-{
-    const double x = -r.ny;
-    const double y = r.nx;
-    return {x, y, r.arm_a_x * y - r.arm_a_y * x, r.arm_b_x * y - r.arm_b_y * x};
-}
-
-double rate_along(const Bodies& bodies, const ImpactRow& r, const Direction& d)
-{
-    const ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
-    const ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
-    return d.x * (b.vx - a.vx) + d.y * (b.vy - a.vy) + d.turn_b * b.w - d.turn_a * a.w;
-}
-
-void push_along(Bodies& bodies, const ImpactRow& r, const Direction& d, double impulse)
-{
-    ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
-    ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
-    a.vx -= a.inverse_mass_x * impulse * d.x;
-    a.vy -= a.inverse_mass_y * impulse * d.y;
-    a.w -= a.inverse_inertia * impulse * d.turn_a;
-    b.vx += b.inverse_mass_x * impulse * d.x;
-    b.vy += b.inverse_mass_y * impulse * d.y;
-    b.w += b.inverse_inertia * impulse * d.turn_b;
-}
-
-// 1 / m of the direction: J M^-1 J^T; 0 where nothing gives way, as through the pivot of a body that only turns.
-double compliance(const Bodies& bodies, const ImpactRow& r, const Direction& d)
-{
-    const ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
-    const ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
-    const auto of = [&](const ImpactBody& body, double turn)
-    { return d.x * d.x * body.inverse_mass_x + d.y * d.y * body.inverse_mass_y + turn * turn * body.inverse_inertia; };
-    const double k = of(a, d.turn_a) + of(b, d.turn_b);
-    const double at_most = (r.arm_a_x * r.arm_a_x + r.arm_a_y * r.arm_a_y) * a.inverse_inertia +
-                           (r.arm_b_x * r.arm_b_x + r.arm_b_y * r.arm_b_y) * b.inverse_inertia;
-    return exceeds_rounding(k, at_most) ? k : 0;
-}
-
-/// A row in a round: its rate is to grow by at least `wanted`; joints' rows by exactly that.
+// Demand on a row in a round: its rate is to grow by at least `wanted`; rows of joints by exactly that.
 struct Demand
 {
     int row = 0;
@@ -70,55 +24,14 @@ struct Demand
     double impulse = 0;
 };
 
-constexpr int passes_with_rising_friction = 20; // in a steep wedge force and friction would raise each other without end
-constexpr int pass_limit = 100;
-constexpr int least_passes = 4; // when the work is spent
-
-bool are_a_pair(const std::vector<ImpactRow>& rows, int i, int j)
-{
-    const ImpactRow& p = rows[static_cast<std::size_t>(i)];
-    const ImpactRow& q = rows[static_cast<std::size_t>(j)];
-    return p.kind == ImpactRow::Kind::Contact && q.kind == p.kind && p.a == q.a && p.b == q.b;
-}
-
-double couple(const Bodies& bodies, const ImpactRow& p, const ImpactRow& q)
-{
-    const auto of = [&](const ImpactBody& body, double turn_p, double turn_q)
-    { return p.nx * q.nx * body.inverse_mass_x + p.ny * q.ny * body.inverse_mass_y + turn_p * turn_q * body.inverse_inertia; };
-    return of(bodies[static_cast<std::size_t>(p.a)], p.turn_a, q.turn_a) +
-           of(bodies[static_cast<std::size_t>(p.b)], p.turn_b, q.turn_b);
-}
-
-struct Two
-{
-    double x;
-    double y;
-};
-
-// K (x, y) + b >= 0, x >= 0, y >= 0, complementary; two corners of a box are one question, and mirrored ones get the same answer.
-std::optional<Two> solve_two(double k11, double k12, double k22, double b1, double b2)
-{
-    const double det = k11 * k22 - k12 * k12;
-    if (!(det > 1e-9 * k11 * k22))
-        return std::nullopt;
-    const double x = (k12 * b2 - k22 * b1) / det;
-    const double y = (k12 * b1 - k11 * b2) / det;
-    if (x >= 0 && y >= 0)
-        return Two{x, y};
-    const double alone = std::max(-b1 / k11, 0.0);
-    if (k12 * alone + b2 >= 0)
-        return Two{alone, 0};
-    return Two{0, std::max(-b2 / k22, 0.0)};
-}
-
-// Projected Gauss-Seidel to the rounding of a double: one row or two are done in one pass, a few in some, and rows that say the same twice do
-// no harm. `change` are bodies at rest: the change of the velocities so far.
+// Projected Gauss-Seidel to the rounding of a double: one row or two need one pass, a few rows some passes, and redundant rows do no harm.
+// `change` holds the change of the velocities so far: bodies that start at rest.
 class Passes
 {
 public:
     Passes(Bodies& change, const std::vector<ImpactRow>& rows) : m_change(change), m_rows(rows) {}
 
-    /// One row, or it and the next: the impulses are to bring their rates to `wanted` at least. Says how many it took.
+    /// Solves one row, or it and the next: the impulses bring their rates to `wanted` at least. Returns the number of rows.
     std::size_t take(std::vector<Demand>& demands, std::size_t i)
     {
         if (i + 1 < demands.size() && are_a_pair(m_rows, demands[i].row, demands[i + 1].row) &&
@@ -140,7 +53,7 @@ private:
         if (!(k > 0))
             return;
         double impulse = d.impulse - (rate_along(m_change, row(d), n) - d.wanted) / k;
-        if (row(d).kind != ImpactRow::Kind::RestingContact)
+        if (row(d).kind != ImpactRow::Kind::Bilateral)
             impulse = std::max(impulse, 0.0);
         set(d, impulse, k);
     }
@@ -171,9 +84,9 @@ private:
     const std::vector<ImpactRow>& m_rows;
 };
 
-constexpr double agreed = 1e-6; // of what is demanded: rates that change by less from pass to pass give no energy to speak of
+constexpr double agreed = 1e-6; // of what is demanded: rates that change by less from pass to pass add no energy to speak of
 
-// False where the rows have not come to agree, or the work was spent before.
+// False if the rows have not converged, or the work is spent before.
 bool satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
 {
     double scale = 0;
@@ -194,7 +107,7 @@ bool satisfy(Bodies& change, const std::vector<ImpactRow>& rows, std::vector<Dem
     return passes.worst <= agreed * scale;
 }
 
-// v M u
+// The product v M u.
 double product(const Bodies& v, const Bodies& u)
 {
     double sum = 0;
@@ -205,8 +118,8 @@ double product(const Bodies& v, const Bodies& u)
     return sum;
 }
 
-// A change that is not exact goes as far in its direction as it gives no energy: beyond twice the way to the least energy it would. The whole way is the
-// reflection without loss.
+// An inexact change is scaled down until it adds no energy: beyond twice the distance to the least energy it would add some. The full change
+// is the reflection without loss.
 double part_without_gain(const Bodies& bodies, const Bodies& change)
 {
     const double square = product(change, change);
@@ -241,7 +154,7 @@ void give(Bodies& bodies, std::vector<ImpactRow>& rows, const std::vector<Demand
     half_the_work();
 }
 
-// What brings the rates that are demanded.
+// Applies the impulses that produce the demanded rates.
 void answer(Bodies& bodies, std::vector<ImpactRow>& rows, std::vector<Demand>& demands, ImpactWork& work)
 {
     Bodies change = at_rest(bodies);
@@ -256,11 +169,11 @@ void answer(Bodies& bodies, std::vector<ImpactRow>& rows, std::vector<Demand>& d
 
 enum class Asked : std::uint8_t
 {
-    Approaching, ///< reflections: those, and nothing else
-    All          ///< none may be made to approach either
+    Approaching, ///< reflections: rows that approach, and no others
+    All          ///< no other row may be made to approach
 };
 
-// An impact that is being resolved, round after round.
+// The state of an impact that is being resolved, round after round.
 struct Impact
 {
     Bodies& bodies;
@@ -269,7 +182,7 @@ struct Impact
     ImpactWork& work;
     std::vector<Blow>& blows;
     int round = 0;
-    bool is_rubbing = false; ///< what friction does is part of the blows before it
+    bool is_rubbing = false; ///< impulses during friction belong to the blows before it
 };
 
 ContactVelocities plus(const ContactVelocities& v, const ContactVelocities& u, double sign)
@@ -277,7 +190,7 @@ ContactVelocities plus(const ContactVelocities& v, const ContactVelocities& u, d
     return {v.ax + sign * u.ax, v.ay + sign * u.ay, v.bx + sign * u.bx, v.by + sign * u.by};
 }
 
-// Until it is closed, a blow takes whatever its row gives.
+// Until it is closed, a blow collects all impulses of its row.
 void open(const Impact& impact, const ImpactRow& row, Blow& blow)
 {
     blow.normal -= row.normal;
@@ -324,16 +237,16 @@ double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& row
     double greatest = 0;
     for (const ImpactRow& row : rows)
     {
-        if (row.kind != ImpactRow::Kind::RestingContact)
+        if (row.kind != ImpactRow::Kind::Bilateral)
             greatest = std::max(greatest, -gap_rate(bodies, row));
     }
     return greatest;
 }
 
 constexpr double slow =
-    1e-3; // of the fastest approach: such a contact is at rest, and is struck in a later round by what this one does
+    1e-3; // of the fastest approach: a slower contact is at rest, and a later round reflects it after this one's impulses
 
-// A round of reflections; false where nothing approaches.
+// A round of reflections; false if no row approaches.
 bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::Approaching)
 {
     std::vector<Demand> demands;
@@ -344,14 +257,14 @@ bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::App
     for (std::size_t i = 0; i < impact.rows.size(); ++i)
     {
         const ImpactRow& row = impact.rows[i];
-        if (row.kind == ImpactRow::Kind::RestingContact)
+        if (row.kind == ImpactRow::Kind::Bilateral)
         {
             demands.push_back({static_cast<int>(i)});
             continue;
         }
         const double u = -gap_rate(impact.bodies, row);
         if (u <= least)
-        { // what leans on a limit does not get past it: it is as hard as the world
+        { // a limit that a body leans on is as hard as the world
             if (row.kind == ImpactRow::Kind::Limit && u > -impact.least)
                 demands.push_back({static_cast<int>(i)});
             else if (asked == Asked::All)
@@ -374,7 +287,7 @@ bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::App
     return true;
 }
 
-// Coulomb's law on the whole normal impulse, row after row: each takes energy or none.
+// Coulomb's law on the whole normal impulse, row after row: each row takes energy or none.
 void rub(Bodies& bodies, std::vector<ImpactRow>& rows)
 {
     for (int round = 0; round < 8; ++round)
@@ -398,7 +311,7 @@ void rub(Bodies& bodies, std::vector<ImpactRow>& rows)
     }
 }
 
-// Friction of what presses: towards no slip at the end of the time looked at.
+// Friction of pressing contacts, toward zero slip at the end of the time considered.
 void rub_resting(Bodies& accelerations, const std::vector<ImpactRow>& rows, RestingForce& p)
 {
     const ImpactRow& row = rows[static_cast<std::size_t>(p.row)];
@@ -411,15 +324,15 @@ void rub_resting(Bodies& accelerations, const std::vector<ImpactRow>& rows, Rest
 }
 
 constexpr int round_limit = 64;
-constexpr int one_by_one = 8; // rounds in which only what approaches is asked: more, and they pass it to and fro
+constexpr int one_by_one = 8; // rounds that solve approaching rows only: in more they pass the impulse to and fro
 
-// Joints that the solver pulls together close at some rate; kept through an impact, it would do work.
-void stop_resting(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
+// Joints that the solver pulls together have a closing rate; kept through an impact, it would do work.
+void stop_bilateral_rows(Bodies& bodies, std::vector<ImpactRow>& rows, ImpactWork& work)
 {
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-        if (rows[i].kind == ImpactRow::Kind::RestingContact)
+        if (rows[i].kind == ImpactRow::Kind::Bilateral)
             demands.push_back({static_cast<int>(i), -gap_rate(bodies, rows[i])});
     }
     if (!demands.empty())
@@ -447,11 +360,12 @@ bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const B
 {
     Impact impact{bodies, rows, least, work, blows};
     const BounceLaw still = [](int, double) { return Bounce{}; };
-    stop_resting(bodies, rows, work);
+    stop_bilateral_rows(bodies, rows, work);
     int round = 0;
     while (round < round_limit && reflect_once(impact, law) && !work.is_spent())
         ++round;
-    // A ball between two that close in bounces for ever: the rest is taken without bounce. A long row only takes its time; a jam gets nowhere.
+    // A ball between two closing bodies bounces for ever: the rest is solved without restitution. A long row of bodies only takes its time; a jam
+    // makes no progress.
     double half_way = 0;
     while (round < 2 * round_limit && !work.is_spent() && reflect_once(impact, still, Asked::All))
     {

@@ -1,15 +1,15 @@
 #pragma once
 
-// What happens when several bodies touch at the same moment: impulses at all their contacts. Bodies and contacts here are numbers; where
-// they come from is the business of impact.cpp.
+// Simultaneous impacts: impulses at all contacts of several bodies that touch at the same moment. Bodies and contacts are numbers here;
+// impact.cpp provides them.
 //
-// Generalised reflections (Smith, Kaufman, Vouga, Tamstorf, Grinspun 2012): the contacts that approach are reflected together, each to its
-// own restitution; that may make others approach, which are reflected next, until none approaches. A row of touching balls passes the
+// Generalized reflections (Smith, Kaufman, Vouga, Tamstorf, Grinspun 2012): the contacts that approach are reflected together, each with its
+// own restitution. That may make others approach, which are reflected next, until none approaches. A row of touching balls passes the
 // impulse on from ball to ball, and two corners that strike together bounce together. In every round the impulses x solve
 //
 //   w = A x + (1 + e) u - kick >= 0,   x >= 0,   x w = 0        A = J M^-1 J^T, u the approaching rates
 //
-// so that the energy changes by sum of x u (1 - e) / 2 <= 0: it never rises, whatever the e of each contact (kicks apart).
+// so that the energy changes by sum of x u (1 - e) / 2 <= 0: it never rises, whatever the e of each contact (apart from kicks).
 
 #include "carom/math.h"
 
@@ -35,8 +35,8 @@ struct ImpactRow
     enum class Kind : std::uint8_t
     {
         Contact,
-        Limit,          ///< of a joint: pushes and never pulls, no friction
-        RestingContact, ///< of a joint: its rate stays what it is
+        Limit,     ///< of a joint: pushes and never pulls, no friction
+        Bilateral, ///< bilateral row of a joint: its rate is kept
     } kind = Kind::Contact;
     int a = 0;
     int b = 0;
@@ -66,12 +66,12 @@ struct ContactVelocities
     double by = 0;
 };
 
-/// One row in one round: each approach is a blow of its own. Friction goes to the last blow of its row, and so does the impulse that stops a contact
-/// which friction presses in again.
+/// An impact of one row in one round: each approach is a blow of its own. Friction belongs to the last blow of its row, and so does the
+/// impulse that stops a contact which friction presses in again.
 struct Blow
 {
     int row = 0;
-    int round = 0;       ///< those of a round strike at once
+    int round = 0;       ///< blows of one round act at once
     double approach = 0; ///< m/s, > 0
     double restitution = 0;
     double kick = 0;    ///< m/s
@@ -87,10 +87,10 @@ struct Bounce
     double kick = 0;
 };
 
-/// Asked for each row when it approaches, with its speed.
+/// Called for each row that approaches, with its speed.
 using BounceLaw = std::function<Bounce(int row, double approach)>;
 
-/// What impacts may cost, in rows that are solved.
+/// Budget of impacts, in solved rows.
 struct ImpactWork
 {
     std::int64_t left = std::int64_t{1} << 60;
@@ -101,28 +101,28 @@ struct ImpactWork
     [[nodiscard]] bool is_spent() const { return left <= 0; }
 };
 
-/// Changes the velocities of the bodies, fills in the rows and appends the blows. Approaches slower than `least` count as none. False where they are
-/// jammed, for between what closes in on them there is no way to go, or the work is spent: energy has not risen, but some still approach.
+/// Changes the velocities of the bodies, fills in the rows and appends the blows. Approaches slower than `least` count as none. False if the
+/// bodies are jammed, with no way to go between others that close in on them, or if the work is spent: energy has not risen, but some rows
+/// still approach.
 [[nodiscard]] bool reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law,
                            ImpactWork& work, std::vector<Blow>& blows);
 
-/// How a row that no longer parts would accelerate without the forces asked for.
+/// A row that does not separate: its accelerations without the resting forces, and the forces.
 struct RestingForce
 {
     int row = 0;
-    double gap = 0; ///< acceleration of the gap
-    double slip =
-        0; ///< acceleration along the tangent that would stop the slip by the end of the time looked at, less the one there is
-    double force = 0;    ///< comes out: > 0 holds
+    double gap = 0;      ///< acceleration of the gap
+    double slip = 0;     ///< tangential acceleration that friction has to cancel so that the slip ends with the time considered
+    double force = 0;    ///< result: > 0 holds
     double friction = 0; ///< along the tangent, on b
     double limit = 0;    ///< of the friction, N
 };
 
-/// Contact forces of what presses, with friction: fills in the forces and adds what they do to `accelerations` (bodies whose velocities are
-/// accelerations; those that are not to give way have no inverse mass).
+/// Computes the forces of pressing contacts, with friction: fills in the forces and adds their effect to `accelerations` (bodies whose
+/// velocities are accelerations; a body that must not yield has zero inverse mass).
 void press(std::vector<ImpactBody>& accelerations, const std::vector<ImpactRow>& rows, std::vector<RestingForce>& resting_forces);
 
-/// Rate of the gap, and of b's surface against a's along the tangent.
+/// Rate of the gap; speed of b's surface against a's along the tangent.
 [[nodiscard]] double gap_rate(const std::vector<ImpactBody>& bodies, const ImpactRow& row);
 [[nodiscard]] double slip_rate(const std::vector<ImpactBody>& bodies, const ImpactRow& row);
 [[nodiscard]] ContactVelocities contact_velocities(const std::vector<ImpactBody>& bodies, const ImpactRow& row);

@@ -1,12 +1,12 @@
-// Who is solved with whom, in which colour and in which lane, depends on bodies, links and joints alone where islands are large and nothing flies: slices,
-// heaps and flight, which depend on speeds as well, are for small islands. Where all of these are what they were, so is the plan of the last step. It is
-// compared, not assumed: whatever a user has changed shows there.
+// In large islands without flight, the islands, colors and lanes depend on bodies, edges and joints alone. Subdivisions, soft joints and flight, which also
+// depend on speeds, are for small islands. Where all inputs are unchanged, the layout of the last step is reused. The inputs are compared, not assumed, so that
+// any change by the user shows there.
 
 #include "dynamics/islands/layout/cached_graph.h"
 
 #include "core/grow.h"
 #include "dynamics/islands/island_graph.h"
-#include "dynamics/solver/island_energy.h"
+#include "dynamics/solver/energy/island_energy.h"
 #include "dynamics/state/scene_data.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace carom::internal {
 
 namespace {
 
-// Everything in it goes by edges alone.
+// True if the layout of the island depends on edges alone.
 bool is_plain(const Island& island)
 {
     return island.policy.caches_graph && island.constraint_count == 0 && island.core_count == 0;

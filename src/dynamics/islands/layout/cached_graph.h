@@ -1,18 +1,18 @@
 #pragma once
 
-// Islands that are what they were.
+// Islands that are unchanged since the last step.
 
 #include "dynamics/step_context.h"
 
 namespace carom::internal {
 
-/// Bodies awake, and in the parts of the plane by which they are laid out.
+/// Compares the awake bodies and their plane cells, by which they are laid out.
 [[nodiscard]] bool bodies_are_unchanged(const StepContext& ctx);
 
-/// When all links are known: would islands, colours and places come out as they did in the last step? They are still in Scratch.
+/// Called when all edges are known: would islands, colors and slots be those of the last step? They are still in Scratch.
 [[nodiscard]] bool graph_is_unchanged(const StepContext& ctx);
 
-/// After islands have been built and laid out: notes what they were made of.
+/// Called after islands have been built and laid out: stores the inputs for comparison.
 void cache_graph(StepContext& ctx);
 
 } // namespace carom::internal

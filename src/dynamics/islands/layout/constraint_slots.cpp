@@ -1,6 +1,6 @@
-// Constraints of an island stand sorted by colour, those of a large island eight to a group and part of the plane by part, see partitions.h. What had a constraint in the last
-// step keeps its colour; the others take the least that neither moving body has yet, in the order of the links. Links are counted by tasks, each its own, and
-// then put where the counts of all say.
+// Constraints of an island are sorted by color. Those of a large island are wide constraints of eight lanes, sorted by partition first, see partitions.h. A
+// contact that had a constraint in the last step keeps its color. Any other takes the least color that neither moving body has yet, in the order of the edges.
+// Each task counts its own edges; the counts of all tasks then give the slots.
 
 #include "dynamics/islands/layout/constraint_slots.h"
 
@@ -24,8 +24,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t most_tasks = 64;        // of an island: each counts all of its bins
-constexpr std::uint16_t no_partition = 65535; // of what does not give way
+constexpr std::size_t most_tasks = 64;        // per island: each counts all of its buckets
+constexpr std::uint16_t no_partition = 65535; // for a state without finite mass
 
 class ConstraintSlots
 {
@@ -57,9 +57,9 @@ public:
     }
 
 private:
-    // --- parts of the plane -----------------------------------------------------------------------------------------------------------
+    // --- partitions -------------------------------------------------------------------------------------------------------------------
 
-    // Of whole cells of the plane, and about as much work to each.
+    // A partition consists of whole plane cells. All have about the same work.
     void find_partitions()
     {
         if (m_island.partitions == 0)
@@ -78,7 +78,7 @@ private:
         }
     }
 
-    // In the order in which the states stand; on all threads, and then those that lie in two tasks become one.
+    // Cells in the order of the states. They are found on all threads; cells that lie in two tasks are then merged.
     [[nodiscard]] const std::vector<CellOfIsland>& find_cells() const
     {
         using Some = std::vector<CellOfIsland>;
@@ -112,13 +112,14 @@ private:
         cells.back().work += more.work;
     }
 
-    // As many constraints as it had in the last step, twice, for each belongs to two, and itself. There are so many huge parts that threads end together anyway.
+    // The body itself, and its constraints in the last step twice, because each belongs to two bodies. Huge islands have so many partitions that threads finish
+    // together anyway.
     [[nodiscard]] std::int64_t work_of(int body) const
     {
         return are_many(m_island.partitions) ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
     }
 
-    // The part in which both bodies lie that give way; what crosses from one to another stands behind all parts.
+    // Partition of the bodies that have finite mass. Boundary constraints between two partitions come after all partitions.
     [[nodiscard]] int partition_of(const ContactEdge& l) const
     {
         if (m_island.partitions == 0)
@@ -130,7 +131,7 @@ private:
 
     // --- states -----------------------------------------------------------------------------------------------------------------------
 
-    // Of kinematic bodies each island has its own.
+    // Each island has its own copies of kinematic bodies.
     void name_copies()
     {
         for (std::int32_t s = m_island.first_state + 1 + m_island.dynamic_count; s < m_island.first_state + m_island.state_count;
@@ -141,13 +142,13 @@ private:
         }
     }
 
-    // Of a place as in Link.
+    // State at an index as in ContactEdge.
     [[nodiscard]] std::int32_t state_at(std::int32_t place) const
     {
         return place == none ? m_island.first_state : m_scratch.solver.state_of[as_index(place >= 0 ? place : -2 - place)];
     }
 
-    // --- colours and counts -----------------------------------------------------------------------------------------------------------
+    // --- colors and counts ------------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] std::span<ContactEdge> edges() const
     {
@@ -161,7 +162,7 @@ private:
                                        : std::max<std::size_t>(edges().size(), 1);
     }
 
-    // They name states from here on.
+    // From here on, edges hold states instead of awake indices.
     [[nodiscard]] std::span<SlotsOfTask> count_edges()
     {
         return find_in_chunks(
@@ -203,7 +204,7 @@ private:
         }
     }
 
-    // First the contact, then its bodies.
+    // Prefetches the contact first, then its bodies.
     [[gnu::always_inline]] void prefetch_uncolored(std::span<const std::int32_t> uncolored, std::size_t u) const
     {
         const auto contact_of = [&](std::size_t i) -> const Contact&
@@ -227,15 +228,15 @@ private:
         some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
     }
 
-    // Of a lane, by part, color and number of points.
+    // Bucket of a lane, by partition, color and number of points.
     [[nodiscard]] int bucket_of(const ContactEdge& l) const
     {
         return partition_of(l) * buckets_to_a_partition + 2 * l.color() + (l.points() == 2 ? 0 : 1);
     }
 
-    // --- places -----------------------------------------------------------------------------------------------------------------------
+    // --- slots ------------------------------------------------------------------------------------------------------------------------
 
-    // Eight lanes to a group, each of one part, one colour and one number of points.
+    // Each wide constraint has eight lanes of one partition, one color and one number of points.
     void give_out_places(std::span<SlotsOfTask> tasks)
     {
         std::uint64_t colors = 0;
@@ -268,7 +269,7 @@ private:
         set_size(m_scratch.layout.constraint_edges, as_index(constraint));
     }
 
-    // From how many of a bin each task has to where its first goes.
+    // Replaces each task's count of a bucket by the slot of the task's first edge.
     template <class Count>
     static void give_out(std::span<SlotsOfTask> tasks, const Count& count_of, std::int32_t& place)
     {
@@ -300,7 +301,7 @@ private:
         for_each_constraint_bucket([&](int color) { some.constraints[color] = 0; });
     }
 
-    // Balls and bodies in joints have a core against walls.
+    // Balls and jointed bodies have a core against bodies that are not dynamic.
     void add_core(const ContactEdge& l, std::int32_t lane, SlotsOfTask& some) const
     {
         const bool a_gives = is_dynamic(m_island, l.a);
@@ -313,7 +314,7 @@ private:
                 {lane - m_island.first_wide * lane_count, l.points(), core_depth(m_state, contact, contact.manifold, a_gives)});
     }
 
-    // Cores of one body are of different colours: in the order of lanes wherever in a bin these are.
+    // Cores are sorted by lane, whatever their order within a bucket: cores of one body have different colors.
     void gather(std::span<SlotsOfTask> tasks)
     {
         for (const SlotsOfTask& some : tasks)
@@ -333,7 +334,7 @@ private:
     SceneState& m_state;
     Scratch& m_scratch;
     Island& m_island;
-    bool m_is_uniform = false; ///< all of its bodies may move along every axis, or along none
+    bool m_is_uniform = false; ///< each of its bodies may move along both axes, or along none
 };
 
 } // namespace

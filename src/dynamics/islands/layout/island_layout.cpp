@@ -1,17 +1,17 @@
-// Everything that an island needs gets its place, side by side: its states, copies of the kinematic bodies it meets, its constraints (constraint_slots.cpp), its joints.
-// States are filled here, on all threads; constraints and joints in island_constraints.cpp, just before the island is solved.
+// Assigns slots to all that an island contains, side by side: its states, copies of the kinematic bodies it meets, its constraints (constraint_slots.cpp) and
+// its joints. States are filled here, on all threads. Constraints and joints are filled in island_constraints.cpp, just before the island is solved.
 
 #include "dynamics/islands/layout/island_layout.h"
 
 #include "core/grow.h"
 #include "core/index.h"
 #include "core/task_pool.h"
+#include "dynamics/forces/force_laws.h"
 #include "dynamics/islands/island_graph.h"
 #include "dynamics/islands/layout/constraint_slots.h"
 #include "dynamics/solver/contact/partitions.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/prepare_wide.h"
-#include "dynamics/solver/force_laws.h"
 #include "dynamics/solver/joint/joint_solver.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/task_sizes.h"
@@ -33,7 +33,7 @@ class IslandLayout
 public:
     explicit IslandLayout(StepContext& ctx) : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch) {}
 
-    // --- places of states -------------------------------------------------------------------------------------------------------------
+    // --- slots of states --------------------------------------------------------------------------------------------------------------
 
     void place_states()
     {
@@ -54,7 +54,7 @@ public:
         run_tasks(m_ctx.scene.def.tasks, state_tasks(), [&](int task) { fill_some_states(task); });
     }
 
-    // Side by side: none reads what another writes.
+    // These tasks run in parallel: none reads what another writes.
     void fill_states_and_place_constraints_and_joints()
     {
         run_tasks(m_ctx.scene.def.tasks, 2 + state_tasks(),
@@ -70,7 +70,7 @@ public:
         place_constraints_of_large_islands(m_ctx);
         for (Island& island : m_scratch.solver.islands)
             let_drift(island);
-        unbind_those(
+        bind_where(
             [&](std::size_t s)
             {
                 const int body = m_scratch.solver.state_bodies[s];
@@ -111,7 +111,7 @@ public:
         }
     }
 
-    // For what island_constraints.cpp fills.
+    // Sizes the arrays that island_constraints.cpp fills.
     void make_room()
     {
         set_size(m_scratch.solver.constraints, m_scratch.layout.constraint_edges.size());
@@ -119,10 +119,10 @@ public:
         set_size(m_scratch.solver.wide_joints, as_index(m_blocks));
     }
 
-    // What held each state when the constraints were placed holds it still.
+    // A state that was bound when the constraints were placed is still bound.
     void bind_as_before()
     {
-        unbind_those([&](std::size_t s) { return m_scratch.cached_graph.bound[s] != 0; });
+        bind_where([&](std::size_t s) { return m_scratch.cached_graph.bound[s] != 0; });
     }
 
     void count()
@@ -134,9 +134,9 @@ public:
 private:
     [[nodiscard]] static int tasks_for(std::int32_t items) { return (items + places_per_task - 1) / places_per_task; }
 
-    // On all threads.
+    // Clears body_flag::unbound, on all threads.
     template <class IsBound>
-    void unbind_those(const IsBound& is_bound)
+    void bind_where(const IsBound& is_bound)
     {
         for_each_in_chunks(m_ctx.scene.def.tasks, m_scratch.solver.states.size(), places_per_task,
                            [&](std::size_t s)
@@ -156,7 +156,7 @@ private:
             [&](const StepContext& island_ctx, const Island& island, std::int32_t i) { fill_state(island_ctx, island, i); });
     }
 
-    // Those of a task, with the step of the item's island. Items stand island by island.
+    // Visits the items of a task, with the step context of each item's island. Items are sorted by island.
     template <class First, class Visit>
     void for_items(int task, std::int32_t count, const First& first_of, const Visit& visit)
     {
@@ -178,8 +178,8 @@ private:
         }
     }
 
-    // The first state stands for every body that does not move, so that islands share nothing; then the dynamic bodies in the order of the plane,
-    // then copies of kinematic ones.
+    // The first state stands for every body that does not move, so that islands share nothing. Dynamic bodies follow, sorted by plane cell, then copies of
+    // kinematic ones.
     void place_states_of(Island& island)
     {
         island.first_state = add_state(none);
@@ -224,15 +224,15 @@ private:
         }
     }
 
-    // In a crowd only what flies, or a law, makes anything fast enough to fly within the step.
+    // In a crowd, only a flier or a force law makes a body fast enough to take off within the step.
     [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t kind) const
     {
         return m_scratch.graph.may_be_struck[as_index(place)] != 0 || kind != none ||
                force_law_of(m_ctx, m_state.awake_bodies[as_index(place)]) != nullptr;
     }
 
-    // Kinematic bodies are copied into every island they meet: their path is a function of time alone, and islands then share nothing that is
-    // written. A flier may land on one.
+    // Kinematic bodies are copied into every island that they meet: their path is a function of time alone, and islands then share nothing that is written. A
+    // flier may land on a kinematic body.
     void copy_kinematic_bodies(const Island& island)
     {
         const auto index = static_cast<std::int32_t>(&island - m_scratch.solver.islands.data());
@@ -270,7 +270,7 @@ private:
         return state_for(island, place == none ? none : m_state.awake_bodies[as_index(-2 - place)]);
     }
 
-    // The state of a body as this island's constraints see it.
+    // State of a body as seen by the constraints of this island.
     std::int32_t state_for(const Island& island, int body)
     {
         if (body == none || m_state.bodies[body].awake_index == none)
@@ -329,7 +329,7 @@ private:
             place_joints_of(island);
     }
 
-    // Where joints are solved directly and nothing touches, axes are solved for the drift along parabolas, too.
+    // Where joints are solved directly and nothing touches, axes are also solved for the drift along parabolas.
     void let_drift(Island& island)
     {
         const auto places =
@@ -343,7 +343,7 @@ private:
             std::fill_n(m_scratch.layout.bound_by_joint.begin() + island.first_state, island.state_count, 0);
     }
 
-    // Marks it as taken.
+    // Marks the color as taken.
     int free_color(const Island& island, std::int32_t a, std::int32_t b)
     {
         std::uint64_t& of_a = m_scratch.layout.joint_colors[as_index(a)];
@@ -356,7 +356,7 @@ private:
         return color;
     }
 
-    // The hinges of an island with more joints than are solved directly go side by side, by colour; the others one by one.
+    // In an island with more joints than are solved directly, hinges are placed in lanes, by color; the other joints are solved one by one.
     void place_joints_of(Island& island)
     {
         const bool wide = island.policy.wide_joints;
@@ -383,7 +383,7 @@ private:
         island.wide_joint_count = m_blocks - island.first_wide_joint;
     }
 
-    // Finds its colour; false where it must stand alone.
+    // Finds a color for the joint; false where it must be solved outside of lanes.
     bool place_joint_in_lane(const Island& island, const JointEdge& j, const SolvedJoint& joint, bool uniform)
     {
         if (!j.hinge || j.flies || !(uniform || give_evenly(m_ctx, joint)))
@@ -395,7 +395,7 @@ private:
         return true;
     }
 
-    // By counting; those of a bin stay in order.
+    // Stable counting sort.
     void sort_by_bucket(std::size_t first)
     {
         std::vector<JointLane>& lanes = m_scratch.layout.joint_lanes;
@@ -413,7 +413,7 @@ private:
         std::copy(sorted.begin(), sorted.end(), lanes.begin() + static_cast<std::ptrdiff_t>(first));
     }
 
-    // Sorted by bin, eight by eight; each learns its lane.
+    // Sorts the joints by bucket, forms blocks of eight, and assigns lanes.
     void block_joints(Island& island, std::size_t first)
     {
         const auto begin = m_scratch.layout.joint_lanes.begin() + static_cast<std::ptrdiff_t>(first);
@@ -421,7 +421,7 @@ private:
         island.first_joint_bucket = static_cast<std::int32_t>(m_scratch.solver.joint_bucket_starts.size());
         std::int32_t bucket = none;
         int lane = 0;
-        std::int32_t next_bucket = 0; // to begin
+        std::int32_t next_bucket = 0; // next bucket to begin
         for (auto l = begin; l != m_scratch.layout.joint_lanes.end(); ++l)
         {
             for (; next_bucket <= l->bucket; ++next_bucket)
@@ -443,7 +443,7 @@ private:
     StepContext& m_ctx;
     SceneState& m_state;
     Scratch& m_scratch;
-    std::int32_t m_blocks = 0; ///< of wide joints
+    std::int32_t m_blocks = 0; ///< number of wide joint constraints
 };
 
 } // namespace

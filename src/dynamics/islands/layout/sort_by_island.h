@@ -1,7 +1,7 @@
 #pragma once
 
-// Links, joints and bodies stand island by island where islands are laid out. Neighbours in a list are mostly of one island: they are counted and moved a run of them
-// at a time, on all threads.
+// Sorts edges, joints and bodies by island for the layout. Neighbors in a list mostly belong to one island, so they are counted and moved in runs, on all
+// threads.
 
 #include "core/grow.h"
 #include "core/task_pool.h"
@@ -17,7 +17,7 @@
 
 namespace carom::internal {
 
-/// Calls visit(run) where items first ... last that follow each other are of one island, not none. Neighbours mostly are.
+/// Calls visit(run) for each run of successive items in first ... last that belong to one island. Items without an island are skipped.
 template <class IslandOf, class Visit>
 void for_each_run(std::size_t first, std::size_t last, const IslandOf& island_of, const Visit& visit)
 {
@@ -33,8 +33,8 @@ void for_each_run(std::size_t first, std::size_t last, const IslandOf& island_of
     }
 }
 
-/// A stable counting sort of items by island_of(index), a run of one island after the other: fills `sorted` and calls set_range(island, first, count). Where
-/// island_of says none, the item is left out.
+/// A stable counting sort of items by island_of(index), which works on runs: fills `sorted` and calls set_range(island, first, count). Items for which
+/// island_of returns none are left out.
 template <class Item, class IslandOf, class SetRange>
 void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<Item>& items, std::vector<Item>& sorted,
                     std::size_t items_per_task, const IslandOf& island_of, const SetRange& set_range)

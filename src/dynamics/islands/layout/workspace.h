@@ -1,6 +1,6 @@
 #pragma once
 
-// Where everything that islands need goes, and memory for finding that.
+// Slots of all that islands contain, and memory for finding them.
 
 #include "dynamics/islands/workspace.h"
 #include "dynamics/solver/contact/coloring.h"
@@ -13,13 +13,13 @@
 
 namespace carom::internal {
 
-/// Of a task's links: first how many go into each bin, then where the next one goes. All 0 between steps.
+/// Slots of a task's contact edges: first the number of edges in each bucket, then the slot of the next one. All 0 between steps.
 struct SlotsOfTask
 {
-    std::vector<std::int32_t> lanes; ///< by part
+    std::vector<std::int32_t> lanes; ///< by bucket, which includes the partition
     std::int32_t constraints[color_limit + 1] = {};
-    std::uint64_t colors = 0;            ///< that they have
-    std::vector<std::int32_t> uncolored; ///< of the island's links
+    std::uint64_t colors = 0;            ///< colors of its edges, one bit each
+    std::vector<std::int32_t> uncolored; ///< indices among the island's edges
     std::vector<WideCore> cores;
 
     [[nodiscard]] std::int32_t& place_for(const ContactEdge& l)
@@ -28,7 +28,7 @@ struct SlotsOfTask
     }
 };
 
-/// What an island has in a cell of the plane.
+/// States and work of an island in one plane cell.
 struct CellOfIsland
 {
     std::int32_t cell;
@@ -36,13 +36,13 @@ struct CellOfIsland
     std::int64_t work;
 };
 
-/// Neighbours in a list that are of one island.
+/// Neighbors in a list that belong to one island.
 struct IslandRun
 {
     std::int32_t island;
     std::int32_t first;
     std::int32_t count;
-    std::int32_t sorted_first = 0; ///< where they go when the list is sorted by island
+    std::int32_t sorted_first = 0; ///< index of the first when the list is sorted by island
 
     template <class Item>
     [[nodiscard]] std::span<const Item> of(const std::vector<Item>& items) const
@@ -59,11 +59,11 @@ struct SolvedJoint
     std::int32_t b;
 };
 
-/// A hinge among the wide ones.
+/// A hinge that is solved in a lane.
 struct JointLane
 {
-    std::int32_t bucket; ///< by color, and by whether it does something about its angle
-    std::int32_t lane;   ///< group * lane_count + lane
+    std::int32_t bucket; ///< by color, and by whether it also acts on its angle
+    std::int32_t lane;   ///< block * lane_count + lane
     SolvedJoint place;
 };
 
@@ -72,7 +72,7 @@ struct FlierSeed
 {
     std::int32_t state;
     std::int32_t body;
-    std::int32_t kind; ///< none, or the hinge it turns on
+    std::int32_t kind; ///< none, or the hinge about which it turns
     bool landed;
 };
 
@@ -85,41 +85,41 @@ struct StatePair
 struct CachedBody
 {
     std::int32_t body;
-    std::uint8_t cell; ///< of the plane
+    std::uint8_t cell; ///< plane cell
 };
 
-/// What the islands of the last step were made of, see cached_graph.cpp.
+/// Inputs of the islands of the last step, see cached_graph.cpp.
 struct CachedGraph
 {
     std::vector<CachedBody> bodies;
     std::vector<JointEdge> joints;
-    std::vector<std::uint8_t> bound;        ///< of each state: constraints, limits or motors hold it
-    bool are_plain = false;                 ///< nothing in them depends on anything else
-    bool stay_plain = false;                ///< and no body or joint has changed, come or gone since
-    bool edges_are_unchanged = false;       ///< those of contacts are what they were
-    bool joints_are_unchanged = false;      ///< so that links of joints are what they were
-    bool hinges_are_unchanged = false;      ///< and wide hinges stand where they stood
-    bool has_hung = false;                  ///< as Scratch::has_hung when links of joints were gathered
-    bool constraints_apart = false;         ///< islands have stayed: each has its wide contact constraints in a place of its own
-    bool constraints_are_unchanged = false; ///< in this step wide contact constraints have been followed where they stand
-    std::uint64_t constraints_unchanged_for = 0; ///< so many steps, this one among them
-    std::uint64_t stamp = 0;            ///< of the constraints, as in SceneState::lanes_stamp; never the same twice in a scene
-    std::vector<std::int32_t> contacts; ///< the awake ones, when the constraints were filled
-    std::vector<std::int32_t> loose;    ///< of these, those without a lane
-    int touching = 0;                   ///< of the report
+    std::vector<std::uint8_t> bound;   ///< by state: constraints, limits or motors hold it
+    bool are_plain = false;            ///< their layout depends on bodies and edges alone
+    bool stay_plain = false;           ///< are_plain, and no body or joint has changed, been added or been removed since
+    bool edges_are_unchanged = false;  ///< contact edges are unchanged
+    bool joints_are_unchanged = false; ///< and joint edges are unchanged
+    bool hinges_are_unchanged = false; ///< and wide hinges keep their slots
+    bool has_hung = false;             ///< GraphWorkspace::has_hung when joint edges were gathered
+    bool constraints_apart = false;    ///< the graph is unchanged: each island has its own storage for wide contact constraints
+    bool constraints_are_unchanged = false;      ///< in this step, wide contact constraints have been refreshed in place
+    std::uint64_t constraints_unchanged_for = 0; ///< number of steps, including this one
+    std::uint64_t stamp = 0;                     ///< of the constraints, as in SceneState::lanes_stamp; unique within a scene
+    std::vector<std::int32_t> contacts;          ///< awake contacts when the constraints were filled
+    std::vector<std::int32_t> loose;             ///< those of the contacts without a lane
+    int touching = 0;                            ///< touching contacts, for the report
 };
 
 struct LayoutWorkspace
 {
-    std::vector<StatePair> joint_states; ///< of each of the solved joints
+    std::vector<StatePair> joint_states; ///< by index in solved_joints
     std::vector<std::int32_t> island_starts;
     std::vector<std::vector<IslandRun>> runs_of_task;
     std::vector<std::vector<CellOfIsland>> cells_of_task;
-    std::vector<ContactEdge> solved_edges;      ///< those that get constraints, by island
-    std::vector<std::int32_t> lane_edges;       ///< link in each lane; none: empty
-    std::vector<std::int32_t> constraint_edges; ///< link of each constraint
+    std::vector<ContactEdge> solved_edges;      ///< edges that get constraints, by island
+    std::vector<std::int32_t> lane_edges;       ///< edge in each lane; none: empty
+    std::vector<std::int32_t> constraint_edges; ///< edge of each constraint
     std::vector<SlotsOfTask> slots_of_task;
-    std::vector<std::uint64_t> joint_colors;  ///< by state: a bit for each that its hinges in lanes have
+    std::vector<std::uint64_t> joint_colors;  ///< by state: a bit for each color of its hinges in lanes
     std::vector<std::uint8_t> bound_by_joint; ///< by state
     std::vector<SolvedJoint> joints_outside_lanes;
     std::vector<JointLane> joint_lanes;

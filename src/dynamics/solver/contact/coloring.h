@@ -1,7 +1,7 @@
 #pragma once
 
-// Constraints of one colour share no body that gives way, so that they are solved side by side. A contact keeps its colour for as long as it has a constraint; which
-// colours a body's contacts have stands in SceneState::colors, so that only a new constraint looks for one.
+// Graph coloring: constraints of one color share no body that has finite mass, so that they are solved side by side. A contact keeps its color for as
+// long as it has a constraint. SceneState::colors holds the colors of each body's contacts, so that only a new constraint searches for one.
 
 #include "dynamics/state/scene_state.h"
 
@@ -12,7 +12,7 @@
 
 namespace carom::internal {
 
-inline constexpr int color_limit = 63; ///< no colour is left: the constraint stands alone
+inline constexpr int color_limit = 63; ///< no color is left: the constraint stands alone
 
 [[nodiscard]] inline bool is_moving_dynamic(const SceneState& state, int body)
 {
@@ -24,7 +24,7 @@ inline constexpr int color_limit = 63; ///< no colour is left: the constraint st
     return state.colors[static_cast<std::size_t>(body)];
 }
 
-/// The least that neither of its bodies has yet, of those that give way.
+/// Takes the lowest color that is free at both bodies; only awake dynamic bodies count.
 inline void take_color(SceneState& state, Contact& contact)
 {
     std::uint64_t taken = 0;
@@ -38,7 +38,7 @@ inline void take_color(SceneState& state, Contact& contact)
     }
 }
 
-/// Threads may do so side by side.
+/// Threads may call it side by side.
 inline void leave_color(SceneState& state, Contact& contact)
 {
     const std::int32_t color = std::exchange(contact.color, none);

@@ -1,7 +1,7 @@
 #pragma once
 
-// A contact as the solver has it, made anew in each step. Symbols: a, b the bodies; n the normal from a to b, t = perp(n); r the lever arm; m the effective mass
-// along a direction, 1 / (J M^-1 J^T).
+// A contact as the solver sees it, prepared anew in each step. Symbols: a, b the bodies; n the normal from
+// a to b, t = perp(n); r the lever arm; m the effective mass along a direction, 1 / (J M^-1 J^T).
 
 #include "dynamics/solver/softness.h"
 #include "dynamics/state/scene_state.h"
@@ -18,37 +18,37 @@ struct ConstraintPoint
     Vec2 rb0{};
     float base = 0; ///< separation = base + n · (relative displacement of the anchors)
     float predicted_curvature =
-        0; ///< what a straight-line prediction of the separation misses over the next sub-step (round contacts)
+        0; ///< error of the straight-line prediction of the separation over the next sub-step (round contacts)
     float normal_impulse = 0;
     float tangent_impulse = 0;
     float normal_mass = 0;
     float tangent_mass = 0;
-    float separation_before = 0; ///< at the start of the sub-step, in islands that are watched for their energy
-    float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear nothing yet
+    float separation_before = 0; ///< at the start of the sub-step, in islands whose energy is watched
+    float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear no load yet
     float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
 };
 
 struct ContactConstraint
 {
-    std::int32_t a = 0; ///< states
+    std::int32_t a = 0; ///< indices of states
     std::int32_t b = 0;
     std::int32_t contact = none;
     std::int32_t count = 0;
     Vec2 n{};
     float friction = 0;
     float surface_speed = 0;
-    float coupling = 0; ///< J1 M^-1 J2 of two points; 0 where they are too near each other to be told apart
+    float coupling = 0; ///< J1 M^-1 J2^T of the two normals; 0 where the points are too near each other to be distinct
     float rolling = 0;  ///< torque limit over normal impulse, m
     float rolling_impulse = 0;
     float rolling_mass = 0;
-    float core = 0;    ///< half of what is inside a body, against what does not give way; 0 elsewhere
-    Rotation turn_a{}; ///< of the bodies within the step, when it was last looked at
+    float core = 0;    ///< depth that it may reach, see core_depth(); 0 without an immovable body
+    Rotation turn_a{}; ///< rotations of the bodies within the step when the manifold was last computed
     Rotation turn_b{};
-    std::uint8_t refreshed = 0; ///< looked at anew in every sub-step
-    std::uint8_t followed = 0;  ///< looked at anew when a body has turned
+    std::uint8_t refreshed = 0; ///< recomputed in every sub-step
+    std::uint8_t followed = 0;  ///< recomputed when a body has turned
     std::uint8_t hit = 0;       ///< its impact was reported
-    std::uint8_t pressed = 0;   ///< in this sub-step, before it was relaxed
+    std::uint8_t pressed = 0;   ///< bore a load in this sub-step before it was relaxed
     Softness softness{};
     ConstraintPoint points[2];
 };
@@ -59,7 +59,7 @@ struct ContactConstraint
            (constraint.count == 2 && constraint.points[1].normal_impulse > 0);
 }
 
-/// Of a body that has taken off; without points alone it may still come to have some.
+/// For a body that has taken off. A constraint that only lacks points may still get some.
 inline void drop(ContactConstraint& constraint) { constraint.count = constraint.refreshed = constraint.followed = 0; }
 [[nodiscard]] inline bool is_dropped(const ContactConstraint& constraint)
 {

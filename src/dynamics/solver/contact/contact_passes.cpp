@@ -1,3 +1,5 @@
+// Runs the kernels over an island's wide contact constraints, in the order of colors and partitions.
+
 #include "dynamics/solver/contact/contact_passes.h"
 
 #include "core/index.h"
@@ -27,7 +29,7 @@ ContactPasses::ContactPasses(SolvedIsland& work)
       m_notes_bodies(work.island.wide_count > 0 && work.island.joint_count == 0 && work.island.wide_joint_count == 0)
 {}
 
-// Where points and normals keep through the step, a body may be given at once what it would be given constraint by constraint.
+// Where points and normals do not change within the step, a body may be given at once the impulses of all its constraints.
 WarmStart ContactPasses::begin_substep(int k)
 {
     const bool disturbed = std::exchange(m_work.output.disturbed, false);
@@ -64,7 +66,7 @@ void ContactPasses::solve_by_partition()
     const auto solve = [this](int first, int last) { solve_lanes(first, last); };
     const auto relax = [this](int first, int last) { relax_lanes(first, last); };
     integrate_positions(m_work, island.first_state + 1 + island.dynamic_count,
-                        island.first_state + island.state_count); // kinematic
+                        island.first_state + island.state_count); // kinematic bodies
     const auto partitions =
         std::span(m_work.scratch.solver.partition_of).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
     const Walls walls = this->walls();
@@ -90,7 +92,7 @@ void ContactPasses::relax_struck()
     std::ranges::transform(partitions, partitions.begin(),
                            [&](std::int32_t state) { return m_work.scratch.solver.partition_of[as_index(state)]; });
     std::erase_if(partitions,
-                  [&](std::int32_t partition) { return partition >= m_work.island.partitions; }); // of bodies of infinite mass
+                  [&](std::int32_t partition) { return partition >= m_work.island.partitions; }); // for bodies of infinite mass
     std::ranges::sort(partitions);
     partitions.erase(std::ranges::unique(partitions).begin(), partitions.end());
     const auto relax = [this](int first, int last) { relax_again(first, last); };
@@ -121,7 +123,7 @@ void ContactPasses::take_from_sums(int first, int last) const
     }
 }
 
-// Blocks of one bin.
+// Blocks of one bucket.
 WideBucket ContactPasses::lanes(int first, int last) const
 {
     return {m_wide + first, m_notes + first, last - first, are_constraints_far(m_work.island)};
@@ -140,8 +142,8 @@ void ContactPasses::relax_lanes(int first, int last)
         std::atomic_ref(m_is_deep).store(1, std::memory_order_relaxed);
 }
 
-// The speeds at which many bodies are pushed out of each other add up, and one pass takes out little of it: they would fly apart. In islands that are cut into
-// partitions it would cost too much.
+// The speeds at which many bodies are pushed out of each other add up, and one pass takes out little of them: the
+// bodies would fly apart. Islands with partitions do without, because it would cost too much there.
 void ContactPasses::relax_deep_overlaps()
 {
     if (std::exchange(m_is_deep, 0) == 0 || m_work.island.partitions > 0)
@@ -154,7 +156,7 @@ void ContactPasses::relax_deep_overlaps()
     m_is_deep = 0;
 }
 
-// From here on overlap is pushed out as fast as allowed. No load presses anything so far into another.
+// Beyond this separation, overlap is pushed out as fast as allowed. No load presses bodies so far into each other.
 float ContactPasses::deep() const { return -m_work.view.push_speed / m_softness.contact.bias_rate; }
 
 Walls ContactPasses::walls() const

@@ -1,6 +1,6 @@
 #pragma once
 
-// The passes over all contacts of an island: those that stand in lanes, by color and spatial partition, and those outside of lanes after them.
+// The passes over all contacts of an island: wide contact constraints by color and partition, and after them the constraints outside of lanes.
 
 #include "dynamics/solver/contact/partitions.h"
 #include "dynamics/solver/integrate.h"
@@ -15,28 +15,29 @@ class ContactPasses
 public:
     explicit ContactPasses(SolvedIsland& work);
 
-    /// For sub-step k, before velocities are integrated.
+    /// Called for sub-step k before velocities are integrated.
     [[nodiscard]] WarmStart begin_substep(int k);
-    /// What the contacts gave in the last sub-step, unless velocities have it already.
+    /// Applies the impulses of the last sub-step, unless velocities have them already.
     void warm_start();
 
-    /// One pass over what stands in lanes. is_last: of several passes in the sub-step; impulses are summed over the step in it alone.
+    /// One pass over the wide contact constraints. is_last: the last of several passes in
+    /// the sub-step; only that one adds impulses to the sums over the step.
     void solve_wide(bool use_bias, bool is_last);
-    /// One pass over the others.
+    /// One pass over the constraints outside of lanes.
     void solve_others(bool use_bias);
-    /// Once a relaxation is done: some passes more where many bodies overlap far.
+    /// Called after a relaxation: runs more passes where many bodies overlap far.
     void relax_deep_overlaps();
-    /// A relaxation comes again: what the last one added to the sums over the step is taken out.
+    /// Called before a relaxation is repeated: takes what the last one added out of the sums over the step.
     void take_from_sums() { take_from_sums(0, m_work.island.wide_count); }
 
-    /// All of an island that stands in lanes alone: each partition goes from solving through its new poses to relaxing at once, while its constraints are in the cache. What
-    /// crosses from one to another is solved before and relaxed after.
+    /// Solves an island whose constraints are all in lanes. Each partition goes from solving through its new poses to relaxing at
+    /// once, while its constraints are in the cache. Boundary constraints are solved before and relaxed after all partitions.
     void solve_by_partition();
-    /// After that: partitions in which something in flight has struck, and contacts that have come since, relax once more.
+    /// Called after that: relaxes once more the partitions in which fliers have struck, and contacts that have come since.
     void relax_struck();
 
     [[nodiscard]] Walls walls() const;
-    /// Its bodies note what they would do without constraints.
+    /// True if its bodies note the speeds that they would have without constraints.
     [[nodiscard]] bool notes_bodies() const { return m_notes_bodies; }
 
 private:
@@ -50,13 +51,13 @@ private:
     SolvedIsland& m_work;
     WideContact* m_wide;
     WideContactNotes* m_notes;
-    std::uint8_t* m_struck; ///< lanes of each block
+    std::uint8_t* m_struck; ///< bits of lanes, for each block
     WideSoftness m_softness;
     Partitions m_partitions;
     const WideKernels& m_kernels = wide_kernels();
     bool m_notes_bodies;
     bool m_starts_by_body = false; ///< in this sub-step
-    int m_is_deep = 0;             ///< some overlap of lanes is pushed out as fast as allowed
+    int m_is_deep = 0;             ///< some overlap in lanes is so deep that it is pushed out as fast as allowed
 };
 
 } // namespace carom::internal

@@ -4,12 +4,12 @@
 //   dC = n · (vb + wb x rb - va - wa x ra)     J = (-n, -ra x n, n, rb x n)
 //   impulse = -m mass_scale (dC + bias) - impulse_scale accumulated, accumulated impulse >= 0,   m = 1 / (J M^-1 J^T)
 //
-// Apart (C > 0) the bias is C / h: the bodies may close the gap in this sub-step but not more. Overlapping, it is the soft constraint's
-// bias_rate C, no faster than the push speed. Friction: |tangent impulse| <= mu normal impulse, towards the surface speed.
+// Apart (C > 0), the contact is speculative with a bias of C / h: the bodies may close the gap in this sub-step but not more. Overlapping, the bias is
+// the soft constraint's bias_rate C, no faster than the push speed. Friction: |tangent impulse| <= mu normal impulse, towards the surface speed.
 //
-// Constraints of round shapes in small islands also carry predicted_curvature: what the straight-line prediction of C misses over the sub-step because
-// the surfaces curve. It is corrected rigidly, C / h style; with the fresh normal of the relaxation that makes the pair of passes the
-// RATTLE integrator, which neither gains nor loses energy around a curve.
+// Constraints of round shapes in small islands also carry predicted_curvature: the error of the straight-line prediction of
+// C over the sub-step, because the surfaces curve. It is corrected rigidly, as C / h. With the new normal of the relaxation,
+// this makes the pair of passes the RATTLE integrator, which neither gains nor loses energy around a curve.
 
 #include "dynamics/solver/contact/contact_solver.h"
 
@@ -76,7 +76,7 @@ void solve_friction(const Pair& pair, const ContactConstraint& constraint, Const
     pair.apply(p, change * t);
 }
 
-// Inlined in any case: three numbers are returned through memory, and waited for.
+// Always inlined: three numbers are otherwise returned through memory, and the load stalls.
 [[gnu::always_inline]] inline NormalTarget target_of_normal(const SolverView& view, const ContactConstraint& constraint,
                                                             const ConstraintPoint& p, bool use_bias)
 {
@@ -109,8 +109,9 @@ void solve_normal(const SolverView& view, const Pair& pair, const ContactConstra
     set_normal_impulse(pair, constraint, p, std::max(p.normal_impulse + change, 0.0f)); // contacts push and never pull
 }
 
-// Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account, boxes that
-// overlap are shot apart and stacks lean. With x the accumulated impulses: A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
+// Solves two points at once. One after the other, they never agree within a pass: each turns the body a little at the
+// expense of the other, boxes that overlap are shot apart and stacks lean. With x the accumulated impulses, it is a
+// linear complementarity problem with four cases: A x + b >= 0, x >= 0, and one of each pair is 0.
 void solve_both_normals(const SolverView& view, const Pair& pair, ContactConstraint& constraint, bool use_bias)
 {
     ConstraintPoint& p = constraint.points[0];

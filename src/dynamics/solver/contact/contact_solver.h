@@ -17,8 +17,8 @@ struct SolverView
     float push_speed;
 };
 
-/// How far a body's center goes in the sub-step. Along its exact parabola where no force is found only within the sub-step: the mean of the
-/// velocities before and after.
+/// Displacement of a body's center in the sub-step. A body that no contact, limit or motor
+/// holds follows its exact parabola, by the mean of the velocities before and after.
 [[nodiscard]] inline Vec2 drift(const SolverView& view, std::int32_t state)
 {
     const BodyState& s = view.states[state];
@@ -30,11 +30,11 @@ struct SolverView
 
 void warm_start(const SolverView& view, std::span<ContactConstraint> constraints);
 
-/// One pass of sequential impulses: rolling, friction, then the normal direction. With bias the soft constraint also removes overlap;
-/// without ("relax") it only stops approach, taking out the speed that the bias put in.
+/// One pass of sequential impulses: rolling, then the normal direction, then friction. With bias the soft constraint also
+/// removes overlap; without it ("relax") the pass only stops approach, which takes out the speed that the bias put in.
 void solve_contact_constraints(const SolverView& view, std::span<ContactConstraint> constraints, bool use_bias);
 
-/// The aim of a point's normal impulse: a speed of -bias, softly where the scales say so.
+/// The target of a point's normal impulse: a speed of -bias, softened by the scales.
 struct NormalTarget
 {
     float bias;
@@ -44,15 +44,15 @@ struct NormalTarget
 
 [[nodiscard]] NormalTarget normal_target(const SolverView& view, const ContactConstraint& constraint,
                                          const ConstraintPoint& point, bool use_bias);
-/// The speed of b's surface over a's along perp(n), beyond the surface speed, m/s.
+/// The speed of b's surface relative to a's along perp(n), less the surface speed, m/s.
 [[nodiscard]] float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
-/// Approach speeds of constraints that bear nothing yet, before the sub-step's forces.
+/// Notes the approach speeds of a constraint that bears no load yet, before the sub-step's forces.
 void note_approach(const SolverView& view, ContactConstraint& constraint);
 
 [[nodiscard]] float constraint_separation(const SolverView& view, const ContactConstraint& constraint,
                                           const ConstraintPoint& point);
-/// The speed at which the separation grows, m/s.
+/// The rate at which the separation grows, m/s.
 [[nodiscard]] float constraint_speed(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
 void apply_impulse(BodyState& state, const StateConstants& constants, Vec2 arm, Vec2 impulse);

@@ -1,8 +1,8 @@
 #pragma once
 
-// Wide constraints of an island stand in bins, two to a colour. A large island is cut into parts of the plane, each with bins of its own: no two parts share a body that
-// gives way, so that threads solve them side by side, and bodies of a part stay in the cache. What crosses from one part to another has bins behind all parts' and
-// is solved before them, colour by colour.
+// The wide constraints of an island lie in buckets, two to a color. A large island is cut into partitions of the plane, each with buckets of its own. No
+// two partitions share a body that has finite mass, so that threads solve them side by side, and the bodies of a partition stay in the cache. Boundary
+// constraints, between bodies of two partitions, have buckets behind those of all partitions and are solved before them, color by color.
 
 #include "core/worker_team.h"
 #include "dynamics/step_context.h"
@@ -12,12 +12,12 @@ namespace carom::internal {
 class Partitions
 {
 public:
-    /// `bins` of each part, and of what crosses.
+    /// `buckets`: in each partition, and of boundary constraints.
     Partitions(const std::vector<std::int32_t>& starts, std::int32_t first, std::int32_t partitions, std::int32_t buckets)
         : m_starts(starts.data() + first), m_parts(partitions), m_buckets(buckets)
     {}
 
-    /// Calls pass(first, last) for groups of one bin, of which no two share a body that gives way. What threads do side by side shares none either.
+    /// Calls pass(first, last) for blocks of one bucket, no two of which share a body that has finite mass. Calls that run side by side share none either.
     template <class Pass>
     void by_color(WorkerTeam& team, const Pass& pass)
     {
@@ -25,7 +25,7 @@ public:
         in_parts(team, [&](int partition) { of_part(partition, pass); });
     }
 
-    /// Of what crosses from one part to another.
+    /// The same for the boundary constraints.
     template <class Pass>
     void crossing(WorkerTeam& team, const Pass& pass) const
     {
@@ -33,7 +33,7 @@ public:
             share_bucket(team, bucket, pass);
     }
 
-    /// Of one part.
+    /// The same for one partition, on this thread.
     template <class Pass>
     void of_part(int partition, const Pass& pass) const
     {
@@ -44,7 +44,7 @@ public:
         }
     }
 
-    /// Calls work(part) for all of them, side by side. To and fro: a walk begins with the parts that the last one has left in the cache.
+    /// Calls work(partition) for all of them, side by side. Directions alternate: a pass begins with the partitions that the last one left in the cache.
     template <class Work>
     void in_parts(WorkerTeam& team, const Work& work)
     {
@@ -52,7 +52,7 @@ public:
         team.in_pieces(m_parts, m_backwards, work);
     }
 
-    /// Calls pass(first, last) for groups in any order, mostly by the member that solves them.
+    /// Calls pass(first, last) for blocks in any order, mostly on the worker that solves them.
     template <class Pass>
     void all(WorkerTeam& team, const Pass& pass) const
     {
@@ -68,7 +68,7 @@ public:
             team.share(start(end), enough_blocks, those);
             return;
         }
-        constexpr int quarters = 4; // of a part: nobody waits long for the last
+        constexpr int quarters = 4; // of a partition: no worker waits long for the last
         const auto slice = [&](int first, int last, int i, int slices)
         { those(first + WorkerTeam::bound(last - first, i, slices), first + WorkerTeam::bound(last - first, i + 1, slices)); };
         team.in_pieces(quarters * m_parts, false,
@@ -80,7 +80,7 @@ public:
                        });
     }
 
-    /// Calls work(first, last, part) for the groups of each part, side by side. Returns where what crosses begins.
+    /// Calls work(first, last, partition) for the blocks of each partition, side by side. Returns where the boundary constraints begin.
     template <class Work>
     int by_part(WorkerTeam& team, const Work& work) const
     {
@@ -89,7 +89,7 @@ public:
         return start(m_parts * m_buckets);
     }
 
-    /// Calls visit(group), mostly by the member that solves it.
+    /// Calls visit(block), mostly on the worker that solves it.
     template <class Visit>
     void for_each(WorkerTeam& team, const Visit& visit) const
     {
@@ -102,9 +102,9 @@ public:
     }
 
 private:
-    static constexpr int enough_blocks = 24; // to share
+    static constexpr int enough_blocks = 24; // to share among workers
 
-    // All members take some of one bin's groups.
+    // All workers take some blocks of one bucket.
     template <class Pass>
     void share_bucket(WorkerTeam& team, int bucket, const Pass& pass) const
     {
@@ -118,19 +118,19 @@ private:
 
     [[nodiscard]] int start(int bucket) const { return m_starts[bucket]; }
 
-    const std::int32_t* m_starts; ///< and where the last ends
+    const std::int32_t* m_starts; ///< with the end of the last bucket
     int m_parts;
     int m_buckets;
     bool m_backwards = false;
 };
 
-/// All threads solve it together.
+/// True if all threads solve it together.
 [[nodiscard]] inline bool is_shared(const Island& island)
 {
     return is_worth_all_threads(island.partitions, island.wide_joint_count);
 }
 
-/// Its constraints come from memory.
+/// True if its constraints come from memory, not from a cache.
 [[nodiscard]] inline bool are_constraints_far(const Island& island) { return is_beyond_caches(island.wide_count); }
 
 [[nodiscard]] inline Partitions contact_buckets(const Scratch& scratch, const Island& island)

@@ -1,3 +1,5 @@
+// Prepares fliers and contact constraints from the records.
+
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/effective_mass.h"
 
@@ -24,7 +26,7 @@ void take_up_velocity(const BodySim& sim, Flier& f)
     f.reaction += Vec2{static_cast<float>(mass * (-f.w * f.arm_y - vx)), static_cast<float>(mass * (f.w * f.arm_x - vy))};
 }
 
-// About the pivot: the hinge's angle at the start of the step, and how far its limits let the body turn from there.
+// Sets up the rotation about the pivot: the hinge's angle at the start of the step, and how far its limits let the body turn from there.
 void hinge(const StepContext& ctx, int index, const BodySim& sim, Flier& f)
 {
     const JointRecord& joint = ctx.state.joints[index];
@@ -73,7 +75,7 @@ Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint
 
 namespace {
 
-// 1 / (J M^-1 J^T) of a unit direction d at lever arms ra, rb; 0 where nothing gives way, as through the pivot of a body that only turns.
+// 1 / (J M^-1 J^T) along a unit direction d at lever arms ra, rb; 0 where no body can move, as through the pivot of a body that only turns.
 float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, Vec2 ra, Vec2 rb)
 {
     const float ca = cross(ra, d);
@@ -84,7 +86,7 @@ float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, V
     return exceeds_rounding(k, at_most) ? 1 / k : 0;
 }
 
-// Of the normal directions of two points. Points nearly in one place share their load anyhow; solving for both would only divide noise.
+// Coupling of the normals of two points. Points that nearly coincide share their load anyway; solving for both would only divide noise.
 float coupling(const StateConstants& a, const StateConstants& b, const ContactConstraint& constraint)
 {
     const ConstraintPoint& p = constraint.points[0];
@@ -186,7 +188,7 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         scale_constraint(constraint, 1 / static_cast<float>(ctx.subdivisions));
     if (contact.rolling_resistance > 0)
     {
-        // The limit is a length: coefficient times the radius of what rolls.
+        // The limit is a length: coefficient times the radius of the rolling shape.
         const Leaf& leaf_a = ctx.state.shapes[contact.shape_a].leaf;
         const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;
         const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);

@@ -1,6 +1,6 @@
 #pragma once
 
-// From records to what the solver iterates over.
+// Prepares states, constants and constraints for the solver from the records.
 
 #include "core/trigonometry.h"
 #include "dynamics/narrowphase/contact_update.h"
@@ -8,7 +8,7 @@
 
 namespace carom::internal {
 
-/// Number by number, where they stand: a record that has just been written so is waited for by a copy.
+/// Writes field by field in place: copying a record that was just written that way would stall on store forwarding.
 inline void start_state(const SceneState& state, int body, BodyState& s)
 {
     const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
@@ -20,7 +20,7 @@ inline void start_state(const SceneState& state, int body, BodyState& s)
     s.delta_rotation = {};
 }
 
-/// What is left of a speed after a time h. damping: 1/s
+/// The share of a speed that is left after a time h. damping: 1/s
 [[nodiscard]] inline float decay(float damping, float h)
 {
     return damping > 0 ? static_cast<float>(exponential(-static_cast<double>(damping) * static_cast<double>(h))) : 1.0f;
@@ -42,19 +42,19 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
 
 [[nodiscard]] ContactConstraint prepare_constraint(const StepContext& ctx, int contact, const Manifold& manifold, std::int32_t a,
                                                    std::int32_t b);
-/// The state of a body as the island's constraints see it: all that does not move shares the first, kinematic bodies have a copy in every island. none: it
-/// belongs to another island.
+/// The index of a body's state as the island's constraints see it. All fixed and sleeping bodies share the
+/// first state; kinematic bodies have a copy in every island. none: the body belongs to another island.
 [[nodiscard]] std::int32_t state_for_constraints(const StepContext& ctx, const Island& island, int body);
-/// A body in flight; joint: the hinge to the world that it turns on, or none.
+/// A body in flight. joint: the hinge to the world about which it turns, or none.
 [[nodiscard]] Flier make_flier(const StepContext& ctx, std::int32_t state, int body, int joint);
 
-/// To which depth a contact with what does not give way may go: half of what is inside the other side. Boxes that were put deeper come out by themselves.
+/// The depth that a contact with an immovable body may reach: half of the inner radius of the other side. Boxes that were put deeper come out by themselves.
 [[nodiscard]] float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives);
 
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the constraint.
 void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& manifold);
 
-/// In small islands constraints are looked at anew within the step.
+/// In small islands constraints are recomputed within the step.
 inline void follow_closely(const Contact& contact, const Island& island, ContactConstraint& constraint)
 {
     const bool round = (contact.flags & contact_flag::round) != 0;
@@ -62,14 +62,14 @@ inline void follow_closely(const Contact& contact, const Island& island, Contact
     constraint.followed = island.policy.recomputes_contacts && !round;
 }
 
-/// A piece of a chain or an arc that has no point with a body now may have one before the step is over, as the body slides over a seam: in small
-/// islands such contacts have constraints without points, that are looked at anew.
+/// A piece of a chain or an arc that has no point with a body now may get one within the step, as the body
+/// slides over a seam. In small islands such contacts have constraints without points, which are recomputed.
 [[nodiscard]] inline bool may_come_to_face(const Contact& contact, const Island& island)
 {
     return island.policy.recomputes_contacts && !means_apart(contact) && (contact.flags & contact_flag::round) == 0;
 }
 
-/// All impulses of the last sub-step, for a sub-step of another length.
+/// Scales all impulses of the last sub-step to a sub-step of another length.
 void scale_constraint(ContactConstraint& constraint, float by);
 
 } // namespace carom::internal

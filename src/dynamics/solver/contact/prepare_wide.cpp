@@ -1,3 +1,5 @@
+// Moves single contacts into lanes of wide contact constraints, and back.
+
 #include "dynamics/solver/contact/prepare_wide.h"
 
 #include "collision/edge_rules.h"
@@ -25,7 +27,7 @@ struct Lane
           notes(scratch.solver.wide_notes[as_index(lane / lane_count)]), i(lane % lane_count)
     {}
 
-    // J M^-1 J^T of the normal, as the kernels have it.
+    // J M^-1 J^T of the normal, as in the kernels.
     [[nodiscard]] float k(const WidePoint& p) const
     {
         const float mass = constraint.inverse_mass_a.v[i] + constraint.inverse_mass_b.v[i];
@@ -39,7 +41,7 @@ const StateConstants& constants_of(const StepContext& ctx, std::int32_t state)
     return ctx.scratch.solver.constants[static_cast<std::size_t>(state)];
 }
 
-// Two points that are not nearly in one place.
+// True if the two points do not nearly coincide.
 bool are_distinct(const Lane& lane)
 {
     const float coupling = lane.constraint.coupling.v[lane.i];

@@ -1,3 +1,5 @@
+// Recomputes manifolds within the step, and moves constraints over the seams of chains and arcs.
+
 #include "dynamics/solver/contact/recomputed_contacts.h"
 
 #include "dynamics/narrowphase/contact_update.h"
@@ -16,7 +18,7 @@ namespace {
 
 constexpr float follow_turn = 0.03f; // rad
 
-// Each new point takes over what the old one of the same feature bore; what is left over counts in the sum over the step.
+// Each new point takes over the impulses of the old point with the same feature; impulses of the others count in the sum over the step.
 void carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint& constraint)
 {
     ConstraintPoint points[2];
@@ -75,7 +77,6 @@ void RecomputedContacts::add_constraint_beyond_seam(int index, int body, std::in
     follow_closely(contact, m_work.island, m_work.output.late_constraints.back());
 }
 
-// The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
 void RecomputedContacts::predict_curvatures()
 {
     m_work.for_each_constraint([this](ContactConstraint& constraint) { predict_curvature(constraint); });
@@ -102,14 +103,14 @@ void RecomputedContacts::predict_curvature(ContactConstraint& constraint) const
     p.predicted_curvature = ahead.points[0].separation - (now + m_work.ctx.h * dot(v, constraint.n));
 }
 
-// By a kinematic body that turns.
+// True if a turning kinematic body carries the contact.
 bool RecomputedContacts::is_carried(const ContactConstraint& constraint) const
 {
     const auto carries = [](const BodyState& s) { return (s.flags & body_flag::dynamic) == 0 && s.angular_velocity != 0; };
     return carries(m_work.view.states[constraint.a]) || carries(m_work.view.states[constraint.b]);
 }
 
-// Of corners and edges, to second order in the turn: points go around, and the face of a, or of b, turns meanwhile.
+// The curvature for corners and edges, to second order in the rotation: points move on circles, while the face of a, or of b, turns.
 void RecomputedContacts::predict_turn(ContactConstraint& constraint) const
 {
     const BodyState& a = m_work.view.states[constraint.a];
@@ -132,7 +133,7 @@ void RecomputedContacts::recompute()
                                { constraint.followed != 0 ? follow(constraint) : refresh_constraint(constraint); });
 }
 
-// Corners and edges that have turned face each other elsewhere; what a turning body carries must not lag behind it.
+// Corners and edges of turned bodies face each other elsewhere; a contact that a turning body carries must not lag behind it.
 void RecomputedContacts::follow(ContactConstraint& constraint)
 {
     const BodyState& a = m_work.view.states[constraint.a];
@@ -145,7 +146,7 @@ void RecomputedContacts::follow(ContactConstraint& constraint)
     carry_points(m_work.ctx.state.contacts[constraint.contact].manifold, fresh, constraint);
     set_constraint_geometry(m_work.scratch, constraint, fresh);
     m_work.ctx.state.contacts[constraint.contact].manifold = fresh;
-    impulses_of(m_work.ctx.state, constraint.contact) = {}; // the constraint has them
+    impulses_of(m_work.ctx.state, constraint.contact) = {}; // the constraint holds them
 }
 
 bool RecomputedContacts::has_turned(Rotation from, Rotation to, float least)
@@ -175,12 +176,12 @@ void RecomputedContacts::refresh_constraint(ContactConstraint& constraint)
         return;
     leave_color(m_work.ctx.state, m_work.ctx.state.contacts[now.contact]);
     m_work.ctx.state.contacts[now.contact].color =
-        std::exchange(m_work.ctx.state.contacts[constraint.contact].color, none); // of the same bodies
+        std::exchange(m_work.ctx.state.contacts[constraint.contact].color, none); // both contacts have the same bodies
     forget_impulses(m_work.ctx.state, constraint.contact);
     constraint.contact = now.contact;
 }
 
-// Onto the piece that it left before.
+// Rolls back onto the piece that the shape left before.
 void RecomputedContacts::roll_back(ContactConstraint& constraint)
 {
     const Manifold now = manifold_of(constraint.contact, constraint, 0);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Contacts that are found anew within the step: of bodies so few that a contact decides where one of them goes.
+// Contacts that are recomputed within the step: in islands of so few bodies that one contact decides where a body goes.
 
 #include "dynamics/solver/solved_island.h"
 
@@ -11,11 +11,11 @@ class RecomputedContacts
 public:
     explicit RecomputedContacts(SolvedIsland& work) : m_work(work) {}
 
-    /// Constraints without points, for pieces of chains and arcs that a body may come to face within the step.
+    /// Adds constraints without points for pieces of chains and arcs that a body may come to face within the step.
     void add_constraints_beyond_seams();
-    /// The true separation at the pose that the present velocities lead to, less the straight-line prediction of it.
+    /// Finds the true separation at the pose that the present velocities lead to, less its straight-line prediction.
     void predict_curvatures();
-    /// At the poses that have been reached.
+    /// Recomputes contacts at the poses that have been reached.
     void recompute();
 
 private:

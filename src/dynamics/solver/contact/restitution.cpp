@@ -1,5 +1,5 @@
-// What constraints have stopped in a sub-step bounces off, and users are told of it. Constraints of small islands are asked one by one, of lanes those that the kernels have
-// found struck while relaxing.
+// Lets bodies bounce off where constraints have stopped them in a sub-step, and reports the impacts. Constraints outside of
+// lanes are checked one by one; in lanes, only those are checked that the kernels have found struck while relaxing.
 
 #include "dynamics/solver/contact/restitution.h"
 #include "dynamics/solver/effective_mass.h"
@@ -25,7 +25,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t enough_lanes = 64; // to share
+constexpr std::size_t enough_lanes = 64; // to share among threads
 
 class Bounces
 {
@@ -57,7 +57,7 @@ private:
             m_scratch.solver.impact_constraints[static_cast<std::size_t>(m_island.first_impact_constraint + i)])];
     }
 
-    // What two parts of the plane have shares no body that gives way: threads bounce what is in them side by side, then one what crosses.
+    // Two partitions share no body that has finite mass: threads bounce the lanes of partitions side by side, then one thread those of boundary constraints.
     void bounce_lanes(int k, WorkerTeam& team)
     {
         find_struck_lanes();
@@ -110,7 +110,7 @@ private:
         }
     }
 
-    // First who stands in the lane, then the contact, then its shapes and where it is.
+    // Prefetches the contact indices of a later lane, then the contact, then its shapes and position.
     [[gnu::always_inline]] void prefetch_struck(std::size_t i) const
     {
         const std::vector<std::int32_t>& lanes = m_output.struck_lanes;
@@ -129,7 +129,7 @@ private:
         prefetch_line(&state.sims[static_cast<std::size_t>(contact.body_a)]);
     }
 
-    // It bears a load: told once, bounced once.
+    // For a lane that bears a load: it is reported once and bounces once.
     void bounce_lane(std::int32_t lane, int k, ImpactReport& told)
     {
         const WideContact& wide = m_wide[lane / lane_count];
@@ -156,7 +156,7 @@ private:
         put_impulses(m_scratch, constraint, index);
     }
 
-    // What flies off is not pushed again by warm starting.
+    // Warm starting must not push points again that have bounced off.
     void forget_pushes(const ContactConstraint& before, const ContactConstraint& after)
     {
         for (int i = 0; i < before.count; ++i)
@@ -168,7 +168,7 @@ private:
         }
     }
 
-    // Of an impulse that no constraint gives again.
+    // Notes an impulse that no constraint applies again.
     void note_push(const ContactConstraint& constraint, const ConstraintPoint& p, Vec2 impulse)
     {
         if (!m_notes_pushes)
@@ -197,7 +197,7 @@ private:
         for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
         {
             if (p.approach > 0 && came_at(constraint, p) <= 0)
-                p.approach = 0; // the normal has turned away from it meanwhile
+                p.approach = 0; // the normal has turned away from the approach
             load += p.normal_impulse;
             if (p.normal_impulse > 0)
                 approach = std::max(approach, p.approach);
@@ -210,7 +210,7 @@ private:
             resolve_impact(constraint, approach, k, m_output);
     }
 
-    // The approach speed when the sub-step began, along the normal that the constraint has now.
+    // The approach speed when the sub-step began, along the present normal of the constraint.
     [[nodiscard]] float came_at(const ContactConstraint& constraint, const ConstraintPoint& p) const
     {
         const BodySpeeds& a = m_scratch.solver.speeds[as_index(constraint.a)];
@@ -239,7 +239,7 @@ private:
         take_impulses(constraint, e, kick.speed);
         forget_pushes(before, constraint);
         ++told.bulk_impacts;
-        if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted them; or thrown them beyond all numbers
+        if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted the bodies, or speeds overflowed
             append(told.impacts, event);
     }
 
@@ -248,7 +248,7 @@ private:
         return e * std::max(p.approach, 0.0f) + kick;
     }
 
-    // How much separating speed a point still lacks.
+    // The separating speed that a point still lacks.
     [[nodiscard]] float missing_speed(const ContactConstraint& constraint, const ConstraintPoint& p, float e, float kick) const
     {
         return wanted_speed(p, e, kick) - constraint_speed(m_view, constraint, p);
@@ -268,14 +268,14 @@ private:
             apply_impulse(m_view.states[state], m_view.constants[state], arm, impulse);
     }
 
-    // What does not is in all parts of the plane: what all threads read, none writes.
+    // A body of infinite mass may be in all partitions: all threads read it, and none writes it.
     [[nodiscard]] bool has_finite_mass(std::int32_t state) const
     {
         const StateConstants& c = m_view.constants[state];
         return c.inverse_mass != Vec2{} || c.inverse_inertia != 0;
     }
 
-    // Two points struck at once bounce at once: a box that lands flat bounces flat.
+    // Two points that are struck at once bounce at once: a box that lands flat bounces flat.
     void bounce_points(ContactConstraint& constraint, float e, float kick)
     {
         if (e <= 0 && kick <= 0)
@@ -306,7 +306,7 @@ private:
         }
     }
 
-    // Points that fly off are not pushed again by warm starting.
+    // Points that bounce off are not pushed again by warm starting.
     static void take_impulses(ContactConstraint& constraint, float e, float kick)
     {
         for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
@@ -319,7 +319,7 @@ private:
         }
     }
 
-    // The points that struck count as one between them, for their impulses act along one line. A corner that only bears a load has no part in it.
+    // The points that were struck count as one between them, because their impulses act along one line. A corner that only bears a load has no part in it.
     void fill_impact(const ContactConstraint& constraint, ImpactEvent& event) const
     {
         Vec2 arm_a{};
@@ -361,7 +361,7 @@ private:
         return s.velocity + cross(s.angular_velocity, arm);
     }
 
-    // The mass that a body shows at the arm's end along n; 0 where it does not give way.
+    // The effective mass of a body at the arm's end along n; 0 where it cannot move.
     static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
     {
         const float turn = cross(arm, n);
@@ -392,7 +392,7 @@ private:
     bool m_notes_pushes;
     const WideContact* m_wide;
     WideContactNotes* m_notes;
-    const std::uint8_t* m_struck; ///< lanes of each group
+    const std::uint8_t* m_struck; ///< bits of lanes, for each block
 };
 
 } // namespace

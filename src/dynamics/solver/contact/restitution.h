@@ -1,6 +1,6 @@
 #pragma once
 
-// What an island's constraints have stopped in a sub-step bounces, and is told.
+// Impacts that an island's constraints have stopped in a sub-step: they bounce and are reported.
 
 #include "core/worker_team.h"
 #include "dynamics/solver/contact/contact_solver.h"
@@ -10,17 +10,17 @@ namespace carom::internal {
 
 struct BouncingIsland
 {
-    const StepContext& ctx; ///< of the island's subdivisions
+    const StepContext& ctx; ///< with the island's subdivision of sub-steps
     const Island& island;
     IslandOutput& output;
     const SolverView& view;
-    bool notes_pushes; ///< it warm starts by body: what is pushed beside the constraints must not be taken for what they give
+    bool notes_pushes; ///< it warm starts by body: impulses beside the constraints must not count as theirs
 };
 
-/// Of constraints that bear nothing yet, before the sub-step.
+/// Notes the approach speeds of constraints that bear no load yet, before the sub-step.
 void note_approaches(const BouncingIsland& island);
 
-/// At the end of sub-step k.
+/// Called at the end of sub-step k.
 void bounce(const BouncingIsland& island, int k, WorkerTeam& team);
 
 } // namespace carom::internal

@@ -1,10 +1,10 @@
 #pragma once
 
-// Contacts of large islands, eight side by side: no two of a group share a moving body. They are solved in the contact's own frame. With
-// n the normal, t = perp(n), and r the lever arm of a point, r × t = r · n, so that two scalars per body and point say everything:
+// Contacts of large islands, eight side by side: no two in a block share a body that has finite mass. They are solved in the contact's own
+// frame. With n the normal, t = perp(n), and r the lever arm of a point, r × t = r · n, so that two scalars per body and point suffice:
 //   across = r × n    the arm of the normal, and how the separation changes as the body turns
-//   along  = r · n    the arm of the tangent, and how the separation curves
-// Points and normals are those of the start of the step; what turns with them is the separation.
+//   along  = r · n    the arm of the tangent, and the curvature of the separation
+// Points and normals are those of the start of the step; only the separation follows the rotation.
 
 #include "core/lane_storage.h"
 #include "dynamics/solver/contact/contact_constraint.h"
@@ -22,57 +22,54 @@ struct WidePoint
     LaneFloats normal_impulse;
     LaneFloats tangent_impulse;
     LaneFloats tangent_mass;
-    LaneFloats separation;    ///< at the poses that bodies have, as relaxing found it
-    LaneFloats base;          ///< separation at the start of the step; later n · (relative displacement of the anchors) more
+    LaneFloats separation;    ///< at the present poses, as relaxing found it
+    LaneFloats base;          ///< separation at the start of the step, without n · (displacement of the anchors) since
     LaneFloats total_impulse; ///< over the step
     LaneFloats total_tangent;
 };
 
-/// What solving reads and writes, and nothing else: constraints of a large island come from memory in every sub-step. What follows from the masses with little
-/// arithmetic does not stand here.
+/// Holds only what solving reads and writes: the constraints of a large island come from memory in
+/// every sub-step. Values that follow from the masses with little arithmetic are not stored.
 struct alignas(64) WideContact
 {
-    LaneInts a; ///< states
+    LaneInts a; ///< indices of states
     LaneInts b;
     LaneFloats nx;
     LaneFloats ny;
-    LaneFloats inverse_mass_a; ///< 0 as the inertia: does not give way; read by all threads, written by none
+    LaneFloats inverse_mass_a; ///< 0 like the inertia for an immovable body, which all threads read and none writes
     LaneFloats inverse_mass_b;
     LaneFloats inverse_inertia_a;
     LaneFloats inverse_inertia_b;
     LaneFloats friction;
-    LaneFloats coupling; ///< of two normals, J1 M^-1 J2^T
+    LaneFloats coupling; ///< of the two normals, J1 M^-1 J2^T
     WidePoint points[2];
 };
 static_assert(sizeof(WideContact) == 1024);
 
-/// Who stands in the lanes of a constraint, and what is known of their contacts; masks are of lanes.
+/// The contacts in the lanes of a constraint and what is known of them; masks have a bit for each lane.
 struct alignas(64) WideContactNotes
 {
     LaneInts contact; ///< none: the lane is empty
     LaneInts body_a;
     LaneInts body_b;
-    LaneFloats approach[2];  ///< speed of the points at the start of the sub-step, of groups in which a lane may have been struck
-    std::int32_t count;      ///< points, the same in all lanes
-    std::uint32_t may_hit;   ///< bore nothing when the step began and have not been struck
+    LaneFloats approach[2];  ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
+    std::int32_t count;      ///< number of points, the same in all lanes
+    std::uint32_t may_hit;   ///< bore no load when the step began and have not been struck
     std::uint32_t loaded;    ///< the contact has contact_flag::loaded
-    std::uint32_t untold;    ///< did not touch when the step began, and the touch is not told
+    std::uint32_t untold;    ///< did not touch when the step began, and the touch is not reported yet
     std::uint32_t edge_of_b; ///< the normal is that of an edge of b
     std::uint32_t nearest;   ///< the normal leads from corner to corner
-    std::uint32_t kept;      ///< the manifold is kept
+    std::uint32_t kept;      ///< the manifold is cached
     std::uint32_t followed;  ///< the contact has contact_flag::followed
 };
 
-/// More constraints than this come from memory, for the third cache does not hold them: 8 MB.
-inline constexpr std::int32_t most_near_constraints = 8'192;
-
-/// Groups that have as many points each, and no two share a body that gives way.
+/// Blocks with the same number of points, no two of which share a body that has finite mass.
 struct WideBucket
 {
     WideContact* constraints;
     WideContactNotes* notes;
     std::int32_t count;
-    bool are_far; ///< those of the next turns are asked for
+    bool are_far; ///< they come from memory: later ones are prefetched
 };
 
 struct WideSoftness
@@ -81,9 +78,9 @@ struct WideSoftness
     float inverse_h;
     float push_speed;
     Softness contact;
-    Softness stiff;   ///< against what has infinite mass
-    float rest_speed; ///< approach below it is no blow
-    float share = 1;  ///< of the impulses, that relaxing adds to the sums
+    Softness stiff;   ///< against bodies of infinite mass
+    float rest_speed; ///< a slower approach is no impact
+    float share = 1;  ///< of the impulses, added to the sums by relaxing
 };
 
 } // namespace carom::internal

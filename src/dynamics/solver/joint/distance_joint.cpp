@@ -1,4 +1,4 @@
-// Distance: C = |gap| - length along the line between the anchors; equal limits hold it, different ones bound it.
+// Distance joint: C = |gap| - length along the line between the anchors. Equal limits hold it, or spring it where it is soft; different limits bound it.
 
 #include "dynamics/solver/joint/joint_rows.h"
 

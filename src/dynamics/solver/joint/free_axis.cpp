@@ -1,4 +1,4 @@
-// What a hinge may do about its angle and a slider about its translation: limits, a motor, a spring.
+// The free axis of a joint: limits, a motor and a spring act on the angle of a hinge or on the translation of a slider.
 
 #include "dynamics/solver/joint/joint_rows.h"
 

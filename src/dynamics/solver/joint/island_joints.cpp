@@ -1,3 +1,5 @@
+// The passes over the joints of an island: wide joints by the SIMD kernels, the others directly or by sequential impulses.
+
 #include "dynamics/solver/joint/island_joints.h"
 
 #include "core/index.h"
@@ -79,7 +81,7 @@ void IslandJoints::close_gaps()
         internal::close_gaps(direct(), m_work.view, m_work.ctx.state, m_work.joints);
 }
 
-// Contacts of what joints connect, with what does not give way: those that stand in lanes, once more by themselves.
+// Finds the contacts of jointed bodies with bodies of infinite mass. In an island with wide contact constraints, each of them gets a scalar constraint as well.
 void IslandJoints::find_pulled_constraints()
 {
     m_work.output.pulled_constraints.clear();
@@ -110,7 +112,7 @@ void IslandJoints::add_pulled_constraint(int index, int body, std::int32_t own)
         prepare_constraint(m_work.ctx, index, contact.manifold, is_a ? own : other, is_a ? other : own));
 }
 
-// Pushes and given velocities, new joints and new lengths may ask for speeds that joints forbid.
+// Impulses and velocities set by the user, new joints and new lengths may produce speeds that the joints forbid.
 void IslandJoints::take_forbidden_speeds()
 {
     direct().look_again();
@@ -120,7 +122,7 @@ void IslandJoints::take_forbidden_speeds()
         direct().take_forbidden_speeds();
 }
 
-// Whoever has moved a limit or an anchor since the last step, it shows in what the joint is off by.
+// A limit or an anchor that was moved since the last step shows in the joint's error.
 void IslandJoints::note_moved()
 {
     const float tiny = 1e-4f * m_work.ctx.scene.tolerances.slop;
@@ -136,7 +138,7 @@ void IslandJoints::note_moved()
     }
 }
 
-// At the present pose.
+// Prepares the direct solve at the present pose.
 void IslandJoints::prepare_direct(DirectSolve::Masses masses)
 {
     if (m_work.joints.empty())
@@ -146,7 +148,7 @@ void IslandJoints::prepare_direct(DirectSolve::Masses masses)
     direct().prepare(m_work.view, m_work.ctx.state, m_work.joints, masses);
 }
 
-// Joints yield until they are closed again.
+// All joints of the island yield until all of them are closed again.
 void IslandJoints::go_on_yielding()
 {
     const float near = m_work.ctx.h * m_work.view.push_speed;
@@ -158,7 +160,8 @@ void IslandJoints::go_on_yielding()
     forget_pull();
 }
 
-// The loads of a pull into a wall are arbitrary and no start for the next sub-step: on a long lever they turn a body faster than a sub-step can follow.
+// The impulses of a pull into a wall are arbitrary, and a bad warm start for the next sub-step: on a long lever they turn a body faster than a sub-step
+// can follow.
 void IslandJoints::forget_pull()
 {
     const auto is_pulled = [&](std::int32_t a, std::int32_t b)

@@ -1,6 +1,6 @@
 #pragma once
 
-// The joints of an island over a step: hinges that stand in lanes, and the others, which are solved all at once where they are few.
+// The joints of an island over a step: wide joints, which are hinges in blocks of eight lanes, and the others, which are solved directly where they are few.
 
 #include "dynamics/solver/contact/partitions.h"
 #include "dynamics/solver/joint/direct/direct_solver.h"
@@ -14,13 +14,13 @@ class IslandJoints
 public:
     explicit IslandJoints(SolvedIsland& work);
 
-    /// Once a step: where joints are, what others than the solver have done to them since the last step, and which contacts they pull at.
+    /// Once per step: finds where the joints are, what was changed outside the solver since the last step, and at which contacts the joints pull.
     void begin_step();
-    /// At the present poses; so is prepare_direct.
+    /// Updates the joints to the present poses of the bodies. prepare_direct also works at the present poses.
     void place();
     void prepare_direct(DirectSolve::Masses masses);
 
-    /// Speeds towards limits, before a sub-step's forces.
+    /// Records the speeds toward limits, before the forces of a sub-step.
     void note_limit_approach();
     void kick_springs_before();
     void kick_springs_after();
@@ -29,10 +29,10 @@ public:
     void solve(bool use_bias, bool is_last);
     void bounce_off_limits(bool contacts_have_bounced);
     void finish_substep();
-    /// Where a body turns so fast within the sub-step that no straight path ends in the right place.
+    /// Closes gaps where a body turns so fast within the sub-step that no straight path ends at the right pose.
     void close_gaps();
 
-    /// The joints outside of lanes are solved all at once.
+    /// Whether the joints outside the wide blocks are solved all at once.
     [[nodiscard]] bool are_direct() const { return !m_work.joints.empty() && direct().is_ready(); }
     [[nodiscard]] DirectSolve& direct() const { return *m_work.output.direct; }
 

@@ -1,12 +1,13 @@
-// With k the inverse mass along the axis and x0 the rate at no impulse, the solution of x = x0 + k p(x):
+// The force law along a joint's free axis and its solution. With k the inverse mass along the axis and x0 the rate without impulse, the solution of
+// x = x0 + k p(x) is:
 //
-//   spring alone   x1 = (c x0 + k r) / (c + k), from p = (r - x) / c; beside it the axis answers with k1 = k c / (c + k)
-//   and a motor    x2 = target, but no farther from x1 than k1 * most
-//   and stops      x  = x2 within [lower, upper]
+//   spring alone   x1 = (c x0 + k r) / (c + k), from p = (r - x) / c; with the spring, the inverse mass of the axis is k1 = k c / (c + k)
+//   with a motor   x2 = target, but no farther from x1 than k1 * most
+//   with stops     x  = x2 within [lower, upper]
 //
-// A spring's impulse over a sub-step is h F, with F taken at the fraction theta of the sub-step: F = -k_s (e + theta h x) - c_s x. The part theta of
-// it acts before the bodies move, so that x is the mean rate of the drift, and the rest after. theta = 1/2 is the midpoint rule, which keeps the
-// energy of a free oscillation at any stiffness; theta = 1 is implicit Euler, which damps it. Both are stable at any stiffness and damping.
+// The impulse of a spring over a sub-step is h F, with F taken at the fraction theta of the sub-step: F = -k_s (e + theta h x) - c_s x. The part theta
+// of the impulse acts before the bodies move, so that x is the mean rate of the drift, and the rest acts after. theta = 1/2 is the midpoint rule, which
+// keeps the energy of a free oscillation at any stiffness; theta = 1 is implicit Euler, which damps it. Both are stable at any stiffness and damping.
 
 #include "dynamics/solver/joint/joint_axis.h"
 
@@ -19,7 +20,7 @@ namespace carom::internal {
 
 namespace {
 
-// A sub-step follows an oscillation up to this omega h at the midpoint; of faster ones it could only see every other swing.
+// The greatest omega h of an oscillation that the midpoint rule follows. A sub-step sees only every other swing of a faster one.
 constexpr float followed = 1;
 
 double stop_rate(float error, float h) { return static_cast<double>(-(error > 0 ? error : way_back * error) / h); }
@@ -89,7 +90,8 @@ AxisPiece AxisLaw::neighbour(const AxisPiece& piece, const AxisPiece& towards) c
     return towards;
 }
 
-// Along the rate: the lower stop at -2, the motor's greatest impulse at -1, the motor that keeps its rate at 0, and so on. Without a motor, 0 is free.
+// Positions in the order of the rate: the lower stop is at -2, the motor's greatest impulse at -1, the motor that keeps its rate at 0, and so on. Without a
+// motor, 0 is the free piece.
 int AxisLaw::place_of(const AxisPiece& piece) const
 {
     using Kind = AxisPiece::Kind;
@@ -98,7 +100,7 @@ int AxisLaw::place_of(const AxisPiece& piece) const
     return piece.kind == Kind::Driven || most == 0 ? 0 : piece.constant > 0 ? -1 : 1;
 }
 
-// Between the stops.
+// Whether the law has a piece at this position between the stops.
 bool AxisLaw::has_piece_at(int place) const
 {
     if (most == 0)

@@ -1,3 +1,5 @@
+// The poses, rows and errors of joints at given poses of their bodies.
+
 #include "dynamics/solver/joint/joint_bodies.h"
 
 #include "core/trigonometry.h"
@@ -11,7 +13,7 @@ namespace carom::internal {
 
 namespace {
 
-// Within a step bodies turn little: the arc sine's series is exact to a float's rounding there.
+// Bodies turn little within a step. There, the series of the arc sine is exact to the rounding of a float.
 float angle_of(Rotation turn)
 {
     const float s = turn.s;
@@ -23,7 +25,7 @@ float angle_of(Rotation turn)
     return static_cast<float>(arc_tangent(turn.s, turn.c));
 }
 
-// But for the angle.
+// The pose of a joint without its angle.
 JointPose place_anchors(const JointWork& work, const Placement& a, const Placement& b)
 {
     JointPose pose;
@@ -94,7 +96,7 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
     }
 }
 
-// k - c^T K^-1 c, with K of the held rows and c their coupling with the axis.
+// The Schur complement k - c^T K^-1 c, with K of the held rows and c their coupling with the axis.
 void weigh_axis(const JointBodies& bodies, JointRows& rows)
 {
     rows.axis_inverse_mass = bodies.couple(rows.axis, rows.axis);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The two bodies of a joint in the solver: where they are, how fast they approach along a row, and what an impulse does to them.
+// The two bodies of a joint in the solver: their poses, their speed along a row, and the effect of an impulse on them.
 
 #include "dynamics/solver/body_state.h"
 #include "dynamics/solver/contact/contact_solver.h"
@@ -31,7 +31,7 @@ struct JointBodies
         return dot(r.d, sb.velocity - sa.velocity) + r.arm_b * sb.angular_velocity - r.arm_a * sa.angular_velocity;
     }
 
-    // J M^-1 J'^T of two rows.
+    // J M^-1 J'^T for two rows.
     [[nodiscard]] float couple(const JointRow& r, const JointRow& q) const
     {
         return r.d.x * q.d.x * (ca.inverse_mass.x + cb.inverse_mass.x) + r.d.y * q.d.y * (ca.inverse_mass.y + cb.inverse_mass.y) +
@@ -44,7 +44,7 @@ struct JointBodies
         return k > 0 ? 1 / k : 0;
     }
 
-    /// Along the axis, with what the held rows answer; of soft ones, a share of it.
+    /// Applies an impulse along the axis together with the reaction of the held rows. Soft held rows give only a share of that reaction.
     void apply_along_axis(const JointRows& rows, float impulse, float share = 1) const
     {
         apply(rows.axis, impulse);
@@ -79,49 +79,49 @@ inline void set_axis_impulses(JointRecord& joint, const AxisImpulses& to)
     joint.impulses[slot_upper] = static_cast<float>(to.upper);
 }
 
-/// A hinge to the world whose body flies about it: flight keeps it.
+/// Whether the joint is a hinge to the world whose body is in flight about it. Such a hinge is enforced by flight, not by the solver.
 [[nodiscard]] inline bool is_in_flight(const SolverView& view, const JointWork& work)
 {
     return ((view.states[work.a].flags | view.states[work.b].flags) & body_flag::flier) != 0;
 }
 
-/// How far a body has come in the step.
+/// The displacement of a body since the start of the step.
 struct Placement
 {
     Vec2 shift{};
     Rotation turn{};
-    std::int32_t turns = 0; ///< whole ones beside it
+    std::int32_t turns = 0; ///< whole turns in addition
 };
-/// Where the present velocities lead it to by the end of the sub-step.
+/// Where the present velocities lead the body by the end of the sub-step.
 [[nodiscard]] Placement placed_ahead(const SolverView& view, std::int32_t state);
 [[nodiscard]] JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b);
 
 [[nodiscard]] JointPose present_pose(const SolverView& view, const JointWork& work);
 
-/// Poses and rows as the bodies stand now; of springs the pose alone.
+/// Computes the poses and rows at the present poses of the bodies; for springs, the poses only.
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
-/// The inverse mass along the axis, and how the held rows answer an impulse along it.
+/// Computes the inverse mass along the axis, and how the held rows react to an impulse along it.
 void weigh_axis(const JointBodies& bodies, JointRows& rows);
 
 /// All rows of a joint; a spring has none.
 void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 
-/// The rows that a joint keeps whatever happens: neither limits nor motors nor springs.
+/// The rows that a joint keeps in any case: no limits, motors or springs.
 [[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
 
-/// C of these rows where the bodies are there.
+/// C of the held rows for the given placements of the bodies.
 [[nodiscard]] Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b);
 
-/// It holds and does nothing else.
+/// Whether the joint has held rows and nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);
-/// A hinge or slider that moves: by a brake, or by a spring that is damped within a few swings.
+/// Whether the joint is a hinge or slider that dissipates energy in motion: by a brake, or by a spring that is damped within a few swings.
 [[nodiscard]] bool loses_energy(const JointRecord& joint);
 
-/// Rows that the direct solve has for it.
+/// The greatest number of rows that the joint has in the direct solve.
 [[nodiscard]] int most_rows_of(const JointRecord& joint);
 
-/// Whether its rows ask for the angle between the bodies.
+/// Whether the rows of the joint need the angle between the bodies.
 [[nodiscard]] bool has_angle(const JointRecord& joint);
 
 } // namespace carom::internal

@@ -1,7 +1,7 @@
 #pragma once
 
-// A joint in the words of the solver: rows of a Jacobian with their error at the pose the bodies have now. A joint's file says only what is
-// its own; joint_solver.cpp iterates over the rows of all kinds alike (and a direct solve over a tree of joints can read the same rows).
+// A joint as the solver sees it: rows of a Jacobian with their error at the present poses of the bodies. The file of a joint kind contains only what is
+// specific to that kind. joint_solver.cpp iterates over the rows of all kinds alike, and the direct solve reads the same rows.
 
 #include "dynamics/solver/joint/joint_axis.h"
 #include "dynamics/solver/softness.h"
@@ -12,7 +12,7 @@
 
 namespace carom::internal {
 
-/// dC = d · (vb - va) + arm_b wb - arm_a wa. Held at C = 0, or one that others act along.
+/// One scalar equation: dC = d · (vb - va) + arm_b wb - arm_a wa. It is held at C = 0, or it is the free axis along which spring, motor and limits act.
 struct JointRow
 {
     Vec2 d{};
@@ -25,11 +25,11 @@ struct JointRow
 struct JointRows
 {
     JointRow held[2];
-    JointRow axis; ///< the one line or angle along which the bodies may move against each other, where anything acts on that
+    JointRow axis; ///< line or angle along which the bodies may move relative to each other, if anything acts along it
     AxisActs acts;
     int held_count = 0;
     float axis_inverse_mass = 0; ///< while the held rows keep their speeds
-    float reaction[2] = {};      ///< impulses of the held rows by which they do, for an impulse of 1 along the axis
+    float reaction[2] = {};      ///< impulses by which the held rows keep their speeds, per unit impulse along the axis
 
     void hold(const JointRow& row) { held[held_count++] = row; }
     void clear() { *this = {}; }
@@ -37,22 +37,22 @@ struct JointRows
     [[nodiscard]] bool has_axis() const { return acts.any(); }
 };
 
-/// Impulse over mass = stretch e + speed u + acceleration a: of a spring, see springs.cpp.
+/// Impulse over mass = stretch e + speed u + acceleration a, for a spring; see springs.cpp.
 struct SpringKick
 {
     float stretch = 0;
     float speed = 0;
     float acceleration = 0;
-    float straight = 0; ///< by the acceleration of a body that does not drift along a parabola, beside that
+    float straight = 0; ///< additional coefficient of the acceleration of a body that does not drift along a parabola
 };
 
-/// Where the joint's bodies are now, within the step.
+/// The present pose of the joint's bodies, within the step.
 struct JointPose
 {
     Vec2 ra{}; ///< lever arms
     Vec2 rb{};
     Vec2 gap{};  ///< anchor b - anchor a
-    Vec2 axis{}; ///< slider
+    Vec2 axis{}; ///< axis of a slider
     float angle = 0;
 };
 
@@ -64,29 +64,29 @@ struct JointWork
     std::int32_t joint = none;
     std::int32_t a = 0;
     std::int32_t b = 0;
-    SpringKick before{}; ///< of a spring, before the bodies move
-    SpringKick after{};  ///< and after
-    AxisSpring spring{}; ///< along the free axis: of its own, or of its limits
+    SpringKick before{}; ///< kick of a spring before the bodies move
+    SpringKick after{};  ///< kick after they have moved
+    AxisSpring spring{}; ///< spring along the free axis: the joint's own, or that of its soft limits
     Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};                ///< slider's axis at the start of the step
     Vec2 gap0{};                 ///< anchor b - anchor a at the start of the step
     float angle0 = 0;            ///< joint angle at the start of the step
-    bool wraps = false;          ///< its angle is that of the shortest way
-    float approach[2] = {};      ///< towards the lower and upper limit, before a sub-step's forces
-    float bounce[2] = {};        ///< speeds at which it is to leave them
-    JointErrors errors_before{}; ///< when the sub-step began
-    JointErrors moved{};         ///< of these, what others than the solver have moved and it has not made good yet
+    bool wraps = false;          ///< its angle is that of the shortest rotation
+    float approach[2] = {};      ///< speeds toward the lower and upper limit, before the forces of a sub-step
+    float bounce[2] = {};        ///< speeds at which the joint is to leave its limits
+    JointErrors errors_before{}; ///< errors at the start of the sub-step
+    JointErrors moved{};         ///< parts of the errors that were made outside the solver and that it has not corrected yet
     bool yields = false;         ///< as in JointRecord
     Vec2 force_sum{};            ///< impulses over the step
     float torque_sum = 0;
-    JointPose pose{}; ///< as the bodies stand, since place_joints
+    JointPose pose{}; ///< present pose, computed by place_joints
     JointRows rows{};
 
-    /// As the rows stand.
+    /// The errors of the present rows.
     [[nodiscard]] JointErrors errors() const;
 
-    /// To the sums over the step, which are told as on body b.
+    /// Adds to the sums over the step, which are reported as acting on body b.
     void add(const JointRow& row, float impulse)
     {
         force_sum += impulse * row.d;
@@ -95,7 +95,7 @@ struct JointWork
     }
 };
 
-/// C of the rows that are held: of one alone, the second is 0.
+/// C of the held rows; if there is only one, the second value is 0.
 [[nodiscard]] inline Vec2 distance_error(const JointRecord& joint, const JointPose& pose)
 {
     return {length(pose.gap) - joint.lower, 0};
@@ -104,7 +104,7 @@ struct JointWork
 [[nodiscard]] inline Vec2 prismatic_error(const JointPose& pose) { return {dot(perp(pose.axis), pose.gap), pose.angle}; }
 
 void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
-void revolute_holds(const JointPose& pose, JointRows& out); ///< what is held alone
+void revolute_holds(const JointPose& pose, JointRows& out); ///< the held rows only
 void prismatic_holds(const JointPose& pose, JointRows& out);
 void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
 void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
@@ -124,7 +124,7 @@ void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, Jo
 /// Limits, motor and spring along a free coordinate, common to hinges and sliders.
 void act_along_axis(const JointRecord& joint, float coordinate, float h, AxisActs& out);
 
-/// The coordinate that the axis moves: a length, an angle, a translation.
+/// The coordinate along the free axis: a length, an angle, or a translation.
 [[nodiscard]] float axis_coordinate(const JointRecord& joint, const JointPose& pose);
 
 } // namespace carom::internal

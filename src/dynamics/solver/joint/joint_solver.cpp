@@ -1,6 +1,6 @@
-// Joint rows by sequential impulses, with the same soft constraint as contacts. Their default is as stiff as a sub-step allows, undamped
-// (hertz 0.25 / h, damping ratio 0): measured against a damped default it keeps 120 degree pendulums within 0.02 % of their period, where
-// the damped one loses 2 % of the energy in a minute. The relaxation pass takes out what the position correction puts in.
+// Joint rows by sequential impulses, with the same soft constraint as contacts. By default the rows are as stiff as a sub-step allows, and undamped (hertz
+// 0.25 / h, damping ratio 0). This keeps 120 degree pendulums within 0.02 % of their period, where a damped default loses 2 % of the energy in a minute.
+// The relaxation pass removes the speed that the position correction adds.
 
 #include "dynamics/solver/joint/joint_solver.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 // --- solving -----------------------------------------------------------------------------------------------------------------------
 
-// Two Hold rows as one: K (2x2) solved exactly; a direction in which nothing can move gets no impulse.
+// Solves two held rows as one block, with an exact 2x2 K. A direction in which nothing can move gets no impulse.
 void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows& rows, const Softness& s, bool use_bias)
 {
     const JointRow& x = rows.held[0];
@@ -48,7 +48,7 @@ void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows&
     bodies.apply(y, jy);
 }
 
-/// What the rows are solved with.
+/// Parameters with which the rows are solved.
 struct Pass
 {
     const Softness& softness;
@@ -56,7 +56,7 @@ struct Pass
     bool use_bias;
 };
 
-// All that acts along the axis as one. The held rows, which have been solved just before, keep what they have.
+// Solves everything that acts along the axis as one law. The held rows, which were solved just before, keep their speeds.
 void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const Pass& pass)
 {
     const JointRows& rows = work.rows;
@@ -209,7 +209,7 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
         {
             const float approach = work.approach[i];
             const float leave = joint.limit_restitution * approach;
-            // What presses ends a bounce so small within half the sub-step.
+            // A load on the stop ends so small a bounce within half the sub-step.
             const float pressed = work.rows.axis_inverse_mass * stopped[i] - approach;
             const bool bounces = stopped[i] > 0 && approach > rest_speed && leave > 0.5f * pressed;
             work.bounce[i] = bounces ? leave : 0;
@@ -255,7 +255,7 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
         if (joint.kind != JointType::Revolute || !joint.enable_limit)
             continue;
-        // Only against something immovable does a stop make the body immovable.
+        // A stop makes a body immovable only if the stop's other body is immovable.
         const bool b_free = view.constants[work.a].inverse_inertia == 0;
         BodyState& free = view.states[b_free ? work.b : work.a];
         const float tiny = 1e-3f;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The passes over joints, beside those over contact rows.
+// The solver's passes over joints, alongside those over contact constraints.
 
 #include "dynamics/solver/joint/direct/direct_solver.h"
 #include "dynamics/state/turns.h"
@@ -8,7 +8,7 @@
 
 namespace carom::internal {
 
-/// Anchors from the centers of mass at the start of the step, and anchor b - anchor a; world axes.
+/// Anchors relative to the centers of mass at the start of the step, and anchor b - anchor a; world axes.
 struct JointArms
 {
     Vec2 a{};
@@ -20,16 +20,16 @@ struct JointArms
 [[nodiscard]] JointWork prepare_joint(const StepContext& ctx, const Island& island, const SolvedJoint& place);
 
 void warm_start_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct);
-/// What joints hold is solved directly where that is ready, else a row at a time.
+/// Solves the joints all at once where the direct solve is ready, else row by row.
 void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct, float joint_hertz,
                   bool use_bias);
 
-/// Speeds towards the limits, before a sub-step's forces; and the bounce off them after it.
+/// Speeds toward the limits are recorded before the forces of a sub-step; bodies bounce off the limits after it.
 void note_limit_approach(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct,
                        float rest_speed);
 
-/// Sums impulses for the read-back; marks bodies that lean on a limit of a hinge to the world.
+/// Sums the impulses for the read-back, and marks bodies that lean on a limit of a hinge to the world.
 void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints);
 
 } // namespace carom::internal

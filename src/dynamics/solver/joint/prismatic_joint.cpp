@@ -1,5 +1,5 @@
 // Prismatic: with u the axis (turning with body a) and n = perp(u), C1 = n · gap and C2 = the relative angle are held; the translation u · gap is free.
-// Because u turns with a, a's lever arm reaches to anchor b: dC1 = n · (vb - va) + (rb x n) wb - ((ra + gap) x n) wa.
+// Because u turns with a, the lever arm of a reaches to anchor b: dC1 = n · (vb - va) + (rb x n) wb - ((ra + gap) x n) wa.
 
 #include "dynamics/solver/joint/joint_rows.h"
 

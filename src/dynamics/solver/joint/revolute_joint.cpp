@@ -1,4 +1,4 @@
-// Revolute: the anchors coincide, C = gap (two rows, solved as one block), and the angle may be limited, driven or sprung.
+// Revolute: the anchors coincide, C = gap (two rows, solved as one block). The angle may be limited, driven or sprung.
 
 #include "dynamics/solver/joint/joint_rows.h"
 

@@ -1,10 +1,10 @@
-// One spring, one mass, exactly. With e the stretch, u its rate, a the acceleration that everything else gives it (evenly, and already in the
-// velocities as h a), w² = k / m and B(t) the answer to an island of speed, the motion over a sub-step is
+// The exact motion of one mass on one spring. With e the stretch, u its rate, a the constant acceleration by everything else (already in the velocities as
+// h a), w² = k / m and B(t) the response to a unit of speed, the motion over a sub-step is
 //
 //   e' = A e + B u + G a      A = 1 - w² G,  G = integral of B over h
 //   u' = -w² B e + D u + B a  D = dB/dt
 //
-// The first kick makes the straight drift end at e', the second makes the speed u', from where the drift has in fact ended: frequency, decay, rest
+// The first kick makes the straight drift end at e'. The second kick makes the speed u', from where the drift has in fact ended. Frequency, decay, rest
 // position and energy come out right at any sub-step.
 
 #include "dynamics/solver/joint/springs.h"
@@ -18,7 +18,7 @@ namespace carom::internal {
 
 namespace {
 
-// Answer to an island of speed after h: where it is (B), its rate (D), and the way since (G).
+// Response to a unit of speed after h: the displacement (B), its rate (D) and its integral (G); and A.
 struct SpringAnswer
 {
     double b;
@@ -44,7 +44,7 @@ SpringAnswer answer_of(double stiffness, double damping, double mass, double h)
     const double decay = damping / (2 * mass);
     const double d2 = w2 - decay * decay;
     double b;
-    double even; // cos or cosh, faded
+    double even; // cos or cosh, decayed
     if (d2 > 0)
     {
         const double w = std::sqrt(d2);
@@ -89,16 +89,16 @@ SpringKick make_kick(double stretch, double speed, double acceleration, double s
 
 void fit_exactly(const SpringAnswer& s, double w2, double h, JointWork& work)
 {
-    // h (u + h a + kick) - h² a / 2 = e' - e; the speed at hand is u + h a. What drifts straight goes without h² a / 2.
+    // h (u + h a + kick) - h² a / 2 = e' - e; the present speed is u + h a. A body that drifts along a straight line has no term h² a / 2.
     const double by_speed = (s.b - h) / h;
     work.before = make_kick((s.a - 1) / h, by_speed, (s.g - 0.5 * h * h) / h - by_speed * h, -0.5 * h);
-    // Where it came from: e = e' - h v + h² a / 2 with v the speed at hand, u = (e' - A e - G a) / B.
+    // The state before the drift: e = e' - h v + h² a / 2 with v the present speed, u = (e' - A e - G a) / B.
     const double v_of_e = s.d / s.b;
-    const double by_e = -w2 * s.b - v_of_e * s.a; // of u' by e
+    const double by_e = -w2 * s.b - v_of_e * s.a; // coefficient of e in u'
     work.after = make_kick(v_of_e + by_e, -h * by_e - 1, 0.5 * h * h * by_e + s.b - v_of_e * s.g, -0.5 * h * h * by_e);
 }
 
-// Too stiff for the fitted step: an implicit one, stable at any stiffness, in the first kick alone.
+// For a spring too stiff for the exact step: an implicit step, stable at any stiffness, in the first kick alone.
 void fit_implicitly(double stiffness, double damping, double mass, double h, JointWork& work)
 {
     const double p = 1 / (1 + (h * damping + h * h * stiffness) / mass);
@@ -131,14 +131,14 @@ float kick(const SolverView& view, const JointRecord& joint, const JointWork& wo
     return impulse;
 }
 
-// Of a body on a hinge: 1 / (I + m r²).
+// The inverse inertia of a body on a hinge: 1 / (I + m r²).
 float inverse_inertia_about(const StateConstants& c, Vec2 arm)
 {
     const float r2 = dot(arm, arm);
     return r2 > 0 ? c.inverse_inertia / (1 + r2 * c.inverse_inertia / c.inverse_mass.x) : c.inverse_inertia;
 }
 
-// The same however the bodies stand, so that the spring has an energy.
+// Independent of the poses within the step, so that the spring has an energy.
 float inverse_spring_mass(const JointBodies& bodies, const JointRecord& joint, const JointWork& work)
 {
     if (joint.kind == JointType::Revolute)
@@ -150,7 +150,7 @@ float inverse_spring_mass(const JointBodies& bodies, const JointRecord& joint, c
     return k.x * d.x * d.x + k.y * d.y * d.y;
 }
 
-// The rest of what a hinge's or slider's spring gives in the sub-step.
+// Applies the rest of the impulse that the spring of a hinge or slider gives in the sub-step.
 void kick_along_axis(const SolverView& view, const JointRecord& joint, JointWork& work)
 {
     JointRows rows;

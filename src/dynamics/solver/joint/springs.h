@@ -1,6 +1,6 @@
 #pragma once
 
-// Springs: a kick before the bodies move and one after. Those along a free axis are solved with the joints (joint_axis.h) and kick after.
+// Springs: a kick before the bodies move and one after. Springs along a free axis are solved with the joints (joint_axis.h), and kick only after the move.
 
 #include "dynamics/solver/joint/joint_bodies.h"
 
@@ -8,11 +8,11 @@
 
 namespace carom::internal {
 
-/// The coefficients of both kicks, once a step: the effective mass changes little within it.
+/// Computes the coefficients of both kicks, once per step: the effective mass changes little within it.
 void fit_spring(const SolverView& view, const SceneState& state, JointWork& work);
 
-/// The same for the spring along the free axis of another joint, or of its limits. Where all drifts along parabolas it acts before the bodies move and
-/// after; elsewhere, and where it may come and go within the sub-step, all of it acts before.
+/// The same for the spring along the free axis of another joint, or for its soft limits. Where all bodies drift along parabolas, the spring acts before the
+/// bodies move and after. Elsewhere, and where the spring may engage or disengage within the sub-step, all of it acts before.
 void fit_axis_spring(const SolverView& view, const JointRecord& joint, bool direct, bool drifts, JointWork& work);
 
 void kick_springs_before(const SolverView& view, SceneState& state, std::span<JointWork> joints);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Hinges of large islands, eight side by side: no two of a group share a moving body. A hinge holds two anchors together; of some the angle is
-// limited, driven or sprung as well.
+// Wide joints: the hinges of large islands in blocks of eight lanes. No two lanes of a block share a body with finite mass. A hinge holds two anchors
+// together; its angle may be limited, driven or sprung as well.
 
 #include "core/lane_storage.h"
 #include "dynamics/solver/body_state.h"
@@ -11,26 +11,26 @@
 
 namespace carom::internal {
 
-/// What a hinge does about its angle; where it does nothing the numbers are such that no impulse comes of it.
+/// Spring, motor and limits on the angle of a hinge. In a lane without them, the values are such that no impulse results.
 struct WideAngle
 {
     LaneFloats start; ///< the angle at the start of the step
-    LaneFloats now;   ///< at the poses that bodies have, as relaxing found it
+    LaneFloats now;   ///< angle at the present poses, as computed by the relaxation
     LaneFloats target;
-    LaneFloats spring_rate;        ///< at which the spring gives nothing, per stretch
-    LaneFloats spring_conductance; ///< impulse per rate that it misses
+    LaneFloats spring_rate;        ///< rate at which the spring gives no impulse, per stretch
+    LaneFloats spring_conductance; ///< impulse per deviation from that rate
     LaneFloats spring_impulse;
     LaneFloats motor_speed;
-    LaneFloats motor_max; ///< impulse in a sub-step
+    LaneFloats motor_max; ///< greatest impulse in a sub-step
     LaneFloats motor_impulse;
     LaneFloats lower;
     LaneFloats upper;
     LaneFloats lower_impulse;
     LaneFloats upper_impulse;
-    LaneFloats torque_sum; ///< of impulses over the step
+    LaneFloats torque_sum; ///< sum of the impulses over the step
 };
 
-/// Where a hinge's anchors are, world axes.
+/// The anchors of a hinge, in world axes.
 struct WideArms
 {
     LaneFloats ax; ///< anchors from the centers of mass
@@ -41,12 +41,12 @@ struct WideArms
     LaneFloats gap_y;
 };
 
-/// What the arms are turned from.
+/// The anchors in body axes, from which the arms are rotated.
 struct WideAnchors
 {
     LaneInts body_a; ///< none: the world
     LaneInts body_b;
-    LaneFloats ax; ///< anchors from the centers of mass, axes of the bodies
+    LaneFloats ax; ///< anchors from the centers of mass, in body axes
     LaneFloats ay;
     LaneFloats bx;
     LaneFloats by;
@@ -62,15 +62,15 @@ struct WideJoint
     LaneFloats inverse_inertia_a;
     LaneFloats inverse_inertia_b;
     WideAnchors anchors;
-    WideArms start; ///< of the step
-    WideArms now;   ///< at the poses that bodies have, as relaxing found them
+    WideArms start; ///< at the start of the step
+    WideArms now;   ///< at the present poses, as computed by the relaxation
     LaneFloats impulse_x;
     LaneFloats impulse_y;
-    LaneFloats sum_x; ///< over the step
+    LaneFloats sum_x; ///< sum of the impulses over the step
     LaneFloats sum_y;
     WideAngle angle;
-    std::int32_t turns;    ///< whether any lane does something about its angle
-    std::uint32_t fixed_a; ///< lanes whose body a does not give way
+    std::int32_t turns;    ///< whether the angle of any lane is limited, driven or sprung
+    std::uint32_t fixed_a; ///< lanes whose body a has infinite mass
     std::uint32_t fixed_b;
     std::int32_t padding[5];
 };
@@ -79,7 +79,7 @@ struct JointSoftness
 {
     float inverse_h;
     Softness soft;
-    float share = 1; ///< of the impulses, that relaxing adds to the sums
+    float share = 1; ///< share of the impulses that the relaxation adds to the sums
 };
 
 } // namespace carom::internal

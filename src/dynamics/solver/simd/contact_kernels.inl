@@ -1,9 +1,9 @@
-// The contact passes, from equation to lanes; contact_solver.cpp has the same for a constraint at a time, and the equations. Part of kernels.inl.
+// The contact passes for eight or sixteen lanes; contact_solver.cpp has the equations, and the same for one constraint at a time. Part of kernels.inl.
 
 namespace contacts {
 
-// How passes read and write: of one group, with F8, or of two that stand one after the other and share no body that gives way, with F16. Of two, what is
-// named is the first one's; the second one's is a constraint further on.
+// How passes read and write data: of one block, with F8, or of two adjacent blocks that share no body that has
+// finite mass, with F16. Arguments name the first block; the data of the second lie one constraint further on.
 template <class F>
 struct Constraints;
 
@@ -71,8 +71,8 @@ CAROM_INLINE void write(LaneFloats& a, F x)
     Constraints<F>::write(a, x);
 }
 
-// Two that are solved together in a later turn. What fetches ahead by itself stops at the end of each page, after four constraints. Beyond the last there is nothing,
-// which does no harm.
+// Prefetches two blocks that a later iteration solves together. The hardware prefetcher stops at the
+// end of each page, after four constraints. Prefetching beyond the last block does no harm.
 CAROM_INLINE void fetch(const WideContact* constraints, const WideContactNotes* notes)
 {
     for (const std::size_t later : {prefetch_distance, prefetch_distance + 1})
@@ -82,7 +82,7 @@ CAROM_INLINE void fetch(const WideContact* constraints, const WideContactNotes* 
     }
 }
 
-// Calls pass(constraint, F()) for groups of a bin, two at a time as long as there are two.
+// Calls pass(constraint, F()) for the blocks of a bucket, two at a time as long as there are two.
 template <class Pass>
 CAROM_INLINE void for_each_block(const WideBucket& bucket, const Pass& pass)
 {
@@ -98,15 +98,15 @@ CAROM_INLINE void for_each_block(const WideBucket& bucket, const Pass& pass)
 }
 
 constexpr float least_k = std::numeric_limits<float>::min();
-constexpr float unyielding = 1e15f; // 1/kg; its square is a number, too
+constexpr float unyielding = 1e15f; // 1/kg; its square is finite
 
-// The bodies of a group and their relative velocity in the contact's frame.
+// The bodies of a block, and their relative velocity in the contact's frame.
 template <class F>
 struct Group
 {
     F nx, ny, mass_a, mass_b, inertia_a, inertia_b, mass;
     Speeds<F> a, b;
-    F vn, vt; ///< of b's center against a's
+    F vn, vt; ///< of b's center relative to a's
     F pn, pt; ///< impulses of this pass
 
     CAROM_INLINE Group(const WideContact& constraint, const BodyState* states)
@@ -127,7 +127,7 @@ struct Group
         pn = pt = F(0);
     }
 
-    // J M^-1 J^T of the normal. Where nothing gives way, as in empty lanes, no impulse is to speak of.
+    // J M^-1 J^T of the normal. Where no body can move, as in empty lanes, the value is so large that impulses are negligible.
     CAROM_INLINE F k(const WidePoint& p) const
     {
         const F across_a = read<F>(p.across_a);
@@ -168,7 +168,7 @@ struct Group
     }
 };
 
-// n · (displacement of the anchors): the centers' and, with c and s the cosine and sine of the turn, n · (R r - r).
+// n · (displacement of the anchors): that of the centers and, with c and s the cosine and sine of the rotation, n · (R r - r).
 template <class F>
 struct Displacement
 {
@@ -197,7 +197,7 @@ struct Soft
 {
     F bias_rate, give;
 
-    // Stiff against what has infinite mass.
+    // Stiff against bodies of infinite mass.
     CAROM_INLINE Soft(const Group<F>& g, const WideSoftness& s)
     {
         const auto stiff = (g.mass_a == F(0)) | (g.mass_b == F(0));
@@ -206,7 +206,7 @@ struct Soft
     }
 };
 
-// What a normal is solved for: its speed should become -bias, give = 1 / mass_scale is the softness.
+// The target of a normal: its speed should become -bias; give = 1 / mass_scale is the softness.
 template <class F>
 struct Target
 {
@@ -222,7 +222,7 @@ CAROM_INLINE Target<F> target_of(const Group<F>& g, const WidePoint& p, const So
             select(apart, F(1), soft.give)};
 }
 
-// At new poses, which stay until the next sub-step's turn.
+// The target at the new poses, which stay valid until the next sub-step is solved.
 template <class F>
 CAROM_INLINE Target<F> relaxed(const Group<F>& g, WidePoint& p, const Displacement<F>& d, const WideSoftness& s)
 {
@@ -247,8 +247,8 @@ CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const Target<F>& t)
     set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), F(0)));
 }
 
-// Two points at once. One after the other they never agree within a pass: each turns the body a little on the other's account and stacks lean.
-// A x + b >= 0, x >= 0, and of each pair one is 0; four cases.
+// Solves two points at once. One after the other, they never agree within a pass: each turns the body a little at the expense of the
+// other, and stacks lean. A linear complementarity problem with four cases: A x + b >= 0, x >= 0, and one of each pair is 0.
 template <class F>
 CAROM_INLINE void solve_normals(Group<F>& g, WideContact& constraint, const Target<F>& t1, const Target<F>& t2)
 {
@@ -301,7 +301,7 @@ CAROM_INLINE void solve_block(WideContact& constraint, BodyState* states, const 
     g.finish(constraint, states);
 }
 
-// The least separation of each lane.
+// The lesser of both blocks, lane by lane.
 CAROM_INLINE F8 of_both(F8 x) { return x; }
 CAROM_INLINE F8 of_both(F16 x) { return least(first_eight(x), second_eight(x)); }
 
@@ -328,7 +328,7 @@ CAROM_INLINE F8 relax_block(WideContact& constraint, BodyState* states, const Wi
     return of_both(points == 2 ? least(separation, read<F>(constraint.points[points - 1].separation)) : separation);
 }
 
-// How fast the points of a group came together when the sub-step began.
+// The approach speeds of the points of a block when the sub-step began.
 template <int points>
 CAROM_INLINE void note_approach(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before)
 {
@@ -342,7 +342,7 @@ CAROM_INLINE void note_approach(const WideContact& constraint, WideContactNotes&
     }
 }
 
-// Lanes that bear a load: struck harder than rest, or touching for the first time.
+// Lanes that bear a load and were struck faster than the rest speed, or touch for the first time.
 template <int points>
 CAROM_INLINE std::uint8_t struck_lanes(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before, float rest_speed)
 {
@@ -394,7 +394,7 @@ float relax_bucket(WideBucket bucket, BodyState* states, WideSoftness s, const B
 template <int points>
 void warm_start_bucket(WideBucket bucket, BodyState* states)
 {
-    bucket.are_far = true; // the first walk over constraints that no near cache holds
+    bucket.are_far = true; // the first pass over constraints that no near cache holds
     for_each_block(bucket, [&](WideContact& constraint, auto lanes) { warm_start_block<decltype(lanes), points>(constraint, states); });
 }
 

@@ -1,15 +1,15 @@
-// Constraints are filled from their contacts and impulses, and get their effective masses; refill_lane has the same for one lane. Part of kernels.inl.
+// Fills constraints from their contacts and impulses, and computes effective masses; refill_lane does the same for one lane. Part of kernels.inl.
 
 namespace fills {
 
-// What empty lanes read: nothing pushes.
+// Empty lanes read these: no impulse comes of them.
 constexpr Contact nobody{};
 constexpr ContactImpulses nothing{};
 
-// Lanes with that flag.
+// Lanes whose flags include that flag.
 CAROM_INLINE unsigned lanes_with(I8 flags, std::uint32_t flag) { return bits((flags & all_ints(flag)) != I8{}); }
 
-// From the contacts' k-th points.
+// Fills a point from the contacts' k-th points.
 CAROM_INLINE void fill_point(WidePoint& p, const Contact* const (&contacts)[lane_count], int k, F8 nx, F8 ny)
 {
     static_assert(offsetof(ManifoldPoint, anchor_b) == offsetof(ManifoldPoint, anchor_a) + 8);
@@ -60,12 +60,12 @@ void prepare(WideContact& constraint, std::int32_t points)
         const WidePoint& q = constraint.points[j];
         return mass + load(p.across_a) * load(q.across_a) * ia + load(p.across_b) * load(q.across_b) * ib;
     };
-    // Points nearly in one place share their load anyhow; solving for both would only divide noise.
+    // Points that nearly coincide share their load anyway; solving for both would only divide noise.
     const F8 limit = 0.9995f * root(k(0, 0) * k(1, 1));
     store(constraint.coupling, clamp(k(0, 1), -limit, limit));
 }
 
-// All but a, b, contact and count, which say what goes there.
+// Fills all but a, b, contact and count, which select the source.
 void fill(WideContact& constraint, WideContactNotes& notes, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants)
 {
     static_assert(offsetof(Contact, body_b) == offsetof(Contact, shape_a) + 12 &&

@@ -1,11 +1,11 @@
-// Manifolds that are followed where they stand, in the lanes of their constraints; manifold_cache.cpp has the same for one at a time, and what is kept. Part of
-// kernels.inl.
+// Follows cached manifolds in the lanes of their constraints; manifold_cache.cpp
+// does the same for one at a time, and says what is cached. Part of kernels.inl.
 
 namespace follows {
 
 using carom::internal::select;
 
-// Empty lanes see what this one sees.
+// The lane whose data empty lanes read as well.
 CAROM_INLINE int filled_lane(const LaneInts& contacts)
 {
     int some = 0;
@@ -22,7 +22,7 @@ CAROM_INLINE LaneInts with_all_lanes(LaneInts contacts)
     return contacts;
 }
 
-// Of eight contacts, what is kept of them, and their bodies.
+// The cached manifolds of eight contacts, and their bodies.
 struct Places
 {
     const CachedManifold* kept[lane_count];
@@ -72,7 +72,7 @@ CAROM_INLINE Turn select(I8 mask, const Turn& p, const Turn& q)
 
 CAROM_INLINE Arrow turned(const Turn& q, const Arrow& v) { return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y}; }
 
-// From center to center, taken in double.
+// The vector from center to center, subtracted in double.
 CAROM_INLINE Arrow centers_apart(const Places& places)
 {
     const auto apart = [&](int i) { return load2(&places.b[i]->center.x) - load2(&places.a[i]->center.x); };
@@ -83,7 +83,7 @@ CAROM_INLINE Arrow centers_apart(const Places& places)
 
 CAROM_INLINE F8 length_of(const Arrow& v) { return root(v.x * v.x + v.y * v.y); }
 
-// Two bodies, the one in whose axes something is kept being its own.
+// Two bodies; a cached manifold lies in the axes of the own one.
 struct Two
 {
     Turn a, b;
@@ -98,7 +98,7 @@ struct Two
     {}
 };
 
-// How the other has moved against the own body since then.
+// How the other body has moved relative to the own one since the manifold was cached.
 struct Change
 {
     Arrow displacement; ///< of its center
@@ -114,7 +114,7 @@ struct Change
         sine = now.s * then.c - now.c * then.s;
     }
 
-    // Of a circle of radius 1.
+    // The chord of the rotation on a circle of radius 1.
     CAROM_INLINE F8 chord() const { return length_of({sine, 1 - cosine}); }
 };
 
@@ -123,11 +123,11 @@ CAROM_INLINE I8 lanes_of(std::uint32_t bits)
     return (all_ints(bits) & eight_of(1, 2, 4, 8, 16, 32, 64, 128)) != I8{};
 }
 
-// Of eight contacts what is kept of them, as it lies there.
+// The cached manifolds of eight contacts, as they lie in memory.
 struct Kept
 {
     Arrow first[2];  ///< the edge, or both corners
-    Arrow second[2]; ///< the corners before the edge, or the cones of both
+    Arrow second[2]; ///< the corners that face the edge, or the cones of both
     Arrow last;      ///< the normal, or both radii
     Arrow center;
     Turn rotation;
@@ -153,10 +153,10 @@ struct Point
 {
     Arrow a, b; ///< anchors
     F8 separation;
-    I8 inside; ///< it is the corner itself that is before the edge
+    I8 inside; ///< it is the corner itself that faces the edge
 };
 
-// How the bodies of eight contacts stand to each other, and an edge to the corners before it; as Facing in manifold_cache.cpp.
+// The relative placement of the bodies of eight contacts, and of an edge and the corners that face it; as Facing in manifold_cache.cpp.
 struct Stand : Two
 {
     Arrow n;       ///< from a to b
@@ -166,8 +166,8 @@ struct Stand : Two
     F8 along[2];
     F8 end;
     F8 reach, radius;
-    F8 displacement; ///< how far any point of the other has moved against the edge's body since the manifold was found
-    F8 cosine; ///< of the angle that it has turned
+    F8 displacement; ///< bound for any point of the other relative to the edge's body, since the manifold was found
+    F8 cosine; ///< of the relative rotation since then
 
     CAROM_INLINE Stand(const Places& places, const Kept& kept, std::uint32_t edges_of_b)
         : Two(places, lanes_of(edges_of_b)), reach(kept.reach), radius(kept.radius)
@@ -233,7 +233,7 @@ CAROM_INLINE void put(WidePoint& to, const Point& p, const Arrow& n, I8 filled)
     store(to.base, select(filled, p.separation, none));
 }
 
-// It bore a load when the last step ended.
+// Lanes that bore a load when the last step ended.
 CAROM_INLINE I8 bears(const WideContact& constraint, int points)
 {
     I8 loaded = load(constraint.points[0].normal_impulse) > all(0);
@@ -242,15 +242,15 @@ CAROM_INLINE I8 bears(const WideContact& constraint, int points)
     return loaded;
 }
 
-// What has become of eight manifolds.
+// The result of following eight manifolds.
 struct Found
 {
     Arrow n;
     Point points[2];
     F8 separation; ///< the least
-    F8 second;     ///< of one point: of what would be another
+    F8 second;     ///< with one point: that of a potential second one
     F8 displacement, reach;
-    I8 holds; ///< what was kept is true still
+    I8 holds; ///< the cached manifold is still valid
 };
 
 CAROM_INLINE I8 is_best_still(const Stand& s, I8 inside, F8 lowest, const FollowedScene& scene)
@@ -259,14 +259,14 @@ CAROM_INLINE I8 is_best_still(const Stand& s, I8 inside, F8 lowest, const Follow
     return is_outside | ((s.displacement < all(scene.sure_displacement)) & (s.cosine > all(scene.sure_cosine)));
 }
 
-// What is known of eight contacts, as bits of lanes.
+// Flags of eight contacts, as bits of lanes.
 struct Kinds
 {
     std::uint32_t edge_of_b = 0;
     std::uint32_t nearest = 0;
 };
 
-// From corner to corner, as Nearest in manifold_cache.cpp.
+// Contacts from corner to corner, as Nearest in manifold_cache.cpp.
 CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found& found)
 {
     const Arrow from = turned(s.a, kept.first[0]);
@@ -290,10 +290,10 @@ CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found
     found.holds = (found.holds & ~lanes) | (leads_out & lanes);
 }
 
-// Within which there are points: as margin_of in manifold_cache.cpp.
+// The margin within which there are points: as margin_of in manifold_cache.cpp.
 CAROM_INLINE F8 margins_of(const LaneInts& contacts, const FollowedScene& scene)
 {
-    static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, shift) == 16 && offsetof(BoxPath, any_path) == 24);
+    static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, shift) == 16 && offsetof(BoxPath, any_displacement) == 24);
     F8 ax, ay, displacement_a, bx, by, displacement_b, unused;
     const auto path_of = [&](std::int32_t shape) { return reinterpret_cast<const char*>(scene.boxes + shape) + 16; };
     gather4([&](int i) { return path_of(scene.contacts[contacts.v[i]].shape_a); }, ax, ay, displacement_a, unused);
@@ -301,7 +301,7 @@ CAROM_INLINE F8 margins_of(const LaneInts& contacts, const FollowedScene& scene)
     return all(scene.speculation) + (length_of({bx - ax, by - ay}) + displacement_a + displacement_b);
 }
 
-// One point that gets no second, and is none that would not be found: as has_one_point in manifold_cache.cpp.
+// True where the single point gets no second one and would be found again: as has_one_point in manifold_cache.cpp.
 CAROM_INLINE I8 are_alone(const Found& now, F8 margin, const FollowedScene& scene)
 {
     return (margin + now.displacement < all(scene.surely) * now.reach) & (now.separation <= margin) & (now.second > margin);
@@ -336,7 +336,7 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
     return found;
 }
 
-// Lanes by what has become of their contacts.
+// Sorts lanes by what has become of their contacts.
 CAROM_INLINE void tell(I8 loaded, const WideContactNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, RefreshedContacts& found)
 {
     const I8 touching = ~lanes_of(notes.untold);
@@ -379,7 +379,7 @@ CAROM_INLINE std::uint32_t lanes_with_flag(const LaneInts& contacts, const Follo
     return lanes;
 }
 
-// The same for eight contacts with as many points each that are in no constraint now: into their manifolds.
+// The same for eight contacts that have the same number of points and are in no constraint now: writes into their manifolds.
 template <int points>
 void follow_eight(const LaneInts& contacts, Contact* into, const FollowedScene& scene, FollowedContacts& found)
 {
@@ -417,7 +417,8 @@ void follow_contacts(const LaneInts& contacts, int points, Contact* into, const 
     follow_points_of(contacts, into, scene, found);
 }
 
-// Along the direction that parted them, or the whole way that they have come: as room() in manifold_cache.cpp, which decides where it is close.
+// Tests along the direction that parted the bodies, or with the whole displacement if
+// none is known: as room() in manifold_cache.cpp, which decides close cases.
 std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
 {
     static_assert(offsetof(CachedParting, direction) == 0 && offsetof(CachedParting, arm) == 8);
@@ -440,7 +441,7 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
     return bits(margins_of(contacts, scene) + slack < room);
 }
 
-// Impulses of a point, side by side in a constraint, one after the other in a contact's.
+// Copies the impulses of each point, which are side by side in a constraint and one after the other in a contact.
 void take_impulses(const WideContact& constraint, WideContactNotes& notes, Contact* contacts, ContactImpulses* impulses)
 {
     static_assert(sizeof(PointImpulses) == 4 * sizeof(float) && offsetof(PointImpulses, normal) == 0 && offsetof(PointImpulses, tangent) == 4 &&

@@ -1,15 +1,15 @@
-// The hinges' passes; joint_solver.cpp has the same for a joint at a time. Part of kernels.inl.
+// The passes over hinges, eight side by side; joint_solver.cpp has the same for one joint at a time. Part of kernels.inl.
 //
 //   C = gap,  dC = vb + wb x rb - va - wa x ra            two rows solved as one: K = J M^-1 J^T is 2 x 2
-//   angle = angle at the start + the turn of b against a   a spring, a motor, and limits on either side, solved as one: joint_axis.cpp
+//   angle = angle at the start + rotation of b against a  a spring, a motor, and limits on either side, solved as one: joint_axis.cpp
 
 namespace joints {
 
-// What empty lanes read, and where anchors in the world stand.
+// Empty lanes read the first; an anchor in the world has the second as its body.
 constexpr JointRecord nothing{};
 constexpr BodySim world{};
 
-// Anchors of eight bodies from their centers of mass, axes of the bodies.
+// Anchors of eight bodies relative to their centers of mass, in the axes of the bodies.
 CAROM_INLINE void place_anchors(const BodySim* const (&sims)[lane_count], F8 x, F8 y, LaneFloats& local_x, LaneFloats& local_y)
 {
     static_assert(offsetof(BodySim, rotation) == 16 && offsetof(BodySim, local_center) == 24);
@@ -25,7 +25,7 @@ CAROM_INLINE void turn(const Turn& q, const LaneFloats& x, const LaneFloats& y, 
     store(arm_y, q.s * load(x) + q.c * load(y));
 }
 
-// Bodies are where the step begins.
+// Sets arms and gaps at the poses where the step begins.
 CAROM_INLINE void start(WideJoint& j, const BodySim* const (&a)[lane_count], const BodySim* const (&b)[lane_count])
 {
     WideArms& arms = j.start;
@@ -51,14 +51,14 @@ CAROM_INLINE const BodySim* sim_of(const BodySim* sims, std::int32_t body) { ret
 
 CAROM_INLINE Turn operator*(const Turn& a, const Turn& b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
 
-// To the nearest whole number, where there are less than four million.
+// To the nearest whole number, for magnitudes below four million.
 CAROM_INLINE F8 rounded(F8 x)
 {
     const F8 large = all(12582912.0f);
     return (x + large) - large;
 }
 
-// As hinge_angle of turns.cpp; turns are whole ones of each body.
+// As hinge_angle of turns.cpp; `turns` are the whole turns of each body.
 CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], const Turn& a, const Turn& b, const std::int32_t* turns)
 {
     Rotation references[lane_count];
@@ -77,14 +77,14 @@ CAROM_INLINE F8 hinge_angles(const JointRecord* const (&joints)[lane_count], con
     return angle + all(2 * pi) * (whole + rounded(part * all(0.5f / pi)));
 }
 
-// Of bodies on hinges: 1 / (I + m r²).
+// The inverse inertia of bodies about their hinges: 1 / (I + m r²).
 CAROM_INLINE F8 inverse_inertia_about(F8 inverse_mass, F8 inverse_inertia, F8 x, F8 y)
 {
     const F8 r2 = x * x + y * y;
     return select(r2 > all(0), inverse_inertia / (1 + r2 * inverse_inertia / inverse_mass), inverse_inertia);
 }
 
-// What drives and limits the angle.
+// Fills what drives and limits the angle.
 CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[lane_count], float h)
 {
     WideAngle& t = j.angle;
@@ -107,7 +107,7 @@ CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[la
     store(t.motor_speed, select(driven, speed, none));
     store(t.motor_max, select(driven, h * most, none));
     store(t.motor_impulse, select(driven, motor_impulse, none));
-    // As make_spring, with soft_spring_turn.
+    // As make_spring with soft_spring_turn.
     const F8 k = inverse_inertia_about(load(j.inverse_mass_a), load(j.inverse_inertia_a), load(j.anchors.ax), load(j.anchors.ay)) +
                  inverse_inertia_about(load(j.inverse_mass_b), load(j.inverse_inertia_b), load(j.anchors.bx), load(j.anchors.by));
     const F8 hertz = lanes_from([&](int i) { return joints[i]->hertz; });
@@ -122,7 +122,7 @@ CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[la
     store(t.torque_sum, none);
 }
 
-// All but a, b, joint and turns, which say what goes there.
+// Fills all but a, b, joint and turns, which select the source.
 void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const std::int32_t* turns, const StateConstants* constants, float h)
 {
     static_assert(offsetof(JointRecord, anchor_b) == offsetof(JointRecord, anchor_a) + 8 && slot_x == 0 && slot_y == 1);
@@ -193,7 +193,7 @@ struct Hinge
 {
     F8 mass_a, mass_b, inertia_a, inertia_b;
     Speeds<F8> a, b;
-    F8 ax, ay, bx, by; ///< arms now
+    F8 ax, ay, bx, by; ///< present arms
 
     CAROM_INLINE Hinge(const WideJoint& j, const BodyState* states)
     {
@@ -232,7 +232,7 @@ struct Hinge
     }
 };
 
-// The angle of (c, s) by its quarter, whose arc tangent's series is short: exact to a float's rounding up to a quarter turn in a step.
+// The angle of (c, s) from its quarter, whose arc tangent has a short series: exact to a float's rounding up to a quarter turn in a step.
 CAROM_INLINE F8 angle_of(F8 c, F8 s)
 {
     const F8 half = s / greatest(1 + c, all(1e-6f));
@@ -242,7 +242,7 @@ CAROM_INLINE F8 angle_of(F8 c, F8 s)
     return 4 * (u * series);
 }
 
-// Bodies have come to new poses.
+// Updates arms, gaps and angles to the new poses.
 CAROM_INLINE void place(WideJoint& j, const BodyState* states)
 {
     const Poses<F8> a = poses_of(states, j.a);
@@ -270,7 +270,7 @@ CAROM_INLINE void place(WideJoint& j, const BodyState* states)
     }
 }
 
-// The anchors stay together.
+// Holds the anchors together.
 CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 impulse_scale)
 {
     const F8 mass = h.mass_a + h.mass_b;
@@ -278,7 +278,7 @@ CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 i
     const F8 k12 = -(h.inertia_a * h.ax * h.ay + h.inertia_b * h.bx * h.by);
     const F8 k22 = mass + h.inertia_a * h.ax * h.ax + h.inertia_b * h.bx * h.bx;
     const F8 det = k11 * k22 - k12 * k12;
-    const F8 inverse_det = select(det > all(0), all(1) / det, all(0)); // empty lanes have no mass
+    const F8 inverse_det = select(det > all(0), all(1) / det, all(0)); // empty lanes have no inverse mass
     const F8 cx = (h.b.x - h.b.w * h.by) - (h.a.x - h.a.w * h.ay) + bias_rate * load(j.now.gap_x);
     const F8 cy = (h.b.y + h.b.w * h.bx) - (h.a.y + h.a.w * h.ax) + bias_rate * load(j.now.gap_y);
     const F8 old_x = load(j.impulse_x);
@@ -290,11 +290,11 @@ CAROM_INLINE void hold(Hinge& h, WideJoint& j, F8 bias_rate, F8 mass_scale, F8 i
     h.push(x, y);
 }
 
-// The angle, while the anchors are held as they are: after them, both are solved.
+// The effective mass of the angle while the anchors are held: the angle is solved after them, and then both are satisfied.
 struct AngleMass
 {
-    F8 k;      ///< inverse
-    F8 fx, fy; ///< what the anchors answer, for a twist of 1
+    F8 k;      ///< inverse effective mass
+    F8 fx, fy; ///< reaction of the anchors to a twist of 1
 
     CAROM_INLINE AngleMass(const Hinge& h, float held)
     {
@@ -312,7 +312,7 @@ struct AngleMass
     }
 };
 
-// Of what is beyond a stop a share goes back in each sub-step; while relaxing, a stop that bears is reached. As in joint_axis.cpp.
+// A share of the error beyond a stop is corrected in each sub-step; while relaxing, a stop that bears a load counts as reached. As in joint_axis.cpp.
 CAROM_INLINE F8 stop_rate(F8 error, const LaneFloats& borne, const JointSoftness& s, bool use_bias)
 {
     constexpr float way_back = 0.2f;
@@ -320,7 +320,7 @@ CAROM_INLINE F8 stop_rate(F8 error, const LaneFloats& borne, const JointSoftness
     return -s.inverse_h * (use_bias ? select(error > all(0), error, way_back * error) : apart);
 }
 
-// Spring, motor and limits as one: AxisLaw in joint_axis.cpp.
+// Solves spring, motor and limits as one: AxisLaw in joint_axis.cpp.
 CAROM_INLINE void hold_angle(Hinge& h, WideJoint& j, const JointSoftness& s, bool use_bias)
 {
     WideAngle& t = j.angle;

@@ -1,4 +1,4 @@
-// Which set of kernels this machine runs.
+// Selects the set of kernels for this machine.
 
 #include "dynamics/solver/simd/kernels.h"
 #include "carom/scene.h"
@@ -46,7 +46,7 @@ const Sets& sets()
     return all;
 }
 
-// The wish is the most that may be used; what the machine has not, or nobody knows, is no wish.
+// The environment variable names the best set allowed; a name that is unknown or that the machine does not support is ignored.
 const WideKernels* choose()
 {
     const char* wish = std::getenv("CAROM_ISA");

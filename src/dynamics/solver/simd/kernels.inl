@@ -1,4 +1,4 @@
-// All kernels for one instruction set, in a namespace of its own: CAROM_ISA. Every set does the same, bit for bit.
+// All kernels for one instruction set, in a namespace of its own: CAROM_ISA. Every set gives the same results, bit for bit.
 
 #include "collision/broad_phase.h"
 #include "core/lane_math.h"
@@ -20,7 +20,7 @@ namespace carom::internal::CAROM_ISA {
 
 namespace {
 
-// What bodies have now: eight of them, or twice eight.
+// The present speeds of eight bodies, or of sixteen.
 template <class F>
 struct Speeds
 {
@@ -35,7 +35,7 @@ struct Poses
 
 static_assert(sizeof(BodyState) == 32 && offsetof(BodyState, delta_position) == 16);
 
-// Of BodyState or BodySpeeds: both begin with them.
+// Reads BodyState or BodySpeeds: both begin with the speeds.
 template <class Body>
 CAROM_INLINE Speeds<F8> speeds_of(const Body* bodies, const LaneInts& index)
 {
@@ -66,7 +66,7 @@ CAROM_INLINE Turn turns_of(const BodySim* const (&sims)[lane_count])
     return q;
 }
 
-// Several groups, on several threads, may share a body that does not give way: it is not written.
+// Several blocks, on several threads, may share an immovable body: it is not written.
 CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds<F8>& v, unsigned fixed)
 {
     const auto at = [&](int i) { return reinterpret_cast<char*>(states + index.v[i]); };
@@ -79,7 +79,7 @@ CAROM_INLINE void put(BodyState* states, const LaneInts& index, const Speeds<F8>
     scatter4([&](int i) { return (fixed >> i & 1u) != 0 ? reinterpret_cast<char*>(unused + i) : at(i); }, v.x, v.y, v.w, v.flags);
 }
 
-// Of the states of a row or a hinge.
+// Fills in the masses of the states of a contact constraint or a hinge.
 template <class Wide>
 CAROM_INLINE void fill_masses(Wide& wide, const StateConstants* constants)
 {
@@ -93,7 +93,7 @@ CAROM_INLINE void fill_masses(Wide& wide, const StateConstants* constants)
     store(wide.inverse_inertia_b, inertia_b);
 }
 
-// Lanes whose body does not give way.
+// Lanes whose body is immovable.
 template <class F>
 CAROM_INLINE auto are_fixed(F inverse_mass, F inverse_inertia)
 {

@@ -1,3 +1,4 @@
+// The kernels for AVX2: eight lanes to a register.
 #include "core/compiler.h"
 #if CAROM_HAS_AVX_KERNELS
 #if !defined(__AVX2__)

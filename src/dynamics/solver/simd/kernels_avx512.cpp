@@ -1,4 +1,4 @@
-// Eight lanes as with AVX2, with twice as many registers and masks of their own.
+// The kernels for AVX-512: eight lanes as with AVX2, with twice as many registers and with mask registers.
 #include "core/compiler.h"
 #if CAROM_HAS_AVX_KERNELS
 #if !defined(__AVX512VL__)

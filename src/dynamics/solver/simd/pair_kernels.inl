@@ -1,13 +1,13 @@
-// Which pairs of boxes may meet, eight at a time; update_of in pair_update.cpp has the same for one. And which boxes have come to overlap, one against
-// eight neighbours. Part of kernels.inl.
+// Finds which pairs of boxes may meet, eight at a time; update_of in pair_update.cpp does the same for
+// one. Finds also which boxes newly overlap, one against eight neighbors. Part of kernels.inl.
 
 namespace pairs {
 
-// Of eight items what decides about their pairs.
+// The data of eight items that decide about their pairs.
 struct Boxes
 {
     F8 lx, ly, ux, uy;                 ///< at the start of the step
-    F8 shift_x, shift_y, any_path;      ///< their paths in it
+    F8 shift_x, shift_y, any_displacement;      ///< their paths in it
     F8 fat_lx, fat_ly, fat_ux, fat_uy; ///< and the fat ones
     I8 kind;                           ///< layer and traits, a byte each
 
@@ -15,33 +15,33 @@ struct Boxes
     CAROM_INLINE Boxes(const SweptBox* places, const Item& item)
     {
         static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
-                      offsetof(BoxPath, any_path) == 24 && offsetof(SweptBox, layer) == 28 && offsetof(SweptBox, traits) == 29 &&
+                      offsetof(BoxPath, any_displacement) == 24 && offsetof(SweptBox, layer) == 28 && offsetof(SweptBox, traits) == 29 &&
                       offsetof(SweptBox, box) == 32 && sizeof(Layer) == 1 && sizeof(ItemTraits) == 2);
         const auto at = [&](int offset)
         { return [&item, places, offset](int i) { return reinterpret_cast<const char*>(places + item(i)) + offset; }; };
         F8 kinds;
         gather4(at(0), lx, ly, ux, uy);
-        gather4(at(16), shift_x, shift_y, any_path, kinds);
+        gather4(at(16), shift_x, shift_y, any_displacement, kinds);
         gather4(at(32), fat_lx, fat_ly, fat_ux, fat_uy);
         kind = as_ints(kinds);
     }
 };
 
-// As least_gap.
+// As least_gap in broad_phase.h.
 CAROM_INLINE F8 least_gap(const Boxes& a, const Boxes& b)
 {
     const auto along = [](F8 a_low, F8 a_high, F8 b_low, F8 b_high, F8 shift)
     { return greatest(b_low + least(shift, all(0)) - a_high, a_low + least(-shift, all(0)) - b_high); };
     const F8 x = along(a.lx, a.ux, b.lx, b.ux, b.shift_x - a.shift_x);
     const F8 y = along(a.ly, a.uy, b.ly, b.uy, b.shift_y - a.shift_y);
-    return greatest(x, y) - (a.any_path + b.any_path);
+    return greatest(x, y) - (a.any_displacement + b.any_displacement);
 }
 
 void look_at_pairs(const BoxPair* eight, const SweptBox* places, float box_margin, SeenPairs& seen)
 {
     const Boxes a(places, [&](int i) { return eight[i].a; });
     const Boxes b(places, [&](int i) { return eight[i].b; });
-    // Without triggers and half-spaces, in one layer or the other.
+    // Plain items are neither triggers nor half-spaces, and lie in one of the two layers.
     constexpr std::uint32_t layer_bytes = 0xff;
     constexpr std::uint32_t trait_bytes = 0xffff00;
     const I8 kinds = a.kind | b.kind;
@@ -66,7 +66,7 @@ struct Bounds
 
 CAROM_INLINE Bounds bounds_of(const BoxBlock& k, int i) { return {k.lx[i], k.ly[i], k.ux[i], k.uy[i]}; }
 
-// A bit for each box of the block that overlaps.
+// Returns a bit for each box of the block that overlaps b.
 CAROM_INLINE unsigned overlapping(const BoxBlock& k, const Bounds& b)
 {
     static_assert(alignof(BoxBlock) == 32 && BoxBlock::size == lane_count);
@@ -74,7 +74,7 @@ CAROM_INLINE unsigned overlapping(const BoxBlock& k, const Bounds& b)
                 (load(k.uy) >= all(b.ly)));
 }
 
-// Around the boxes of a block that have changed.
+// The bounds of the changed boxes of a block.
 CAROM_INLINE Bounds around(const BoxBlock& k, unsigned changed)
 {
     Bounds all = bounds_of(k, std::countr_zero(changed));
@@ -87,7 +87,7 @@ CAROM_INLINE Bounds around(const BoxBlock& k, unsigned changed)
     return all;
 }
 
-// What boxes of block k, a bit for each, have come to overlap in block o. Of two that have changed the first in the tree finds the other.
+// New overlaps of boxes of block k, a bit of `near` for each, with boxes of block o. Of two boxes that have changed, the first in the tree finds the other.
 CAROM_INLINE std::uint64_t new_between(const MovingBlocks& tree, std::int32_t k, std::int32_t o, unsigned near)
 {
     const BlockPast& past = tree.past[o];
@@ -105,7 +105,7 @@ CAROM_INLINE std::uint64_t new_between(const MovingBlocks& tree, std::int32_t k,
     return boxes;
 }
 
-// Down the tree with all that have changed in the block at once.
+// Descends the tree with all changed boxes of the block at once.
 void new_overlaps(const MovingBlocks& tree, std::int32_t k, const OverlapSink& sink)
 {
     const unsigned changed = tree.past[k].changed;

@@ -1,8 +1,8 @@
-// Bodies move, eight side by side; Rotation::from_angle and IslandSolver::integrate_position have the same for one. Part of kernels.inl.
+// Moves eight bodies side by side; Rotation::from_angle and integrate_position in integrate.cpp do the same for one. Part of kernels.inl.
 
 namespace states {
 
-// By less than a quarter of a radian.
+// For less than a quarter of a radian.
 CAROM_INLINE Turn small_turn(F8 radians)
 {
     const D8 x = doubles(radians);
@@ -12,7 +12,7 @@ CAROM_INLINE Turn small_turn(F8 radians)
     return {floats(c), floats(s)};
 }
 
-// x += h v, or drift(), of all but fliers, as many as turn little from the first on, eight by eight. How many that were.
+// x += h v, or drift(), for all but fliers, eight by eight from the first on, as long as all turn little. Returns the number of these states.
 std::int32_t move(BodyState* states, const StateConstants* constants, std::int32_t count, float h)
 {
     static_assert(offsetof(StateConstants, acceleration) == 16);
@@ -29,7 +29,7 @@ std::int32_t move(BodyState* states, const StateConstants* constants, std::int32
         const I8 flies = have(body_flag::flier);
         const I8 drifts = have(body_flag::unbound);
         const F8 angle = h * v.w;
-        const I8 turns_little = (magnitude(angle) < all(0.25f)) & (p.c > all(-0.9f)); // counts no turn
+        const I8 turns_little = (magnitude(angle) < all(0.25f)) & (p.c > all(-0.9f)); // adds no whole turn
         if (bits(flies | turns_little) != 0xff)
             break;
         F8 displacement_x = h * v.x;

@@ -1,4 +1,5 @@
-// Where the bodies of eight leaves may go in a step, and the leaves' boxes; sweep_body in sweep.cpp and leaf_bounds in bounds.cpp have the same for one. Part of kernels.inl.
+// Finds how far the bodies of eight leaves may go in a step, and the leaves' boxes; sweep_body in
+// sweep.cpp and leaf_bounds in bounds.cpp do the same for one. Part of kernels.inl.
 
 namespace sweeps {
 
@@ -10,11 +11,11 @@ CAROM_INLINE F8 length_of(F8 x, F8 y)
     return floats(root(dx * dx + dy * dy));
 }
 
-// Of how eight bodies move.
+// Displacements of eight bodies.
 struct Ways
 {
     F8 x, y;    ///< of their centers
-    F8 any_path; ///< of any point beside that, by turning and by the bend of its parabola
+    F8 any_displacement; ///< of any point beyond that, by rotation and by the curvature of its parabola
     F8 motion;  ///< of any point
     I8 sound;
 
@@ -33,8 +34,8 @@ struct Ways
         y = dt * vy + dt * dt * (gravity_scale * step.gravity.y + inverse_mass_y * fy);
         const F8 angle = (magnitude(w) + dt * inverse_inertia * magnitude(torque)) * dt;
         const F8 bend = 0.5f * length_of(x - dt * vx, y - dt * vy);
-        any_path = extent * least(angle, all(2)) + bend;
-        motion = length_of(x, y) + any_path;
+        any_displacement = extent * least(angle, all(2)) + bend;
+        motion = length_of(x, y) + any_displacement;
         sound = motion + magnitude(w) + magnitude(torque) < all(1e15f);
     }
 };
@@ -44,7 +45,7 @@ struct Bounds
     F8 lx, ly, ux, uy;
 };
 
-// Of their leaves, in floats, rounded outwards.
+// Bounds of the leaves, in floats, rounded outwards.
 CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
 {
     static_assert(offsetof(BodySim, center) == 0 && offsetof(BodySim, rotation) == 16 && offsetof(BodySim, local_center) == 24);
@@ -61,7 +62,7 @@ CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
     for (const int count : eight.corner_counts)
         most = count > most ? count : most;
     for (int k = 0; k < most; k += 2)
-    { // an odd corner comes with the one before it once more
+    { // an odd last corner is read together with the one before it
         const auto two_corners = [&](int i)
         {
             const int last = eight.corner_counts[i] - 2;
@@ -91,23 +92,23 @@ CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
     return {outwards(x, b.lx, -spacing), outwards(y, b.ly, -spacing), outwards(x, b.ux, spacing), outwards(y, b.uy, spacing)};
 }
 
-// What the boxes cover on their ways, and a margin.
+// Bounds of the boxes over their displacements, with a margin.
 CAROM_INLINE Bounds swept(const Bounds& tight, const Ways& displacement, float margin)
 {
     const F8 none = all(0);
-    return {tight.lx + least(displacement.x, none) - displacement.any_path - margin, tight.ly + least(displacement.y, none) - displacement.any_path - margin,
-            tight.ux + greatest(displacement.x, none) + displacement.any_path + margin, tight.uy + greatest(displacement.y, none) + displacement.any_path + margin};
+    return {tight.lx + least(displacement.x, none) - displacement.any_displacement - margin, tight.ly + least(displacement.y, none) - displacement.any_displacement - margin,
+            tight.ux + greatest(displacement.x, none) + displacement.any_displacement + margin, tight.uy + greatest(displacement.y, none) + displacement.any_displacement + margin};
 }
 
 CAROM_INLINE void put_paths(const SweptEight& eight, const Bounds& tight, const Ways& displacement)
 {
     static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
-                  offsetof(BoxPath, any_path) == 24 && offsetof(SweptBox, layer) == 28);
+                  offsetof(BoxPath, any_displacement) == 24 && offsetof(SweptBox, layer) == 28);
     const auto at = [&](int offset) { return [&eight, offset](int i) { return reinterpret_cast<char*>(eight.places[i]) + offset; }; };
     F8 unused_x, unused_y, unused_displacement, kinds;
     gather4(at(16), unused_x, unused_y, unused_displacement, kinds);
     scatter4(at(0), tight.lx, tight.ly, tight.ux, tight.uy);
-    scatter4(at(16), displacement.x, displacement.y, displacement.any_path, kinds);
+    scatter4(at(16), displacement.x, displacement.y, displacement.any_displacement, kinds);
 }
 
 bool sweep(SweptEight& eight, const SweepStep& step)

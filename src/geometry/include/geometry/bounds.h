@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes: in floats, rounded outwards, for the broad phase (conservative however far from the origin), and their arithmetic.
+// Boxes and their arithmetic. The broad phase uses boxes in floats, rounded outwards: they are conservative however far from the origin.
 
 #include "core/float4.h"
 #include "geometry/leaf.h"
@@ -41,7 +41,7 @@ struct FloatBox
     return box;
 }
 
-/// By the spacing of floats there, whether the conversion rounded or not: no branches.
+/// Rounds by the spacing of floats there, whether or not the conversion rounded: branch-free.
 [[nodiscard]] inline F4 rounded_outwards(double lx, double ly, double ux, double uy)
 {
     constexpr float spacing = 0x1p-23f;
@@ -59,7 +59,7 @@ struct FloatBox
 /// Tight box of a leaf whose body's frame has this pose. A half-space gives an infinite one.
 [[nodiscard]] Box leaf_bounds(const LeafView& view, const Pose& pose);
 
-/// The same in floats, rounded outwards: lx, ly, ux, uy.
+/// The same box in floats, rounded outwards: lx, ly, ux, uy.
 [[nodiscard]] F4 outer_bounds(const LeafView& view, const Pose& pose);
 
 /// Largest distance of any point of the leaf from a point of the body's frame.

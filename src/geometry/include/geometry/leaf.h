@@ -1,7 +1,7 @@
 #pragma once
 
 // A leaf is a shape as collision sees it: plain data in its body's frame. A chain becomes several leaves; every other public
-// shape becomes one. What polygons and arcs have beyond that stands in a store of its own, so that leaves stay plain and small.
+// shape becomes one. Vertices of polygons and spans of arcs are in a separate store, so that leaves stay plain and small.
 
 #include "carom/math.h"
 #include "carom/shape.h"
@@ -30,9 +30,9 @@ struct Leaf
 {
     LeafType type = LeafType::Circle;
     Sides sides = Sides::Both;
-    bool has_previous = false; ///< the seam at the start is shared with the piece before
+    bool has_previous = false; ///< whether the seam at the start is shared with the previous piece
     bool has_next = false;
-    std::int32_t first = 0; ///< in the store. Polygon: its vertices are [first, first + count). Arc: its span
+    std::int32_t first = 0; ///< index in the store. Polygon: its vertices are [first, first + count). Arc: its span
     std::int32_t count = 0;
     /// Circle: p0 center, r0 radius. Capsule: circles (p0, r0), (p1, r1). Segment: from p0 to p1, r0 = r1 half thickness.
     /// Half-space: p0 normal, r0 offset. Polygon: r0 corner radius. Arc: p0 center, r0 half thickness, p1 unit direction of its middle.
@@ -41,24 +41,24 @@ struct Leaf
     float r0 = 0;
     float r1 = 0;
     float arc_radius = 0;
-    Vec2 previous_tangent{}; ///< direction in which the piece before arrives at the start
-    Vec2 next_tangent{};     ///< direction in which the piece after leaves the end
+    Vec2 previous_tangent{}; ///< direction in which the previous piece arrives at the start
+    Vec2 next_tangent{};     ///< direction in which the next piece leaves the end
 };
 
-/// A piece with neighbours, or solid on one side alone.
+/// Whether the leaf is a piece with neighbors, or solid on one side only.
 [[nodiscard]] inline bool is_of_chain(const Leaf& leaf)
 {
     return leaf.has_previous || leaf.has_next || leaf.sides != Sides::Both;
 }
 
-/// Of what is so far on the left of a piece: is the piece solid on the other side alone?
+/// Whether a point at this distance to the left of a piece faces a side that is not solid.
 [[nodiscard]] inline bool is_beside_solid_side(const Leaf& piece, double left)
 {
     return (piece.sides == Sides::Left && left < 0) || (piece.sides == Sides::Right && left > 0);
 }
 
-/// Is the center of a body, in the leaf's frame, on the left of a straight piece as the chain runs? On the convex side of a seam it is so before either of the
-/// two pieces; on the hollow side it is before both.
+/// Whether the center of a body, in the leaf's frame, is on the left of a straight piece along the chain's course. On the convex side of a seam it is
+/// on the left if it is so for either of the two pieces; on the hollow side, if it is so for both.
 template <class R>
 [[nodiscard]] bool is_left_of_chain(const Leaf& piece, R x, R y)
 {
@@ -80,7 +80,7 @@ template <class R>
     return left;
 }
 
-/// From where to where an arc runs about its center.
+/// Angles and end points of an arc about its center.
 struct ArcSpan
 {
     float start_angle = 0;
@@ -91,14 +91,14 @@ struct ArcSpan
 };
 
 /// Outlines of all polygons of a scene, and spans of its arcs. An outline is its vertices and its outward edge normals (edge i runs from vertex i to i + 1).
-/// Polygons that are made alike, as most bodies of a pile are, share one: it stays in the cache.
+/// Polygons with equal vertices, as most bodies of a pile have, share one outline, which stays in the cache.
 class LeafStore
 {
 public:
-    /// Where its first vertex is. Of convex outlines given lately one that is the same bit by bit, or a new one.
+    /// Index of the first vertex of an outline. A recently given convex outline that is the same bit by bit is shared; otherwise a new one is stored.
     [[nodiscard]] int add_outline(std::span<const Vec2> vertices);
     [[nodiscard]] int add_span(const ArcSpan& span);
-    /// The leaf needs no longer what it has here.
+    /// Frees what the leaf uses in the store.
     void release(const Leaf& leaf);
 
     [[nodiscard]] const Vec2* points(int first) const { return m_points.data() + first; }
@@ -121,19 +121,20 @@ private:
 
     std::vector<Vec2> m_points;
     std::vector<Vec2> m_normals;
-    std::vector<std::int32_t> m_users;              ///< of the outline at `first`, by first / 3, for none is shorter than that
-    std::vector<std::vector<std::int32_t>> m_holes; ///< by their length
+    std::vector<std::int32_t>
+        m_users; ///< number of leaves with the outline at `first`, by first / 3, since no outline is shorter
+    std::vector<std::vector<std::int32_t>> m_holes; ///< first vertices of free ranges, by their length
     std::array<Outline, recent_count> m_recent{};   ///< by the hash of their vertices
     Pool<ArcSpan> m_spans;
 };
 
-/// A leaf with what it has in the store at hand.
+/// A leaf with pointers to its data in the store.
 struct LeafView
 {
     const Leaf* leaf;
-    const Vec2* points = nullptr; ///< of a polygon
+    const Vec2* points = nullptr; ///< for a polygon
     const Vec2* normals = nullptr;
-    const ArcSpan* span = nullptr; ///< of an arc
+    const ArcSpan* span = nullptr; ///< for an arc
 };
 
 [[nodiscard]] inline LeafView view(const Leaf& leaf, const LeafStore& store)
@@ -145,37 +146,37 @@ struct LeafView
     return {&leaf};
 }
 
-/// The unit direction of an arc or segment at its start and end, along its course.
+/// Unit direction of an arc or segment at its start and end, along its course.
 [[nodiscard]] Vec2 start_tangent(const LeafView& view);
 [[nodiscard]] Vec2 end_tangent(const LeafView& view);
 [[nodiscard]] Vec2 start_point(const LeafView& view);
 [[nodiscard]] Vec2 end_point(const LeafView& view);
 
-/// Does an arc run where this way from its center leads?
+/// Whether an arc has a point in this direction from its center.
 [[nodiscard]] inline bool is_in_sweep(const LeafView& arc, Vec2 from_center)
 {
     return dot(from_center, arc.leaf->p1) >= length(from_center) * arc.span->cos_half_sweep;
 }
 
-/// Which side of its course is that of an arc's center, its inside; or the other one.
+/// The side of an arc's course on which its center is (its inside), or the other side.
 [[nodiscard]] inline Sides side_of(const LeafView& arc, bool inside)
 {
     return inside == (arc.span->sweep > 0) ? Sides::Left : Sides::Right;
 }
 
-/// Normalises a geometry (winding, unit normals, collinear points) or refuses it in `function`'s name with a sentence.
+/// Normalizes a geometry (winding, unit normals, collinear points), or refuses it in `function`'s name with an error message.
 [[nodiscard]] bool normalize_geometry(const char* function, Geometry& geometry);
 
-/// The leaves of a normalised geometry.
+/// The leaves of a normalized geometry.
 [[nodiscard]] std::vector<Leaf> make_leaves(const Geometry& geometry, LeafStore& store);
 
-/// Back: the normalised geometry that the leaf was made from, where it was no chain.
+/// The inverse of make_leaves: the normalized geometry that the leaf was made from, unless it was a chain.
 [[nodiscard]] Geometry geometry_of(const LeafView& leaf);
-/// The chain that has these pieces, at least one.
+/// The chain that consists of these pieces, at least one.
 [[nodiscard]] Chain chain_of(std::span<const LeafView> pieces);
 
-/// Removes repeated points and those that lie on a line, and turns the outline counter-clockwise. No removed point is farther from the outline that is left
-/// than the tolerance, m.
+/// Removes repeated and collinear points, and orders the outline counter-clockwise. No removed point is farther from the remaining outline than the
+/// tolerance, in m.
 [[nodiscard]] std::vector<Vec2> clean_outline(std::span<const Vec2> outline, float tolerance);
 [[nodiscard]] bool is_convex(std::span<const Vec2> counter_clockwise);
 [[nodiscard]] double signed_area(std::span<const Vec2> outline);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Mass, centre and inertia of a leaf, exact for every shape that has any.
+// Mass, center of mass and moment of inertia of a leaf, exact for every shape that has mass.
 
 #include "geometry/leaf.h"
 
@@ -11,7 +11,7 @@ struct LeafMass
     double mass = 0;
     double center_x = 0;
     double center_y = 0;
-    double inertia = 0; ///< about the centre of mass
+    double inertia = 0; ///< about the center of mass
 };
 
 [[nodiscard]] LeafMass leaf_mass(const LeafView& view, float density);

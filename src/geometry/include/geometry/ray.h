@@ -1,6 +1,6 @@
 #pragma once
 
-// Rays against leaves, in the leaf's body frame.
+// Ray casts against leaves, in the leaf's body frame.
 
 #include "geometry/leaf.h"
 
@@ -10,8 +10,8 @@ namespace carom::internal {
 
 struct LeafHit
 {
-    float fraction; ///< of the translation
-    Vec2 normal;    ///< zero where the ray starts inside
+    float fraction; ///< fraction of the translation
+    Vec2 normal;    ///< outward normal; zero where the ray starts inside
 };
 
 /// First hit of the ray from origin to origin + translation.

@@ -1,12 +1,12 @@
 #pragma once
 
-// Distance from a point to the surface of a leaf, with the outward normal there: the one question behind circle contacts, times of
-// impact of balls, closest-point queries and point tests. Written once for float (contacts) and double (times of impact).
+// Distance from a point to the surface of a leaf, with the outward normal there. Circle contacts, times of impact of balls, closest-point queries and
+// point tests all need it. Written once for float (contacts) and double (times of impact).
 //
-// Seams. Of two pieces that share a corner only one may answer for it, or a ball would be pushed twice, and only where neither
-// piece's inside region holds the point. The region beyond a piece's end is the half-plane ahead of its end tangent, for lines and
-// (near the surface) for arcs alike. So the piece before never answers for a shared end, and the piece after answers for its start only
-// when the point is also ahead of the end tangent of the piece before.
+// Seams. Only one of two pieces that share a corner may answer for it, or a ball would be pushed twice, and only where the point is in neither
+// piece's inside region. The region beyond a piece's end is the half-plane ahead of its end tangent, for lines and
+// (near the surface) for arcs alike. So the previous piece never answers for a shared end. The next piece answers for its start only
+// when the point is also ahead of the end tangent of the previous piece.
 
 #include "geometry/leaf.h"
 
@@ -23,7 +23,7 @@ struct Surface
     R nx;       ///< outward unit normal of the leaf at the closest point
     R ny;
     /// Curvature of the distance along the tangent as seen from the point: 1 / distance to the center of curvature, 0 on
-    /// straight lines, negative where the surface bends around the point (the inside of an arc).
+    /// straight lines, negative where the surface curves around the point (the inside of an arc).
     R curvature;
     int feature;
 };
@@ -39,7 +39,7 @@ template <class R>
     return Surface<R>{d - radius, dx / d, dy / d, 1 / d, feature};
 }
 
-/// A shared corner answers for something only where the line bends away from its solid side.
+/// Whether a shared corner can have contacts: only where the line curves away from its solid side.
 [[nodiscard]] inline bool start_may_answer(const Leaf& leaf, Vec2 tangent)
 {
     if (!leaf.has_previous || leaf.sides == Sides::Both)
@@ -48,7 +48,7 @@ template <class R>
     return leaf.sides == Sides::Left ? bend < 0 : bend > 0;
 }
 
-/// Is the point in the region of the shared corner that the following piece answers for, on a side that is solid?
+/// Whether the point is in the region of the shared corner that the next piece answers for, on a side that is solid.
 template <class R>
 [[nodiscard]] bool start_answers(const Leaf& leaf, Vec2 tangent, R dx, R dy)
 {
@@ -135,7 +135,7 @@ template <class R>
         const R sign = inside ? R(-1) : R(1);
         return Surface<R>{sign * (d - leaf.arc_radius) - leaf.r0, sign * dx / d, sign * dy / d, sign / d, 0};
     }
-    // Beyond the ends: the nearer corner.
+    // Beyond the ends, the nearer corner answers.
     const R sx = px - span.start.x;
     const R sy = py - span.start.y;
     const R ex = px - span.end.x;
@@ -145,7 +145,7 @@ template <class R>
     return surface_of_end<R>(v, end_tangent(v), px, py);
 }
 
-/// To a segment's or arc's line, whichever side answers.
+/// Distance to a segment's or arc's line, whichever side answers.
 [[nodiscard]] inline double distance_to_line(const LeafView& view, double px, double py)
 {
     const Leaf& leaf = *view.leaf;
@@ -172,8 +172,8 @@ template <class R>
     return ahead ? std::fabs(l - static_cast<double>(leaf.arc_radius)) - static_cast<double>(leaf.r0) : to_ends();
 }
 
-/// The convex hull of the circles (point i, radius i): polygons with round corners and capsules, tapered ones included. Edge i touches the
-/// circles i and i + 1; its outward normal is given. The point is outside the edge with the greatest separation, or nearest to it.
+/// The surface of the convex hull of the circles (point i, radius i): polygons with round corners and capsules, tapered ones included. Edge i touches the
+/// circles i and i + 1; its outward normal is given. The edge with the greatest separation is the one that the point is outside of, or nearest to.
 template <class R>
 [[nodiscard]] Surface<R> surface_of_hull(const Vec2* points, const Vec2* normals, const float radii[2], int count, R px, R py)
 {
@@ -198,7 +198,7 @@ template <class R>
     const R ex = static_cast<R>(b.x) - a.x;
     const R ey = static_cast<R>(b.y) - a.y;
     const R along = ex * (px - a.x) + ey * (py - a.y);
-    // Inside a polygon's core the way out is over an edge. (A capsule has no inside between its edges: ahead of its ends both are behind.)
+    // Inside a polygon's core the exit is over an edge. (A capsule has no inside between its edges: both edges face away from a point ahead of its ends.)
     const bool inside = count > 2 && best + ra <= 0;
     if (!inside && along < 0)
         return *surface_of_circle<R>(px, py, points[edge].x, points[edge].y, ra, count + edge);
@@ -207,11 +207,11 @@ template <class R>
     return {best, n.x, n.y, 0, edge};
 }
 
-/// Outward normals of the two sides of a capsule: they tilt towards the smaller end by phi, sin(phi) = (r0 - r1) / length.
+/// Outward normals of the two sides of a capsule. They tilt towards the smaller end by phi, sin(phi) = (r0 - r1) / length.
 struct CapsuleSides
 {
     Vec2 points[2];
-    Vec2 normals[2]; ///< [0]: the edge from p0 to p1, on the right; [1]: back, on the left
+    Vec2 normals[2]; ///< [0]: the edge from p0 to p1, on the right; [1]: the edge back, on the left
     float radii[2];
 };
 
@@ -225,7 +225,7 @@ struct CapsuleSides
     return {{leaf.p0, leaf.p1}, {s * u - c * perp(u), s * u + c * perp(u)}, {leaf.r0, leaf.r1}};
 }
 
-/// The surface of a leaf as seen from a point of its body's frame; nothing where the leaf does not face the point.
+/// The surface of a leaf as seen from a point of its body's frame; nullopt where the leaf does not face the point.
 template <class R>
 [[nodiscard]] std::optional<Surface<R>> surface_at(const LeafView& v, R px, R py)
 {
@@ -251,22 +251,22 @@ template <class R>
     return std::nullopt;
 }
 
-/// The middle of the normals of the two edges at a corner: of all unit vectors n those with dot(n, cone) >= dot(cone, cone) lead out of it.
+/// The normal cone of a corner, given by the mean of its two edge normals: the unit vectors n with dot(n, cone) >= dot(cone, cone).
 [[nodiscard]] inline Vec2 corner_cone(const Vec2* normals, int count, int corner)
 {
     return 0.5f * (normals[corner > 0 ? corner - 1 : count - 1] + normals[corner]);
 }
 
-/// The same of an end of a capsule or segment: half of the plane, less by what it tapers towards this end.
+/// The normal cone at an end of a capsule or segment: a half-plane, or less by the taper towards this end.
 [[nodiscard]] inline Vec2 end_cone(Vec2 other, Vec2 end, float radius_other, float radius)
 {
     const Vec2 along = end - other;
     const float l = length(along);
-    const float cosine = std::max((radius_other - radius) / l, 0.01f); // 0 would be all of it
+    const float cosine = std::max((radius_other - radius) / l, 0.01f); // 0 would be the whole plane
     return (cosine / l) * along;
 }
 
-/// Radius of a circle about the middle of a shape that has an inside: half its thickness, or a little less.
+/// Radius of a circle inside a shape, about its middle: half its thickness, or a little less.
 [[nodiscard]] inline double inner_radius(const LeafView& v)
 {
     const Leaf& leaf = *v.leaf;

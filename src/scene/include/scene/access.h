@@ -1,6 +1,6 @@
 #pragma once
 
-// From public ids to slots, refusing stale ones; shared by the files of the public API.
+// Look-up of slots from public ids, refusing stale ones; shared by the files of the public API.
 
 #include "core/refuse.h"
 #include "dynamics/state/contact_store.h"
@@ -33,7 +33,7 @@ void unlink_shape(SceneData& data, int shape);
 
 /// Removes the leaves of a public shape from the broad phase and the store, and its contacts.
 void remove_leaves(SceneData& data, int shape);
-/// Makes them from its geometry.
+/// Creates the leaves of a public shape from its geometry.
 void add_leaves(SceneData& data, int shape, const Geometry& geometry);
 
 } // namespace carom::internal

@@ -51,8 +51,8 @@ TEST(WedgedImpacts, NeverGiveEnergy)
             bodies[1] = {.inverse_mass_x = 1 / 2.58, .inverse_mass_y = 1 / 2.58, .inverse_inertia = 1 / 8.979};
             const double before = energy(bodies);
             std::vector<ImpactRow> rows{row(ImpactRow::Kind::Contact, 1, 0, 0.5541, 0.8325, 2.37, -0.1499),
-                                        row(ImpactRow::Kind::RestingContact, 1, 2, 1, 0, 0.8135, 0),
-                                        row(ImpactRow::Kind::RestingContact, 1, 2, 0, 1, -3.154, 0),
+                                        row(ImpactRow::Kind::Bilateral, 1, 2, 1, 0, 0.8135, 0),
+                                        row(ImpactRow::Kind::Bilateral, 1, 2, 0, 1, -3.154, 0),
                                         row(ImpactRow::Kind::Contact, 2, 1, -1, -0.003323, 0, arm)};
             rows[0].arm_a_x = 3.15;
             rows[0].arm_a_y = 0.455;

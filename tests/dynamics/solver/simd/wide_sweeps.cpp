@@ -52,7 +52,7 @@ std::vector<std::vector<float>> paths(bool one_by_one)
         for (int shape = 0; shape < state.shapes.capacity(); ++shape)
         {
             const internal::BoxPath& p = state.broad_phase.path(shape);
-            numbers.insert(numbers.end(), {p.box.lx, p.box.ly, p.box.ux, p.box.uy, p.shift.x, p.shift.y, p.any_path});
+            numbers.insert(numbers.end(), {p.box.lx, p.box.ly, p.box.ux, p.box.uy, p.shift.x, p.shift.y, p.any_displacement});
         }
     }
     return result;

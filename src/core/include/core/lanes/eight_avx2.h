@@ -1,7 +1,7 @@
 #pragma once
 
-// Registers of eight lanes: AVX2, and AVX-512, which has more of them and masks of their own. On the vector extensions of GCC and Clang: these choose
-// how a mask is kept. See registers.h.
+// Registers of eight lanes: AVX2, and AVX-512, which has more of them and separate mask registers. Written with the vector extensions of GCC and Clang, which
+// choose how a mask is kept. See registers.h.
 
 #include "core/lanes/four_sse2.h"
 
@@ -112,7 +112,7 @@ CAROM_INLINE void store_halves(void* low, void* high, EightFloats r)
     store(high, _mm256_extractf128_ps(r, 1));
 }
 
-/// And back.
+/// The inverse of gather.
 template <class At>
 CAROM_INLINE void scatter(const At& at, EightFloats x, EightFloats y, EightFloats z, EightFloats w)
 {

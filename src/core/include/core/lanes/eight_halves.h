@@ -80,7 +80,7 @@ CAROM_INLINE void gather(const At& at, EightFloats& x, EightFloats& y, EightFloa
     gather_four(at, 4, x.high, y.high, z.high, w.high);
 }
 
-/// And back.
+/// The inverse of gather.
 template <class At>
 CAROM_INLINE void scatter(const At& at, EightFloats x, EightFloats y, EightFloats z, EightFloats w)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lanes in plain C++: a register is one number, and four lanes are halves of halves. For compilers and machines that no other backend knows, and the
+// Lanes in plain C++: a register is one number, and four lanes are halves of halves. It serves compilers and machines that no other backend covers, and is the
 // reference that the others are tested against. See registers.h.
 
 #include "core/lanes/halves.h"

@@ -14,7 +14,7 @@ namespace carom::internal::lanes {
 
 inline constexpr const char* baseline_name = "sse2"; ///< the name of kernels that use no wider registers
 
-#if CAROM_GNU // as the intrinsics' types, without their leave to alias, which template arguments do not carry
+#if CAROM_GNU // the intrinsics' types without may_alias, which template arguments do not carry
 using FourFloats = float __attribute__((vector_size(16)));
 using FourInts = long long __attribute__((vector_size(16)));
 using TwoDoubles = double __attribute__((vector_size(16)));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Registers of four lanes on the vector extensions of GCC and Clang: NEON, WebAssembly's SIMD, and what else these compilers know. See registers.h.
+// Registers of four lanes on the vector extensions of GCC and Clang: NEON, WebAssembly's SIMD, and other targets of these compilers. See registers.h.
 
 #include "core/lanes/halves.h"
 
@@ -80,7 +80,7 @@ CAROM_INLINE unsigned signs(FourInts a)
     const FourInts places{1, 2, 4, 8};
     return static_cast<unsigned>(vaddvq_s32(vshrq_n_s32(a, 31) & places));
 }
-// The machine's own minimum orders zeros, and treats what is not a number, in another way than a comparison.
+// The machine's own minimum and maximum order zeros, and treat NaN, differently from a comparison.
 CAROM_INLINE FourFloats least(FourFloats a, FourFloats b) { return choose(a < b, a, b); }
 CAROM_INLINE FourFloats greatest(FourFloats a, FourFloats b) { return choose(a > b, a, b); }
 #elif defined(__wasm_simd128__)
@@ -117,7 +117,7 @@ CAROM_INLINE FourFloats greatest(FourFloats a, FourFloats b) { return choose(a >
 
 CAROM_INLINE TwoDoubles least(TwoDoubles a, TwoDoubles b) { return choose(a < b, a, b); }
 
-#if defined(__aarch64__) // g++ converts lane by lane
+#if defined(__aarch64__) // g++ would convert lane by lane
 CAROM_INLINE Halves<TwoDoubles> to_doubles(FourFloats a) { return {vcvt_f64_f32(vget_low_f32(a)), vcvt_high_f64_f32(a)}; }
 CAROM_INLINE FourFloats to_floats(Halves<TwoDoubles> a) { return vcvt_high_f32_f64(vcvt_f32_f64(a.low), a.high); }
 #else

@@ -1,7 +1,7 @@
 #pragma once
 
-// Two registers as one of twice the lanes: every operation is done to both halves. Eight lanes are two registers of four where the machine has
-// no wider ones, and twice eight are two eights in flight: while one waits for its last result, the other is calculated.
+// Two registers as one with twice the lanes: every operation is done on both halves. Eight lanes are two registers of four where the machine has
+// no wider ones. Sixteen are two vectors of eight in flight: while one waits for its last result, the other is computed.
 
 #include "core/compiler.h"
 
@@ -18,7 +18,7 @@ struct Halves
 template <class R>
 Halves(R, R) -> Halves<R>;
 
-/// The bytes there as a register, or those of one as another.
+/// Reads a register from memory, or reinterprets one register as another.
 template <class R>
 CAROM_INLINE R read(const void* p)
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The backends: each gives types for registers and the operations on them, all in this namespace. A comparison sets all bits of the lanes in which it
-// holds. The same operation in each lane, with the roundings of IEEE 754, so that every backend gives the same bits:
+// The backends: each provides types for registers and the operations on them, all in this namespace. A comparison sets all bits of the lanes in which it
+// holds. Each lane does the same operation with the rounding of IEEE 754, so that every backend gives the same bits:
 //
 //   four_sse2.h     x86-64, any compiler               FourFloats, FourInts, TwoDoubles
 //   four_vector.h   NEON, WebAssembly's SIMD           "
@@ -9,7 +9,7 @@
 //   eight_avx2.h    AVX2 and AVX-512                   EightFloats, EightInts, EightDoubles
 //   eight_halves.h  two registers of four              "
 //
-// Nothing else uses a register; vectors.h makes types with operators of them.
+// Nothing else uses a register; vectors.h wraps them in types with operators.
 
 #include "core/compiler.h"
 #include "core/lanes/halves.h"
@@ -78,7 +78,7 @@ CAROM_INLINE Halves<R> choose(Halves<M> mask, Halves<R> a, Halves<R> b)
     return {choose(mask.low, a.low, b.low), choose(mask.high, a.high, b.high)};
 }
 
-/// A bit for each lane, set where its sign is: a comparison that holds.
+/// One bit per lane, set where the lane's sign bit is: where a comparison holds.
 CAROM_INLINE unsigned signs(Halves<FourInts> a) { return signs(a.low) | signs(a.high) << 4; }
 
 } // namespace carom::internal::lanes

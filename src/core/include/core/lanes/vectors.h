@@ -1,12 +1,12 @@
 #pragma once
 
-// Vectors of numbers with the operators of numbers. Kernels are written in these. R is a register, or Halves of several.
+// Vectors with arithmetic operators, in which kernels are written. R is a register, or Halves of several.
 
 #include "core/lanes/registers.h"
 
 namespace carom::internal {
 
-/// Integers, and answers of comparisons: -1 where one holds, 0 where not.
+/// Integers, and results of comparisons: -1 where one holds, 0 where not.
 template <class R>
 struct Ints
 {
@@ -50,7 +50,7 @@ struct Floats
     CAROM_INLINE Floats& operator-=(Floats b) { return *this = *this - b; }
     CAROM_INLINE Floats& operator*=(Floats b) { return *this = *this * b; }
 
-    /// The lesser of two, the second where they are equal or one is no number.
+    /// The lesser of two; the second where they are equal or one is NaN.
     friend CAROM_INLINE Floats least(Floats a, Floats b) { return lanes::least(a.v, b.v); }
     friend CAROM_INLINE Floats greatest(Floats a, Floats b) { return lanes::greatest(a.v, b.v); }
     friend CAROM_INLINE Floats magnitude(Floats a) { return greatest(a, -a); }

@@ -1,5 +1,5 @@
-// The impulses of a Newton step. Axes are solved with the pieces of their laws that they seem to be on, until each is on the one that its law has at the rate and impulse found: an
-// active-set method.
+// The impulses of a Newton step, by an active-set method. Each axis is solved with the piece of its law that it seems to be on, until each is on the piece
+// that its law has at the rate and impulse found.
 
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
@@ -15,11 +15,11 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int rounds_of_all = 8; // of the active set; then axes change one at a time, which ends
+constexpr int rounds_of_all = 8; // in which all axes may change pieces; then one axis changes at a time, which terminates
 constexpr int most_rounds = 64;
-constexpr double yielding_compliance = 1; // of a row's weight
+constexpr double yielding_compliance = 1; // relative to a row's weight
 constexpr double same_rate = 1e-6;
-constexpr double least_share = 1e-3; // of a spring's compliance, where its row is softer than the spring
+constexpr double least_share = 1e-3; // share of a spring's compliance that is left where its row is softer
 
 } // namespace
 
@@ -62,7 +62,7 @@ void DirectSolve::begin_axes(Stage stage)
         else
             axis.law = acts_ahead(rows, stage).law_ahead(item.work->spring, m_view.h);
         for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
-        { // the softness of the row is part of a spring's own
+        { // the softness of the row counts as a part of the spring's own
             const double own = m_spring_softening * spring->compliance;
             spring->compliance = std::max(own - softness(axis), least_share * own);
         }
@@ -72,7 +72,7 @@ void DirectSolve::begin_axes(Stage stage)
     }
 }
 
-// With every axis on its piece.
+// Solves the system with every axis on its piece.
 void DirectSolve::solve_pieces()
 {
     std::ranges::fill(m_wanted_compliances, 0);
@@ -128,7 +128,7 @@ void DirectSolve::solve_pieces()
     }
 }
 
-// Of axes that do not depend on the rate.
+// Applies the impulses of axes that do not depend on the rate.
 void DirectSolve::give_known_impulses()
 {
     for (Node& n : m_nodes)
@@ -140,16 +140,16 @@ void DirectSolve::give_known_impulses()
     }
 }
 
-// The rate at which an axis' law gives its impulse: the row itself gives way in proportion to that impulse.
+// The rate at which an axis' law gives its impulse. It includes the rate at which the row itself yields in proportion to that impulse.
 double DirectSolve::rate_of_law(const Axis& axis) const
 {
     const Item& item = m_items[axis.item];
-    const double given_displacement =
+    const double given_rate =
         m_matrix.weight(axis.row) * m_compliance * m_impulses[as_index(axis.row)] + softness(axis) * axis.before;
-    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_displacement;
+    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_rate;
 }
 
-// False where all are where they should be.
+// False if every axis is on the piece where it should be.
 bool DirectSolve::take_next_pieces(bool all)
 {
     bool changed = false;
@@ -170,7 +170,7 @@ bool DirectSolve::take_next_pieces(bool all)
     return changed;
 }
 
-// Each goes on giving what it gives: nothing comes from that but what held rows take.
+// Each axis keeps its present impulse; only the held rows change theirs.
 void DirectSolve::give_up_on_pieces()
 {
     for (Axis& axis : m_axes)
@@ -234,7 +234,7 @@ void DirectSolve::take_back()
         set_axis_impulses(*m_items[axis.item].record, axis.restore);
 }
 
-// The speeds are noted: what has been given up to here is in them.
+// The speeds have just been recorded, and contain the impulses given so far.
 void DirectSolve::go_on_from_here()
 {
     for (Node& n : m_nodes)

@@ -1,13 +1,13 @@
-// Contacts of articulations: bodies that joints hold together are pushed as a whole. A contact that knew its own body alone would stop a foot and let the
-// joints push it on, turn after turn, as slowly as the foot is lighter than what it carries.
+// Contacts of articulations: bodies connected by joints respond to a contact impulse as a whole. A contact that knew only its own body would stop a foot and
+// let the joints push it on, pass after pass, and converge as slowly as the foot is lighter than what it carries.
 //
-//   Y = -A^-1 J M^-1 E,   R = M^-1 (E + J^T Y)       answers of the joints, and of bodies, to unit impulses E on one body
+//   Y = -A^-1 J M^-1 E,   R = M^-1 (E + J^T Y)       responses of the joints, and of the bodies, to unit impulses E on one body
 //   impulse = -(j v + bias) / (j R j^T)
 //
-// While contacts push, only the bodies that have contacts are kept up to date; the others and the joints get their shares at the end.
+// While contacts are solved, only the bodies that have contacts are kept up to date. The other bodies and the joints get their shares at the end.
 //
-// An articulation that is held by what does not give way has no such answer everywhere: a wall may contradict its joints, and these have to yield. There, and
-// between two bodies of one articulation, contacts push their own bodies alone and joints and contacts take turns.
+// An articulation that is anchored to an immovable body has no such response everywhere: a wall may contradict its joints, which then have to yield. There,
+// and between two bodies of one articulation, contacts act on their own bodies alone, and passes over joints and contacts alternate.
 
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
@@ -20,7 +20,7 @@ namespace carom::internal {
 
 namespace {
 
-// The least share of a body's own answer that counts: below it joints leave rounding alone, as of a turn that another body's lock forbids.
+// The least share of a body's own response that counts. Below it, joints leave only rounding, as for a rotation that another body's lock forbids.
 constexpr double least_answer = 1e-9;
 
 float clamped_change(float& impulse, float change, float least, float most)
@@ -86,7 +86,7 @@ void DirectSolve::find_anchors()
     }
 }
 
-// None where it belongs to no articulation that may be pushed as a whole.
+// None if the body belongs to no articulation that may be pushed as a whole.
 int DirectSolve::free_articulation_of(std::int32_t state) const
 {
     if (moving(state) == none)
@@ -187,7 +187,7 @@ Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) cons
     return product(as_triple(c.inverse_mass, c.inverse_inertia), impulse);
 }
 
-// Its mass is 0 where joints leave no more than rounding of the bodies' own answer, as of a turn that another body's lock forbids.
+// The effective mass is 0 where joints leave only rounding of the bodies' own response, as for a rotation that another body's lock forbids.
 DirectSolve::PushedLine DirectSolve::pushed_line(const Contact& contact, const Triple& ja, const Triple& jb)
 {
     const auto& [constraint, a, b] = contact;
@@ -236,7 +236,7 @@ void DirectSolve::solve_contacts(std::span<ContactConstraint> constraints, std::
         m_largest_push = 0;
         for (const Contact& contact : m_contacts)
         {
-            if (contact.a.articulation == contact.b.articulation) // or in none
+            if (contact.a.articulation == contact.b.articulation) // or both in none
                 solve_contact_constraints(m_view, {contact.constraint, 1}, use_bias);
             else
                 solve_contact(contact, use_bias);
@@ -298,7 +298,7 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
     }
 }
 
-// The answers of the joints to all pushes, and the changes of bodies that no contact touches.
+// Applies the answers of the joints to all pushes, and the velocity changes of bodies without contacts.
 void DirectSolve::take_pushes(const Articulation& articulation)
 {
     bool is_pushed = false;
@@ -345,7 +345,7 @@ void DirectSolve::take_answers()
         for (int r = 0; r < item.held; ++r)
             item.impulse(r) += static_cast<float>(m_answered[as_index(item.first_row + r)]);
     }
-    // A motor may have answered with more than it can do: the next solve knows and takes it back.
+    // A motor may have answered with more than its maximum: the next solve takes the excess back.
     for (const Axis& axis : m_axes)
     {
         const double answered = m_answered[as_index(axis.row)];

@@ -1,4 +1,4 @@
-// What the direct solver's equations are made of: who is connected with whom, where the joints are, and how heavy bodies count.
+// The setup of the direct solver's equations: the constraint graph, the poses of the joints, and the effective masses of the bodies.
 
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
@@ -23,9 +23,9 @@ bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::
 
 } // namespace
 
-// --- who is connected with whom -----------------------------------------------------------------------------------------------------
+// --- the constraint graph -----------------------------------------------------------------------------------------------------------
 
-// It keeps through the step, but where a body takes off or lands.
+// The graph is the same through the step, unless a body takes off or lands.
 bool DirectSolve::find_edges()
 {
     m_found.clear();
@@ -91,9 +91,9 @@ int DirectSolve::node_of(std::int32_t state) const
     return static_cast<int>(std::ranges::lower_bound(m_nodes, state, {}, &Node::state) - m_nodes.begin());
 }
 
-// --- where they are -----------------------------------------------------------------------------------------------------------------
+// --- poses and masses ---------------------------------------------------------------------------------------------------------------
 
-// False where nothing has changed: a sub-step often begins as the last one has ended.
+// False if nothing has changed: a sub-step often begins as the last one has ended.
 bool DirectSolve::place()
 {
     for (Node& n : m_nodes)
@@ -129,7 +129,7 @@ bool DirectSolve::place()
     return changed;
 }
 
-// How far the rows have given way, per impulse that they bear.
+// How far the rows have yielded, per impulse that they bear.
 double DirectSolve::present_compliance() const
 {
     double rate = 0;
@@ -146,7 +146,7 @@ double DirectSolve::present_compliance() const
     return impulse > 0 ? rate / impulse : 0;
 }
 
-// True where they are others than before, to the last bit.
+// True if the lines differ from the previous ones in any bit.
 bool DirectSolve::Item::take_lines()
 {
     bool changed = false;
@@ -197,12 +197,12 @@ Triple DirectSolve::inverse_mass(const Node& node) const
 {
     const StateConstants& c = m_view.constants[node.state];
     const bool counts_as_harder =
-        m_mass_kind == Masses::Loaded && !m_may_contradict && node.stretch > most_stretch; // loops give way instead
+        m_mass_kind == Masses::Loaded && !m_may_contradict && node.stretch > most_stretch; // loops yield instead
     const float share = counts_as_harder ? most_stretch / node.stretch : 1;
     return as_triple(c.inverse_mass, share * c.inverse_inertia);
 }
 
-// No oscillation of a chain is faster than the two bodies of its stiffest joint would swing against fixed neighbours.
+// No oscillation of a chain is faster than that of the two bodies of its stiffest joint against fixed neighbors.
 void DirectSolve::fit_springs()
 {
     if (!m_ready)

@@ -1,25 +1,25 @@
-// The joints of a small island, all at once. One row after the other they never agree: a double pendulum loses 6 % of its energy in a minute.
+// The joints of a small island, all at once. Solved row by row, they never agree: a double pendulum loses 6 % of its energy in a minute.
 //
 //   C_i = error of row i at the pose that the present velocities lead to
 //   sum over j of J_i M^-1 J_j^T lambda_j = -C_i / h,  by Newton's method; in the relaxation J v = 0 at the pose reached
 //
 // With the drift along parabolas that is the RATTLE integrator, which neither gains nor loses energy. joint_matrix.cpp solves the equations.
 //
-// A free axis has a row too. Its law (joint_axis.h) is linear in pieces: along each the row keeps a rate, gives a known impulse, or has the compliance
-// of a spring. All are solved with the pieces that they seem to be on, until each is on the one that its law has at the rate and impulse found: an
-// active-set method. Springs, motors and stops so know the whole mechanism, at any stiffness and number of joints.
+// A free axis has a row too. Its law (joint_axis.h) is piecewise linear: on each piece the row keeps a rate, gives a known impulse, or has the compliance
+// of a spring. All axes are solved with the pieces that they seem to be on, until each is on the piece that its law has at the rate and impulse found:
+// an active-set method. Springs, motors and stops thus act on the whole mechanism, at any stiffness and any number of joints.
 //
-// A load that stretches a body between its joints makes it swing like a taut string, with omega² = f · r / I for the pull f at the arm r. A
-// sub-step can follow that only while omega h is below 1. Beyond it, a body of a tree counts as harder to turn, just so far; the rows of a loop, which a taut
-// chain stretches without bound, give way instead: their compliance grows with the third power of the stretch, because so falls the pull. It falls again
-// by half a sub-step, lest the gap that it has left be closed at once.
+// A load that stretches a body between its joints makes it swing like a taut string, with omega² = f · r / I for the pull f at the arm r. A sub-step can
+// follow that only while omega h is below 1. Beyond it, a body of a tree gets a larger inertia, by just as much as is needed. The rows of a loop, which a
+// taut chain stretches without bound, yield instead: their compliance grows with the third power of the stretch, because the pull falls with that power.
+// The compliance then falls by at most half per sub-step, so that the gap that it has left is not closed at once.
 //
-// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. The compliance bounds what they then bear, if the
-// error that they act on is bounded: a pull that is wide beside the arms turns bodies to where it is another one.
+// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. The compliance bounds the impulses that they bear, if
+// the error that they act on is bounded: an error that is large compared with the arms turns bodies to where it is a different one.
 //
 // No impulse is right where a wall holds a body that joints pull: joints and contacts would outbid each other without end. The joints then yield, as they do
-// where they stay far apart. They are as soft as their bodies are heavy, for which the turns of joints and contacts converge to one small pull, and what has
-// opened closes slowly.
+// where they stay far apart. Their compliance is then as great as their bodies' inverse masses. With that, alternating passes over joints and contacts
+// converge to one small pull, and what has opened closes slowly.
 
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
@@ -38,12 +38,12 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double most_gap = 0.01;  // in arms: wider ones that others have made are closed by moving bodies, without speed
-constexpr double most_pull = 0.25; // in arms, or rad: rows that may contradict each other act as if they were off by no more
-constexpr double most_contradiction = 0.5; // likewise: where they are off by more and stay so, they yield
+constexpr double most_gap = 0.01;  // in arms: wider gaps made outside the solver are closed by moving bodies, without speed
+constexpr double most_pull = 0.25; // in arms, or rad: rows that may contradict each other act as if their error were no larger
+constexpr double most_contradiction = 0.5; // likewise: joints whose error stays larger yield
 constexpr int newton_steps = 2;
 constexpr int most_newton_steps = 6;
-constexpr double converged = 1e-6; // in arms, or rad: rows that loops hold twice share out what is left
+constexpr double converged = 1e-6; // in arms, or rad: redundant rows of loops share the remaining error
 constexpr double most_softening = 400;
 
 Triple velocity(const BodyState& s) { return as_triple(s.velocity, s.angular_velocity); }
@@ -71,7 +71,7 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
         m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0, most_softening);
 }
 
-// --- the passes ---------------------------------------------------------------------------------------------------------------------
+// --- passes -------------------------------------------------------------------------------------------------------------------------
 
 void DirectSolve::yield()
 {
@@ -101,12 +101,12 @@ void DirectSolve::take_step(Stage stage)
     take_impulses();
 }
 
-// Newton's steps lead nowhere where a sub-step turns a body so far that no straight way ends in the right place.
+// Newton steps do not converge where a sub-step turns a body so far that no straight path ends at the right pose.
 bool DirectSolve::find_pose_ahead()
 {
     note_errors_ahead();
     if (largest_error() > 1)
-    { // what held in the sub-step before leads astray now
+    { // the impulses of the last sub-step are a bad start now
         start_anew();
         note_errors_ahead();
     }
@@ -128,7 +128,7 @@ bool DirectSolve::find_pose_ahead()
         take_back();
         if (!may_soften())
         {
-            if (m_spring_softening > 1 || contradicts) // nor may what springs gave before go on
+            if (m_spring_softening > 1 || contradicts) // nor may the earlier impulses of springs remain
                 start_anew();
             if (contradicts)
                 yield();
@@ -145,7 +145,7 @@ bool DirectSolve::find_pose_ahead()
         note_errors_ahead();
         const double before_this = std::exchange(left, largest_error());
         if (i >= newton_steps && left > 0.5 * before_this)
-        { // they lead nowhere from here on
+        { // the steps no longer converge
             take_back();
             note_errors_ahead();
             break;
@@ -155,7 +155,7 @@ bool DirectSolve::find_pose_ahead()
     return true;
 }
 
-// Rows of loops give way, and springs.
+// Whether the rows of loops, or springs, can be softened further.
 bool DirectSolve::may_soften() const
 {
     const bool has_springs = std::ranges::any_of(m_axes, [](const Axis& axis) { return axis.law.spring.is_there(); });
@@ -168,7 +168,7 @@ void DirectSolve::soften()
     m_spring_softening = std::min(16 * m_spring_softening, most_softening);
 }
 
-// Blows, not loads: they are no part of what the rows are warm started with.
+// Impacts, not loads: their impulses are no part of the warm start.
 void DirectSolve::take_forbidden_speeds() { give_blow(Stage::Held); }
 
 void DirectSolve::bounce() { give_blow(Stage::Now); }
@@ -204,13 +204,13 @@ void DirectSolve::note_errors_ahead()
     }
 }
 
-// All that does not move is one node; but a kinematic body has a way.
+// All bodies of infinite mass share one node, but a kinematic body moves.
 Placement DirectSolve::ahead_of(int node, std::int32_t state) const
 {
     return node == JointMatrix::ground ? placed_ahead(m_view, state) : m_nodes[as_index(node)].ahead;
 }
 
-// In islands of the longest arm, or rad.
+// In units of the longest arm, or rad.
 double DirectSolve::largest_error() const
 {
     double length = 0;
@@ -233,7 +233,7 @@ double DirectSolve::largest_error() const
     return as_double(m_view.h) * std::max(in_arms, angle);
 }
 
-// The widest gap, in arms, that others than the solver have opened and it has not closed yet.
+// The widest gap, in arms, that was opened outside the solver and that it has not closed yet.
 double DirectSolve::largest_gap() const
 {
     double gap = 0;
@@ -250,7 +250,7 @@ double DirectSolve::largest_gap() const
     return m_longest_arm > 0 ? gap / as_double(m_longest_arm) : 0;
 }
 
-// The largest turn that an axis gives its bodies in the sub-step, in rad: held rows then err by the square of it.
+// The largest rotation that an axis gives its bodies in the sub-step, in rad. The error of held rows is then the square of it.
 double DirectSolve::largest_turn() const
 {
     double turn = 0;
@@ -275,7 +275,7 @@ void DirectSolve::note_speeds()
     }
 }
 
-// The greatest speed at which a row that may contradict others closes; in no case less than that of pushing out.
+// The greatest speed at which a row that may contradict others closes. It is never less than the speed at which overlap is pushed out.
 float DirectSolve::most_speed(const JointRow& row) const
 {
     return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.d == Vec2{} ? 1 : m_longest_arm);
@@ -327,7 +327,7 @@ void DirectSolve::close_gaps()
             m_speeds[as_index(item.first_row + r)] = as_double(item.row(r).error);
     }
     find_impulses(Stage::Held);
-    // A step that would turn a body far is taken in part.
+    // A step that would turn a body far is taken only in part.
     double most = 0.5;
     for (const Node& n : m_nodes)
         most = std::max(most, std::fabs(n.change.turn));

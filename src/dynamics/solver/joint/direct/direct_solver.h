@@ -1,6 +1,6 @@
 #pragma once
 
-// The direct solve of an island's joints, beside the row after row of joint_solver.h.
+// The direct solve of an island's joints, an alternative to the sequential impulses of joint_solver.h.
 
 #include "dynamics/solver/joint/direct/joint_matrix.h"
 #include "dynamics/solver/joint/joint_axis.h"
@@ -22,44 +22,46 @@ inline void change_velocity(BodyState& s, const Triple& by)
     s.angular_velocity += static_cast<float>(by.turn);
 }
 
-/// All joint rows of an island at once. Kept from step to step for its memory, and for the layout where the joints are the same.
+/// Solves all joint rows of an island at once. It is reused from step to step for its memory, and for the layout where the joints are the same.
 class DirectSolve
 {
 public:
     enum class Masses
     {
-        Loaded, ///< bodies that a load stretches count as harder to turn
-        Own     ///< speeds alone change: with other masses that might give energy
+        Loaded, ///< bodies that a load stretches get a larger inertia
+        Own     ///< where only speeds change: other masses might add energy
     };
 
-    /// Once a step, and after a body has taken off or landed: who is connected with whom is found anew.
+    /// Has the constraint graph rebuilt: once per step, and after a body has taken off or landed.
     void look_again() { m_looks_again = true; }
-    /// At the present pose. Not ready where there is nothing to hold or too much of it: then the soft rows have to do.
+    /// Works at the present pose. The solve is not ready if there are no rows or too many; the soft rows of joint_solver.h are used then.
     void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints, Masses masses);
-    /// Once a step: springs that share bodies swing faster together than each alone, and damp what a sub-step cannot follow.
+    /// Once per step. Springs that share bodies swing faster together than each alone, and must damp what a sub-step cannot follow.
     void fit_springs();
-    /// Joints with more rows are not solved here.
+    /// Joints that have more rows in total are not solved directly.
     void set_most_rows(int rows) { m_most_rows = rows; }
     [[nodiscard]] bool is_ready() const { return m_ready; }
-    /// A wall or others hold what they pull. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap is pushed out.
+    /// For joints that a wall or other constraints hold open. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap
+    /// is pushed out.
     void yield();
     [[nodiscard]] bool yields() const { return m_yields; }
     void warm_start();
     void solve(bool use_bias);
-    /// Is there an articulation that nothing holds? Its contacts are solved here, each with what the joints answer; see articulation_contacts.cpp.
+    /// Whether an articulation is free, that is, not anchored to an immovable body. Its contacts are solved here, with the response of the joints;
+    /// see articulation_contacts.cpp.
     [[nodiscard]] bool has_free_articulations() const { return m_ready && m_has_free_articulations; }
-    /// Some sweeps over all contacts of the island, right after solve(); fewer once none changes a speed by more than `tiny`, m/s.
+    /// A few sweeps over all contacts of the island, right after solve(). They end once no contact changes a speed by more than `tiny`, m/s.
     void solve_contacts(std::span<ContactConstraint> constraints, std::span<ContactConstraint> late_constraints, bool use_bias,
                         float tiny);
-    /// Speeds that joints forbid and others than the solver have given the bodies, before any load is known.
+    /// Removes speeds that joints forbid and that the bodies got outside the solver, before any load is known.
     void take_forbidden_speeds();
-    /// Joints leave their stops at JointWork::bounce.
+    /// Makes joints leave their stops at the speeds JointWork::bounce.
     void bounce();
-    /// No straight way leads to where the joints want the bodies: let them drift, then close the gaps.
+    /// Whether no straight path leads to where the joints want the bodies. The bodies then drift, and the gaps are closed afterwards.
     [[nodiscard]] bool turns_too_far() const { return m_turns_too_far; }
-    /// Moves the bodies and leaves their velocities: one step of Newton's.
+    /// Moves the bodies by one Newton step and leaves their velocities unchanged.
     void close_gaps();
-    /// Lets joints yield where a gap is left that no move closes.
+    /// Makes joints yield where a gap is left that no move closes.
     void yield_to_gaps();
 
 private:
@@ -67,11 +69,11 @@ private:
     {
         Ahead, ///< errors at the pose that the velocities lead to are 0
         Now,   ///< J v = 0 at the pose reached
-        Soft,  ///< the same, and errors close slowly
-        Held   ///< J v = 0 of the held rows alone
+        Soft,  ///< the same, while errors close slowly
+        Held   ///< J v = 0 for the held rows only
     };
 
-    /// The part of a row that stands in J, and so in the matrix.
+    /// The part of a row that enters J, and so the matrix.
     struct Line
     {
         Vec2 d{};
@@ -82,7 +84,7 @@ private:
     struct Edge
     {
         std::size_t joint = 0; ///< index into m_joints
-        std::int32_t a = 0;    ///< states; none: does not move
+        std::int32_t a = 0;    ///< states; none: immovable
         std::int32_t b = 0;
         int held = 0;
         bool has_axis = false;
@@ -117,10 +119,10 @@ private:
         AxisLaw law;
         AxisPiece piece;
         double before = 0;      ///< impulse that the law has given already
-        AxisImpulses restore{}; ///< as they were before
+        AxisImpulses restore{}; ///< impulses before the solve
     };
 
-    /// A body that joints connect; all that do not move are one.
+    /// A body connected by joints. All immovable bodies share one node.
     struct Node
     {
         std::int32_t state = none;
@@ -128,20 +130,20 @@ private:
         float sprung = 0;  ///< omega² that its springs would give it if nothing else moved
         int springs = 0;
         Placement ahead{};
-        Triple change{}; ///< of its velocity
+        Triple change{}; ///< change of its velocity
     };
 
-    /// Bodies that joints hold together.
+    /// Bodies connected by joints.
     struct Articulation
     {
         std::vector<int> nodes;
         std::vector<int> items;
-        std::vector<int> rows;   ///< of the matrix, in order
-        bool anchored = false;   ///< held by what does not give way
+        std::vector<int> rows;   ///< rows of the matrix, in order
+        bool anchored = false;   ///< connected to an immovable body
         std::vector<int> pushed; ///< bodies that have contacts
     };
 
-    /// The velocity that a body gains by unit impulses on one, by component.
+    /// The velocity that a body gains per unit impulse on one body of its articulation, by component.
     struct Response
     {
         Triple x{};
@@ -149,7 +151,7 @@ private:
         Triple turn{};
 
         [[nodiscard]] Triple to(const Triple& impulse) const;
-        /// The share of a joint's row: its answers to the unit impulses act on the body along the jacobian.
+        /// Adds the share of a joint's row: the row's answers to the unit impulses act on the body along the Jacobian.
         void add(const Triple& inverse_mass, const Triple& jacobian, const Triple& answers);
     };
 
@@ -158,19 +160,19 @@ private:
     {
         int node = 0;
         int articulation = 0;
-        std::size_t place = 0;          ///< among the articulation's
-        bool responds = false;          ///< responses and answers to unit impulses on it are known
-        std::size_t first_response = 0; ///< by the articulation's pushed bodies
-        std::size_t first_answer = 0;   ///< of the joints, by the articulation's rows
+        std::size_t place = 0;          ///< index among the pushed bodies of the articulation
+        bool responds = false;          ///< whether responses and answers to unit impulses on it are known
+        std::size_t first_response = 0; ///< the first of them, in the order of the articulation's pushed bodies
+        std::size_t first_answer = 0;   ///< the first of the joints' answers, in the order of the articulation's rows
         Triple given{};                 ///< impulse, by all contacts so far
     };
 
-    /// A body in a contact: as a part of its articulation, or alone.
+    /// A body of a contact: as a part of its articulation, or on its own.
     struct Side
     {
         std::int32_t state = none;
         int articulation = none;
-        int body = none; ///< of those pushed
+        int body = none; ///< index of the pushed body
     };
 
     struct Contact
@@ -186,7 +188,7 @@ private:
         Side b;
         Triple ja{};
         Triple jb{};
-        float mass = 0; ///< effective
+        float mass = 0; ///< effective mass
     };
 
     void find_articulations();
@@ -258,27 +260,27 @@ private:
     SceneState* m_state = nullptr;
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
-    bool m_fits = false;                            ///< there is something to solve, and not too much
-    static constexpr double loop_compliance = 1e-3; ///< of a row's weight
+    bool m_fits = false;                            ///< whether there are rows to solve, and not too many
+    static constexpr double loop_compliance = 1e-3; ///< relative to a row's weight
 
     int m_most_rows = most_direct_rows;
     bool m_ready = false;
-    bool m_may_contradict = false; ///< rows of loops, and of bodies that are locked
+    bool m_may_contradict = false; ///< whether rows may be redundant: those of loops and of locked bodies
     Masses m_mass_kind = Masses::Own;
     bool m_turns_too_far = false;
     bool m_yields = false;
     float m_longest_arm = 0;
 
     std::vector<Edge> m_found;
-    std::vector<Edge> m_edges; ///< of the layout
+    std::vector<Edge> m_edges; ///< constraint graph of the layout
     JointMatrix m_matrix;
-    bool m_is_new = false;   ///< the layout: nothing stands in the matrix
-    double m_compliance = 0; ///< of loops and of what yields, in the present stage
+    bool m_is_new = false;   ///< whether the layout is new and the matrix still empty
+    double m_compliance = 0; ///< compliance of loops and of yielding joints, in the present stage
     double m_leak = 0;
-    double m_softening = 1; ///< of loops
+    double m_softening = 1; ///< factor of the compliance of loops
     double m_spring_softening = 1;
-    double m_factored_with = -1;       ///< of these; m_compliances are the others
-    std::vector<double> m_compliances; ///< by row; so are the next ones
+    double m_factored_with = -1;       ///< compliance in the factor; m_compliances are in it as well
+    std::vector<double> m_compliances; ///< by row, like the next three
     std::vector<double> m_wanted_compliances;
     std::vector<double> m_speeds; ///< or errors ahead per sub-step
     std::vector<double> m_impulses;
@@ -291,19 +293,19 @@ private:
     std::vector<int> m_pushed_of; ///< by node
     std::vector<Response> m_responses;
     std::vector<Triple> m_answers;
-    std::vector<Triple> m_answer;   ///< to unit impulses on one body, by row
-    std::vector<double> m_answered; ///< to all contacts so far, by row
-    std::vector<Triple> m_before;   ///< changes of an articulation
-    float m_largest_push = 0;       ///< change of a speed
+    std::vector<Triple> m_answer;   ///< answers to unit impulses on one body, by row
+    std::vector<double> m_answered; ///< answers to all contacts so far, by row
+    std::vector<Triple> m_before;   ///< velocity changes in an articulation
+    float m_largest_push = 0;       ///< greatest change of a speed
 
     std::vector<Item> m_items;
     std::vector<Axis> m_axes; ///< in the present stage
     std::vector<JointJacobian> m_jacobians;
     std::vector<Node> m_nodes;
-    std::vector<Triple> m_masses; ///< inverse
+    std::vector<Triple> m_masses; ///< inverse masses
 };
 
-/// Until none is left to speak of.
+/// Closes the gaps in four Newton steps, and makes joints yield where a gap remains.
 void close_gaps(DirectSolve& direct, const SolverView& view, SceneState& state, std::span<JointWork> joints);
 
 } // namespace carom::internal

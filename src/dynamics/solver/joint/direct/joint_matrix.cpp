@@ -1,11 +1,11 @@
-// Two joints couple where they share a body that moves: A_ik = J_ip M_p^-1 J_kp^T, summed over the shared bodies p; A_ii sums over both bodies of i.
-// The matrix is symmetric and sparse. It is factored as A = L D L^T, column by column: each takes what the columns before it that have an entry in
-// its row leave of it. Joints are eliminated by least degree, which keeps a tree free of entries that A does not have and adds few for loops;
-// a body with k joints costs k³. All of it in double.
+// The matrix of a direct joint solve. Two joints couple where they share a movable body: A_ik = J_ip M_p^-1 J_kp^T, summed over the shared bodies p;
+// A_ii sums over both bodies of i. The matrix is symmetric and sparse. It is factored as A = L D L^T, column by column: from each column, the earlier ones
+// that have an entry in its row are subtracted. Joints are eliminated by minimum degree, which creates no fill-in for a tree and little for loops. A body
+// with k joints costs k³. Everything is computed in double.
 //
-// Loops may hold what other rows hold already. A small compliance, relative to each row's own inverse mass, shares the impulse among such rows: of the
-// many ways to share it, the one with the least impulses. It is of the whole impulse of a sub-step, warm start included, so that a part which no
-// motion shows cannot grow from one sub-step to the next.
+// Loops may have redundant rows. A small compliance, relative to each row's own inverse mass, shares the impulse among such rows: of the many ways to
+// share it, the one with the least impulses. It applies to the whole impulse of a sub-step, warm start included. A part of the impulse that causes no
+// motion thus cannot grow from one sub-step to the next.
 
 #include "dynamics/solver/joint/direct/joint_matrix.h"
 
@@ -19,9 +19,9 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double least_rest = 1e-10; // of a diagonal entry, once what comes before is taken out
+constexpr double least_rest = 1e-10; // relative to a diagonal entry, after the earlier columns are subtracted
 
-// The inverse mass of one body along a row's line, in the direction in which it gives way most; for the row of an angle, about the axis.
+// The inverse mass of one body along a row's line, in the direction in which it is the greatest; for the row of an angle, the inverse inertia.
 double weight_of(const Triple& j, double arm, const Triple& mass)
 {
     const double line = j.x * j.x + j.y * j.y;
@@ -93,7 +93,7 @@ JointMatrix::Neighbors JointMatrix::couple_edges(int nodes)
     return neighbors;
 }
 
-// Leaves with each edge the neighbors that come later.
+// Leaves for each edge the neighbors that are eliminated later.
 void JointMatrix::order(Neighbors& neighbors)
 {
     std::vector<int> left(m_edges.size());

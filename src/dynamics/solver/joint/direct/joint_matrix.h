@@ -1,7 +1,7 @@
 #pragma once
 
-// The system of equations of an island's joints: A = J M^-1 J^T + C, how the impulse of one row changes the speed along another. C is the compliance
-// of the rows. See joint_matrix.cpp.
+// The matrix of an island's joint equations: A = J M^-1 J^T + C, how the impulse of one row changes the speed along another. C is the compliance of the
+// rows. See joint_matrix.cpp.
 
 #include <limits>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// Of a body: along its two coordinates and its angle.
+/// A vector over the coordinates of a body: x, y and angle.
 struct Triple
 {
     double x = 0;
@@ -40,19 +40,19 @@ struct Triple
 
 constexpr int most_joint_rows = 3;
 
-/// A joint's part of J, by row.
+/// The Jacobian of a joint, by row.
 struct JointJacobian
 {
     Triple a[most_joint_rows];
     Triple b[most_joint_rows];
-    double arm_a = 0; ///< squared, of the anchors
+    double arm_a = 0; ///< squared lengths of the anchors' arms
     double arm_b = 0;
 };
 
 class JointMatrix
 {
 public:
-    static constexpr int ground = 0;                                       ///< the node of all that does not move
+    static constexpr int ground = 0;                                       ///< node of all immovable bodies
     static constexpr double off = std::numeric_limits<double>::infinity(); ///< compliance of a row that gives no impulse
 
     /// An edge of the constraint graph, whose nodes are bodies.
@@ -63,38 +63,38 @@ public:
         int rows = 0;
     };
 
-    /// Once for a graph, with or without loops: the order of elimination, and where the factor has entries.
+    /// Done once for a graph, with or without loops: finds the order of elimination and the entries of the factor.
     void lay_out(std::span<const Edge> edges, int nodes);
     [[nodiscard]] int rows() const { return static_cast<int>(m_diagonal.size()); }
-    /// The rows of an edge follow one another.
+    /// The rows of an edge are consecutive.
     [[nodiscard]] int first_row(std::size_t edge) const { return m_first_row[edge]; }
     [[nodiscard]] bool has_loops() const { return m_has_loops; }
 
-    /// The inverse mass of a row's two bodies along it, or inertia, that compliances are measured by. A body that may only turn has that of the anchor.
+    /// The inverse mass or inertia of a row's two bodies along it, by which compliances are measured. For a body that may only turn, it is that of the anchor.
     [[nodiscard]] double weight(int row) const { return m_weights[static_cast<std::size_t>(row)]; }
 
-    /// J M^-1 J^T. Jacobians by edge; masses are inverse and by node.
+    /// Computes J M^-1 J^T. Jacobians are by edge; masses are inverse and by node.
     void fill(std::span<const JointJacobian> jacobians, std::span<const Triple> masses);
-    /// With a compliance for each row, and one that all have in proportion to their weights. A row that the rows before it imply gives no impulse.
+    /// Factors with a compliance for each row, and one for all rows in proportion to their weights. A row that earlier rows imply gives no impulse.
     void factor(std::span<const double> compliances, double of_all = 0);
     /// A^-1 values, in place.
     void solve(std::span<double> values) const;
-    /// The same for three columns of values, and for rows, in order, that no other row depends on; the other values are left alone.
+    /// The same for three columns of values and for a subset of the rows, in order, that no other row couples to. Other values are unchanged.
     void solve(std::span<Triple> values, std::span<const int> rows) const;
 
 private:
-    /// Two edges that share a body that moves.
+    /// Two edges that share a movable body.
     struct Coupling
     {
         int first = 0; ///< edge that is eliminated first
         int second = 0;
         int node = ground;
-        bool first_by_a = false; ///< its body a is the one
+        bool first_by_a = false; ///< its body a is the shared one
         bool second_by_a = false;
-        int entries[most_joint_rows] = {}; ///< where the rows of the second begin in each column of the first
+        int entries[most_joint_rows] = {}; ///< where the rows of the second begin, in each column of the first
     };
 
-    /// An entry of the factor, by its row.
+    /// An entry of the factor, listed by row.
     struct Hit
     {
         int column = 0;
@@ -116,20 +116,20 @@ private:
 
     std::vector<Edge> m_edges;
     std::vector<Coupling> m_couplings;
-    std::vector<int> m_order;     ///< edges as they are eliminated
+    std::vector<int> m_order;     ///< edges in the order of elimination
     std::vector<int> m_first_row; ///< by edge
     bool m_has_loops = false;
 
-    std::vector<int> m_column_starts; ///< entries below the diagonal, by column
-    std::vector<int> m_rows;          ///< of the entries
-    std::vector<int> m_hit_starts;    ///< by row
+    std::vector<int> m_column_starts; ///< first entry below the diagonal, by column
+    std::vector<int> m_rows;          ///< row of each entry
+    std::vector<int> m_hit_starts;    ///< first hit, by row
     std::vector<Hit> m_hits;
-    std::vector<double> m_diagonal; ///< of A
+    std::vector<double> m_diagonal; ///< diagonal of A
     std::vector<double> m_weights;
     std::vector<double> m_entries;
-    std::vector<double> m_pivots; ///< of the factor, inverse
+    std::vector<double> m_pivots; ///< inverse pivots of the factor
     std::vector<double> m_factor;
-    std::vector<double> m_work; ///< a column in full
+    std::vector<double> m_work; ///< one column, dense
 };
 
 } // namespace carom::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-// The way a body went in this step, once poses are committed: pieces, each a parabola and an even turn.
+// The path of a body over this step, once poses are committed: pieces, each a parabola with constant angular acceleration.
 
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/step_context.h"
@@ -9,10 +9,10 @@
 
 namespace carom::internal {
 
-/// Gathers what the islands recorded into Scratch::sensors.paths, body by body.
+/// Gathers the pieces recorded by the islands into Scratch::sensors.paths, body by body.
 void gather_paths(StepContext& ctx);
 
-/// Around all that a body has covered since something first threw it off its way.
+/// Box around all that a body has covered since it was first deflected.
 [[nodiscard]] FloatBox deflected_box(const StepContext& ctx, int body);
 
 class BodyPath
@@ -21,13 +21,13 @@ public:
     BodyPath(const StepContext& ctx, int body);
 
     [[nodiscard]] const BodyPose& start() const { return m_start; }
-    /// As committed; the last piece ends near it.
+    /// The committed pose; the last piece ends near it.
     [[nodiscard]] const BodyPose& end() const { return m_end; }
-    /// No point of the body comes farther from where it set out, m.
+    /// No point of the body moves farther than this from its start, m.
     [[nodiscard]] double reach() const { return m_reach; }
-    /// From a time of the step on, until next_curve; relative to the center at the start.
+    /// The path from a time of the step until next_curve, relative to the center at the start.
     [[nodiscard]] FramePath from(double time) const;
-    /// The first bend after a time; the end of the step, where none comes.
+    /// Start of the first piece after a time; the end of the step if there is none.
     [[nodiscard]] double next_curve(double time) const;
 
 private:
@@ -40,7 +40,7 @@ private:
     double m_reach = 0;
     BodyPose m_start;
     BodyPose m_end;
-    FramePath m_chord{}; ///< until the first piece
+    FramePath m_chord{}; ///< path until the first piece
     std::span<const PathPiece> m_pieces;
 };
 

@@ -1,4 +1,6 @@
-#include "dynamics/solver/island_energy.h"
+// The part of IslandEnergy that sums up energy and work, and finds groups; energy_scaling.cpp scales speeds.
+
+#include "dynamics/solver/energy/island_energy.h"
 
 #include "core/as_double.h"
 #include "dynamics/state/turns.h"
@@ -14,7 +16,7 @@ namespace {
 
 double inverse(float x) { return x > 0 ? 1 / as_double(x) : 0; }
 
-// Motors and soft holds do work that nobody has counted.
+// Motors and soft joints do work that is not counted.
 bool is_passive(const JointRecord& joint) { return joint.hertz == 0 && !joint.enable_motor; }
 
 bool may_lose(const JointRecord& joint)
@@ -22,7 +24,7 @@ bool may_lose(const JointRecord& joint)
     return joint.damping > 0 || joint.impulses[slot_lower] != 0 || joint.impulses[slot_upper] != 0;
 }
 
-// Not a rope that is slack, nor a limit that is far.
+// False for a slack rope and for a distant limit.
 bool is_at_work(const JointRecord& joint, const JointWork& work)
 {
     return work.rows.held_count > 0 || joint.kind == JointType::Spring || axis_impulse(joint) != 0;
@@ -119,9 +121,9 @@ void IslandEnergy::place_body(const StepContext& ctx, std::int32_t state)
         b.arm = arm_of(state);
 }
 
-// --- seen from what is driven -------------------------------------------------------------------------------------------------------
+// --- the carrier's frame ------------------------------------------------------------------------------------------------------------
 
-// Kinematic bodies stand behind the dynamic ones. With two that move there is no frame in which neither does work.
+// Kinematic bodies come after the dynamic ones. With two that move there is no frame in which neither does work.
 void IslandEnergy::find_carrier(const StepContext& ctx, const Island& island)
 {
     m_carrier = none;
@@ -166,14 +168,14 @@ IslandEnergy::Energy IslandEnergy::energy_of(std::int32_t state)
     return energy;
 }
 
-// What a way from the carrier's center gives.
+// The energy that the centrifugal force has given at that distance from the carrier's center.
 double IslandEnergy::driven_outwards(const Body& b, const Arm& arm) const
 {
     return 0.5 * square(as_double(m_view.states[m_carrier].angular_velocity)) *
            (b.mass_x * square(arm.x) + b.mass_y * square(arm.y));
 }
 
-// Forces are even over the sub-step: they work along the way that was gone, however it bent.
+// Forces are constant over the sub-step: they work along the displacement, whatever the curvature of the path.
 IslandEnergy::Energy IslandEnergy::work_on(std::int32_t state)
 {
     const BodyState& s = m_view.states[state];
@@ -197,9 +199,9 @@ IslandEnergy::Energy IslandEnergy::work_on(std::int32_t state)
     return energy;
 }
 
-// --- what comes and goes ------------------------------------------------------------------------------------------------------------
+// --- balance of the energy ----------------------------------------------------------------------------------------------------------
 
-// Every body hangs on a joint that may do work.
+// True if every body is on a joint that may do work.
 bool IslandEnergy::all_driven()
 {
     std::uint64_t driven = 0;
@@ -213,7 +215,7 @@ bool IslandEnergy::all_driven()
     return std::popcount(driven) == m_count;
 }
 
-// What has landed counts from here.
+// A body that has landed counts from here.
 void IslandEnergy::after_impacts(std::span<const StoppedJoint> stopped)
 {
     if (m_all_driven)
@@ -238,7 +240,7 @@ void IslandEnergy::after_impacts(std::span<const StoppedJoint> stopped)
                 b.arm = arm_of(i);
         }
         else if ((s.flags & body_flag::unbound) != 0)
-        { // what forces do on the way that an impact has added is in the speeds that it was added to
+        { // the speeds already include the work of forces along the displacement that an impact added
             b.position += s.delta_position - b.position_before_impacts;
             const float turn = (s.delta_rotation * carom::inverse(b.rotation_before_impacts)).angle();
             b.rotation = Rotation::from_angle(turn) * b.rotation;
@@ -291,7 +293,7 @@ void IslandEnergy::add_work()
     }
 }
 
-// --- who belongs together -----------------------------------------------------------------------------------------------------------
+// --- groups of connected bodies -----------------------------------------------------------------------------------------------------
 
 void IslandEnergy::connect(std::int32_t a, std::int32_t b)
 {
@@ -330,7 +332,7 @@ void IslandEnergy::join(std::int32_t own, std::int32_t other)
         group.is_passive = false;
 }
 
-// Impulse times the way on which a constraint has made good what others had moved.
+// Impulse times the displacement by which a constraint has corrected an error that others had caused.
 double IslandEnergy::take_work(JointWork& work) const
 {
     const JointRecord& joint = m_state->joints[work.joint];
@@ -353,7 +355,7 @@ void IslandEnergy::note_joint(JointWork& work)
 {
     const JointRecord& joint = m_state->joints[work.joint];
     Group& first = group_of(is_ours(work.a) ? work.a : work.b);
-    first.is_passive &= std::max(std::fabs(work.moved[0]), std::fabs(work.moved[1])) <= m_slop; // farther, it is a blow
+    first.is_passive &= std::max(std::fabs(work.moved[0]), std::fabs(work.moved[1])) <= m_slop; // beyond it, an impact
     first.constraint_work += take_work(work);
     for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
     {
@@ -375,7 +377,7 @@ void IslandEnergy::note_constraints(std::span<const ContactConstraint> constrain
     }
 }
 
-// Load times the way on which it has pushed an overlap out; the impulse of a blow is no load.
+// Load times the displacement by which it has pushed an overlap out; the impulse of an impact is no load.
 double IslandEnergy::push_out_of(const ContactConstraint& constraint) const
 {
     double work = 0;

@@ -1,4 +1,4 @@
-// Paths of bodies over what is left of a sub-step, as an impact is looked for on them.
+// Paths of bodies over the rest of a sub-step, on which times of impact are searched.
 
 #include "core/trigonometry.h"
 #include "dynamics/continuous/motion.h"
@@ -35,7 +35,7 @@ void follow_flier(const FlightSpan& span, const Flier& f, const BodySim& sim, do
     path.alpha = f.alpha;
 }
 
-// The solver has already moved it to the end of the sub-step.
+// The solver has already moved the body to the end of the sub-step.
 void follow_solved(const FlightSpan& span, std::int32_t index, const BodySim& sim, double time, FramePath& path)
 {
     const BodyState& s = span.state_of(index);
@@ -48,7 +48,7 @@ void follow_solved(const FlightSpan& span, std::int32_t index, const BodySim& si
         c.ax = span.constants_of(index).acceleration.x;
         c.ay = span.constants_of(index).acceleration.y;
     }
-    // Back from the end: position and velocity at `time`.
+    // Position and velocity at `time`, traced back from the end.
     c.x += static_cast<double>(s.delta_position.x) - left * c.vx + 0.5 * left * left * c.ax;
     c.y += static_cast<double>(s.delta_position.y) - left * c.vy + 0.5 * left * left * c.ay;
     c.vx -= left * c.ax;
@@ -68,7 +68,7 @@ void follow_straight(const FlightSpan& span, int body, const BodySim& sim, doubl
     path.w = sim.angular_velocity;
     double angle = since * path.w;
     for (const DeferredImpulse& d : span.output.deferred)
-    { // what this island has struck goes on from there
+    { // an impact in this island changes the path from then on
         if (d.body != body)
             continue;
         const auto dvx = static_cast<double>(sim.inverse_mass.x * d.impulse.x);

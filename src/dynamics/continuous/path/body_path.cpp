@@ -1,4 +1,6 @@
-#include "dynamics/continuous/body_path.h"
+// Paths of bodies over a whole step, put together from the recorded pieces.
+
+#include "dynamics/continuous/path/body_path.h"
 
 #include "core/grow.h"
 #include "core/trigonometry.h"
@@ -29,7 +31,7 @@ void gather_paths(StepContext& ctx)
 
 namespace {
 
-// What woke after the step began has not moved in it.
+// A body that woke after the step began has not moved in it.
 bool took_part(const StepContext& ctx, int body)
 {
     const BodyRecord& record = ctx.state.bodies[body];
@@ -90,7 +92,7 @@ void BodyPath::measure(double extent)
         m_reach += displacement(m_pieces[i].path, (i + 1 < m_pieces.size() ? m_pieces[i + 1].start : m_dt) - m_pieces[i].start);
 }
 
-// From pose to pose, straight and evenly turning: the very path of a kinematic body.
+// The path from start to end pose at constant velocity and angular velocity: the exact path of a kinematic body.
 void BodyPath::follow_chord(const StepContext& ctx, int body)
 {
     const BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
@@ -98,11 +100,11 @@ void BodyPath::follow_chord(const StepContext& ctx, int body)
     m_chord.center.vy = (m_end.center.y - m_start.center.y) / m_dt;
     const BodyRecord& record = ctx.state.bodies[body];
     const Rotation turn = m_end.rotation * inverse(m_start.rotation);
-    const bool turns_evenly = record.type == BodyType::Kinematic && !record.has_target; // by more than half a turn, even
+    const bool turns_evenly = record.type == BodyType::Kinematic && !record.has_target; // exact even beyond half a turn
     m_chord.w = turns_evenly ? static_cast<double>(sim.angular_velocity) : arc_tangent(turn.s, turn.c) / m_dt;
 }
 
-// What came near triggers only because something threw it there is recorded from then on: straight until then.
+// A body that came near triggers only because it was deflected is recorded from then on: before that its path is straight.
 void BodyPath::lead_to(const PathPiece& first)
 {
     m_chord.local_center = first.path.local_center;
@@ -116,7 +118,7 @@ void BodyPath::lead_to(const PathPiece& first)
         first.start;
 }
 
-// Not so where a wall has stopped the body short of it afterwards (safety_sweep.cpp).
+// False where a wall has stopped the body short of the path's end afterwards (safety_sweep.cpp).
 bool BodyPath::ends_there(std::span<const PathPiece> pieces, double tolerance) const
 {
     const FramePath end = path_after(pieces.back().path, m_dt - pieces.back().start);
@@ -153,7 +155,7 @@ FloatBox deflected_box(const StepContext& ctx, int body)
         const double end = i + 1 < pieces.size() ? pieces[i + 1].start : static_cast<double>(ctx.dt);
         const CenterPath& from = pieces[i].path.center;
         const CenterPath to = path_after(pieces[i].path, end - pieces[i].start).center;
-        // A parabola lies within its ends and the crossing of their tangents.
+        // A parabolic arc lies in the triangle of its ends and the crossing of their tangents.
         const double half = 0.5 * (end - pieces[i].start);
         for (const Position& p :
              {Position{from.x, from.y}, Position{from.x + half * from.vx, from.y + half * from.vy}, Position{to.x, to.y}})

@@ -1,7 +1,7 @@
-// How speeds are scaled to the energy that loads leave.
+// The part of IslandEnergy that scales speeds to the energy that loads leave.
 
 #include "core/as_double.h"
-#include "dynamics/solver/island_energy.h"
+#include "dynamics/solver/energy/island_energy.h"
 #include "dynamics/state/turns.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace carom::internal {
 namespace {
 
 constexpr double energy_rounding = 2e-6;    // of the energy, over a whole sub-step
-constexpr double noise_displacement = 0.05; // of the slop, in a sub-step: what moves so far against the forces has gained nothing
-constexpr double rest_displacement = 0.004; // and what has no energy: it may not creep
+constexpr double noise_displacement = 0.05; // of the slop, per sub-step: this far against the forces nothing is gained
+constexpr double rest_displacement = 0.004; // the same for bodies without energy: they may not creep
 
 bool decays(const StateConstants& c) { return c.linear_decay != 1 || c.angular_decay != 1; }
 
@@ -75,8 +75,8 @@ IslandEnergy::Arm IslandEnergy::place_of(std::int32_t state)
     return {center.x + as_double(displacement.x), center.y + as_double(displacement.y)};
 }
 
-// What is free moves on with its center of mass and turns about it; what hangs on the world has no motion of its own, what is carried moves
-// against the carrier.
+// A free group moves on with its center of mass and rotates about it. A group that hangs on
+// the world has no motion of its own; a carried group moves against the carrier.
 IslandEnergy::Motion IslandEnergy::frame_of(const Group& group, const Drift& drift, std::int32_t state)
 {
     if (group.is_carried)
@@ -103,7 +103,7 @@ void IslandEnergy::scale(int index, bool exact)
 {
     const Group& group = m_groups[static_cast<std::size_t>(index)];
     const double missing = group.of(group.missing) + group.constraint_work;
-    // Cut off at every sub-step, noise would be a damper; and contacts push out overlaps against the forces.
+    // Noise that is cut off at every sub-step would act as a damper; and contacts push out overlaps against the forces.
     const double work = group.of(group.work);
     const bool may_rise = group.may_lose && work < 0 && missing < 0;
     const bool may_stay =
@@ -114,7 +114,7 @@ void IslandEnergy::scale(int index, bool exact)
     Drift drift = drift_of(index);
     double inner = inner_energy(index, drift);
     if (inner + missing < 0)
-    { // more than they have against each other: of the turn of the whole as well
+    { // more than the inner energy: the rotation of the whole gives its energy as well
         drift.inertia = 0;
         inner = inner_energy(index, drift);
     }
@@ -132,14 +132,14 @@ void IslandEnergy::scale(int index, bool exact)
         const Motion frame = frame_of(group, drift, i);
         const StateConstants& c = m_view.constants[i];
         const auto scale = [&](float& speed, double of_frame, float inverse_mass)
-        { speed += inverse_mass != 0 ? change * (speed - static_cast<float>(of_frame)) : 0; }; // locked, it is not moved
+        { speed += inverse_mass != 0 ? change * (speed - static_cast<float>(of_frame)) : 0; }; // a locked axis does not move
         scale(s.velocity.x, frame.x, c.inverse_mass.x);
         scale(s.velocity.y, frame.y, c.inverse_mass.y);
         scale(s.angular_velocity, frame.w, c.inverse_inertia);
     }
 }
 
-// Bodies that go against the forces without energy for it go so much less far.
+// Bodies that move against the forces without energy for it lose that share of their displacement.
 void IslandEnergy::cut_speeds(int index, double share)
 {
     m_has_cut_speeds = true;
@@ -151,7 +151,7 @@ void IslandEnergy::cut_speeds(int index, double share)
     }
 }
 
-// Its own way is that against the carrier, which takes it along.
+// The displacement of a carried body is taken relative to the carrier, which takes it along.
 void IslandEnergy::cut_speed(std::int32_t state, float rest, bool is_carried)
 {
     BodyState& s = m_view.states[state];

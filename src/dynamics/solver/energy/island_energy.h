@@ -9,29 +9,29 @@
 
 namespace carom::internal {
 
-/// Joints that hold and surfaces that stand still do no work. The energy of bodies that hang or lean together may therefore not rise by more than
-/// forces, springs and impacts give, and does not fall either where joints alone hold them: the speeds at which they move against each other
-/// are scaled to it. What is left of the error of finite steps is one of phase. Bodies on one that is driven evenly, such as a turning drum, are seen
-/// from it: there it does no work, and the Jacobi integral takes the place of the energy, with a potential of -m w^2 r^2 / 2.
+/// Joints that hold and surfaces that stand still do no work. The energy of bodies that hang or lean together may therefore not rise by more than forces,
+/// springs and impacts give. Where joints alone hold the bodies, it does not fall either. The speeds at which they move against each other are scaled to that
+/// energy, which leaves a phase error as the only error of finite steps. Bodies on a carrier, a body that is driven evenly such as a turning drum, are seen
+/// from its frame. There it does no work, and the Jacobi integral takes the place of the energy, with a potential of -m w^2 r^2 / 2.
 class IslandEnergy
 {
 public:
     static constexpr int most_bodies = most_watched_bodies;
 
-    /// Before the forces of a sub-step.
+    /// Called before the forces of a sub-step.
     void begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Island& island);
-    /// Around what happens in flight: energy that impacts took or gave stays so; what the solver had put into joints and impacts stopped does not.
+    /// Called around flight. Energy that impacts take or give stays so; the energy of a closing joint that an impact stopped is given back.
     void before_impacts();
     void after_impacts(std::span<const StoppedJoint> stopped);
-    /// After the relaxation: joints and contacts that bear something make groups.
+    /// Called after the relaxation: joints and contacts that bear a load connect bodies into groups.
     void note_load(std::span<const ContactConstraint> constraints, std::span<const ContactConstraint> late_constraints);
-    /// At the end. `exact`: the joints were solved to the end; else they may only have put in too much.
+    /// Called at the end. `exact`: the joints were solved exactly; otherwise they may only have added too much energy.
     void restore(bool exact);
-    /// It has moved bodies.
+    /// True if restore() has moved bodies.
     [[nodiscard]] bool has_cut_speeds() const { return m_has_cut_speeds; }
 
 private:
-    /// Energies against what stands and against the carrier.
+    /// Energies in the world's frame and in the carrier's.
     struct Energy
     {
         double standing = 0;
@@ -45,7 +45,7 @@ private:
         }
     };
 
-    /// Velocity of a frame where the body is.
+    /// Velocity of a frame at the position of a body.
     struct Motion
     {
         double x = 0;
@@ -61,34 +61,34 @@ private:
 
     struct Body
     {
-        double mass_x = 0; ///< what is locked has none to speak of: it does not move
+        double mass_x = 0; ///< 0 along a locked axis, where the body does not move
         double mass_y = 0;
         double inertia = 0;
-        Energy missing{}; ///< what there was and has been added since, less what there is
-        Energy first{};   ///< what there was
-        Energy work{};    ///< that forces have done since, among them, as the carrier sees it, the one that drives outwards
-        Arm center{};     ///< when the step began, seen from the carrier's center then, or from the first body's
-        Arm arm{};        ///< seen from it at the start of the sub-step
+        Energy missing{}; ///< the first energy and what has been added since, less the present energy
+        Energy first{};   ///< energy at the start of the sub-step
+        Energy work{};    ///< work of forces since then, in the carrier's frame that of the centrifugal force as well
+        Arm center{};     ///< when the step began, relative to the carrier's center then, or to the first body's
+        Arm arm{};        ///< relative to the carrier's center at the start of the sub-step
         Vec2 position{};  ///< at the start of the sub-step
         Rotation rotation{};
         Vec2 position_before_impacts{};
         Rotation rotation_before_impacts{};
-        int group = 0;     ///< the least body it is connected with
+        int group = 0;     ///< the lowest index of a body that it is connected with
         bool flew = false; ///< at the start of the sub-step
 
-        [[nodiscard]] double twice_kinetic(const BodyState& s, const Motion& frame) const; ///< as seen there
+        [[nodiscard]] double twice_kinetic(const BodyState& s, const Motion& frame) const; ///< in that frame
     };
 
-    /// How bodies move as one: velocity of the common center of mass, axis by axis (a locked axis has none), and the turn about it.
+    /// Motion of bodies as a whole: velocity of the common center of mass, axis by axis (a locked axis has none), and rotation about it.
     struct Drift
     {
         double mass_x = 0;
         double mass_y = 0;
         double px = 0;
         double py = 0;
-        double x = 0; ///< center of mass, once all are added
+        double x = 0; ///< center of mass, after center()
         double y = 0;
-        double inertia = 0; ///< about it
+        double inertia = 0; ///< about the center of mass
         double spin = 0;    ///< angular momentum about it
 
         void add(const Body& body, const BodyState& s, const Arm& at);
@@ -104,15 +104,15 @@ private:
         Energy missing{};
         Energy first{};
         Energy work{};
-        double push_out = 0;        ///< that contacts have done, for bodies overlapped: it gives them no speed
-        double constraint_work = 0; ///< that joints have done, for others moved them
-        double slop_work = 0;       ///< of the forces along the slop
+        double push_out = 0;        ///< work of contacts that push overlapping bodies apart: it gives them no speed
+        double constraint_work = 0; ///< work of joints while they correct errors that other constraints caused
+        double slop_work = 0;       ///< work of the forces over a displacement by the slop
         bool touches = false;
         bool is_joined = false;   ///< by joints or contacts
-        bool is_anchored = false; ///< to what does not move
+        bool is_anchored = false; ///< by something that does not move
         bool is_carried = false;  ///< by the carrier
-        bool is_passive = true;   ///< nothing may do work on it but forces and springs
-        bool may_lose = false;    ///< contacts, limits, dampers
+        bool is_passive = true;   ///< only forces and springs may do work on it
+        bool may_lose = false;    ///< to contacts, limits or dampers
 
         [[nodiscard]] double of(const Energy& energy) const { return is_carried ? energy.carried : energy.standing; }
     };
@@ -142,7 +142,7 @@ private:
     void add_work();
     [[nodiscard]] double force_on(std::int32_t state);
     void add_springs(double sign);
-    [[nodiscard]] double inner_energy(int group, const Drift& drift); ///< against the motion of the whole
+    [[nodiscard]] double inner_energy(int group, const Drift& drift); ///< relative to the motion of the whole
     void scale(int group, bool exact);
     void cut_speeds(int group, double share);
     void cut_speed(std::int32_t state, float rest, bool is_carried);
@@ -156,11 +156,11 @@ private:
     float m_slop = 0;
     float m_rest_speed = 0;
     int m_subdivisions = 1;
-    bool m_all_driven = false; ///< nothing to watch
+    bool m_all_driven = false; ///< every body is on a joint that may do work: there is nothing to watch
     bool m_has_cut_speeds = false;
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
-    std::int32_t m_carrier = none; ///< state of the one kinematic body that moves
+    std::int32_t m_carrier = none; ///< state of the only kinematic body that moves
     BodyState m_carrier_before{};  ///< at the start of the sub-step
     std::array<Body, most_bodies> m_bodies;
     std::array<Group, most_bodies> m_groups;

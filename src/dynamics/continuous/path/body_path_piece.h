@@ -1,6 +1,6 @@
 #pragma once
 
-// Paths as they are recorded.
+// A piece of a path, as islands record it.
 
 #include "collision/time_of_impact.h"
 #include "dynamics/state/scene_state.h"
@@ -9,11 +9,11 @@
 
 namespace carom::internal {
 
-/// A body's path from a time of the step on, until its next piece.
+/// A body's path from a time of the step until its next piece.
 struct PathPiece
 {
     std::int32_t body = none;
-    std::int32_t order = 0; ///< among all of the step
+    std::int32_t order = 0; ///< index among all pieces of the step
     double start = 0;
     FramePath path{}; ///< relative to the center of mass at the start of the step
 };

@@ -1,4 +1,6 @@
-#include "dynamics/continuous/trace.h"
+// Records the paths of bodies within a step.
+
+#include "dynamics/continuous/path/trace.h"
 
 #include "core/trigonometry.h"
 
@@ -6,7 +8,7 @@ namespace carom::internal {
 
 namespace {
 
-// What was thrown off its way may meet triggers that nobody expected it at.
+// A deflected body may meet triggers that are not near its predicted path.
 bool is_recorded(const FlightSpan& span, std::int32_t state)
 {
     const std::int32_t f = span.scratch.flight.flier_of_state[static_cast<std::size_t>(state)];
@@ -31,7 +33,8 @@ FramePath at_rest(const BodySim& sim)
     return path;
 }
 
-// The solver has moved it to the end of the sub-step; its velocity may have changed since. So straight from where the last piece has led it, or as it falls.
+// The solver has moved the body to the end of the sub-step; its velocity may have changed since. The path leads from the end of the last
+// piece to that pose, in a straight line or, in free flight, on a parabola.
 FramePath solved_path(const FlightSpan& span, std::int32_t state, double time)
 {
     const BodyState& s = span.state_of(state);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The user's force laws: what a body may be given in a step, and the call in every sub-step.
+// The user's force laws: bounds on what a law may do to a body in a step, and its call in every sub-step.
 
 #include "dynamics/state/scene_data.h"
 #include "dynamics/step_context.h"
@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// Nothing for a body without one.
+/// Null for a body without a law.
 [[nodiscard]] inline const ForceLaw* force_law_of(const StepContext& ctx, int body)
 {
     const auto slot = static_cast<std::size_t>(body);
@@ -18,9 +18,9 @@ namespace carom::internal {
     return ctx.scene.laws[slot].function != nullptr ? &ctx.scene.laws[slot] : nullptr;
 }
 
-inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a bound beyond it says no more, and boxes stay finite
+inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a larger bound says no more, and boxes stay finite
 
-/// What its law may add to a body's way and to its spin within the step; 0 without a law.
+/// Bounds on what its law may add to a body's displacement and to its spin within the step; 0 without a law.
 [[nodiscard]] inline float greatest_shift_of_law(const StepContext& ctx, int body)
 {
     const ForceLaw* law = force_law_of(ctx, body);
@@ -37,10 +37,10 @@ inline constexpr float most_of_law = 1e6f; ///< m, rad/s: a bound beyond it says
     return std::min(ctx.dt * law->greatest_torque * ctx.state.sims[static_cast<std::size_t>(body)].inverse_inertia, most_of_law);
 }
 
-/// Asks the laws of an island for the loads of the sub-step k.
+/// Calls the laws of an island for the loads of sub-step k.
 void apply_force_laws(const StepContext& ctx, const Island& island, int k, IslandOutput& output);
 
-/// Keeps the impacts of this step that no law was told: those of the last sub-step, and those that another island resolved.
+/// Keeps the impacts of this step that were not reported to a law: those of the last sub-step, and those that another island resolved.
 void note_pending_impacts(StepContext& ctx);
 
 } // namespace carom::internal

@@ -1,7 +1,7 @@
-// Force laws are asked before everything else in a sub-step. What they give becomes a constant acceleration of the sub-step, beside gravity and
-// applied force: the rows and flight know nothing of laws.
+// Force laws are called before everything else in a sub-step. Their loads become an acceleration that is
+// constant over the sub-step, beside gravity and applied force: constraints and flight know nothing of laws.
 
-#include "dynamics/solver/force_laws.h"
+#include "dynamics/forces/force_laws.h"
 
 #include "dynamics/continuous/flight.h"
 #include "dynamics/state/contact_store.h"
@@ -17,7 +17,7 @@ namespace {
 
 bool takes_part(BodyId body, const ImpactEvent& event) { return event.body_a == body || event.body_b == body; }
 
-// What has struck the body since its law was last called.
+// Impacts of the body since its law was last called.
 std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k, IslandOutput& output)
 {
     output.law_impacts.clear();
@@ -45,13 +45,13 @@ BodyMotion motion_at(const StepContext& ctx, const BodySim& sim, const BodyState
             .impacts = impacts};
 }
 
-// Finite, and not such that it leads out of all numbers in this step: the bound of the sweep.
+// True for finite accelerations that lead to no overflow in this step: the bound of the sweep.
 bool is_sound(const StepContext& ctx, Vec2 acceleration, float angular_acceleration)
 {
     return ctx.dt * (std::fabs(acceleration.x) + std::fabs(acceleration.y) + std::fabs(angular_acceleration)) < 1e15f;
 }
 
-// A law that clamps its load to what it has promised may be off by its rounding; greatest_shift_of_law() has room for far more.
+// A law that clamps its load to the promised bound may exceed it by rounding; greatest_shift_of_law() has room for far more.
 bool exceeds(const ForceLaw& law, const Load& load)
 {
     constexpr float rounding = 1.0001f;

@@ -1,6 +1,6 @@
 // Fields: forces of trigger shapes on the dynamic bodies inside them, constant over a step.
 
-#include "dynamics/sensors/fields.h"
+#include "dynamics/forces/fields.h"
 #include "core/trigonometry.h"
 
 namespace carom::internal {
