@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -135,6 +137,118 @@ TEST(Documents, LinksToFilesLead)
             EXPECT_TRUE(exists(document, target)) << document.filename() << " links to " << target << ", which does not exist";
         }
     }
+}
+
+// --- the rooms of the step ----------------------------------------------------------------------------------------------------------------
+
+const fs::path dynamics_dir = source_dir / "src/dynamics";
+
+bool is_source(const fs::path& path)
+{
+    return path.extension() == ".h" || path.extension() == ".cpp" || path.extension() == ".inl";
+}
+
+std::vector<fs::path> sources_in(const fs::path& folder)
+{
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    {
+        if (entry.is_regular_file() && is_source(entry.path()))
+            found.push_back(entry.path());
+    }
+    return found;
+}
+
+TEST(Rooms, ArchitectureNamesEach)
+{
+    const std::string text = read_file(source_dir / "ARCHITECTURE.md");
+    int rooms = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(dynamics_dir))
+    {
+        if (!entry.is_directory())
+            continue;
+        ++rooms;
+        const std::string name = entry.path().filename().string() + "/";
+        EXPECT_NE(text.find(name), std::string::npos) << "ARCHITECTURE.md does not mention src/dynamics/" << name;
+    }
+    EXPECT_GT(rooms, 5);
+}
+
+TEST(Rooms, HoldFewFilesAndNoneIsLong)
+{
+    std::map<fs::path, int> files;
+    for (const fs::path& source : sources_in(dynamics_dir))
+    {
+        ++files[source.parent_path()];
+        const std::string text = read_file(source);
+        EXPECT_LE(std::ranges::count(text, '\n'), 500) << source << " is too long for one subject";
+    }
+    for (const auto& [room, count] : files)
+        EXPECT_LE(count, 16) << room << " is crowded";
+}
+
+// A source file may leave that to its header.
+TEST(Rooms, EveryFileSaysWhatItIsFor)
+{
+    for (const fs::path& source : sources_in(dynamics_dir))
+    {
+        const std::string text = read_file(source);
+        const std::string opening = text.starts_with("#pragma once\n\n") ? text.substr(14) : text;
+        const bool has_header = source.extension() == ".cpp" && fs::exists(fs::path(source).replace_extension(".h"));
+        EXPECT_TRUE(opening.starts_with("//") || has_header) << source << " does not begin with a comment";
+    }
+}
+
+// The table of how islands are solved names every choice that there is, and ARCHITECTURE.md stays short.
+TEST(Rooms, TheTableOfPoliciesIsComplete)
+{
+    const std::string text = read_file(source_dir / "ARCHITECTURE.md");
+    const std::string header = read_file(dynamics_dir / "islands/policy.h");
+    const std::size_t begin = header.find("struct IslandPolicy");
+    const std::string policy = header.substr(begin, header.find("};", begin) - begin);
+    int choices = 0;
+    for (const char* type : {"bool ", "std::int32_t "})
+    {
+        for (std::size_t at = policy.find(type); at != std::string::npos; at = policy.find(type, at + 1))
+        {
+            const std::size_t name = at + std::string(type).size();
+            const std::string choice = policy.substr(name, policy.find(' ', name) - name);
+            EXPECT_NE(text.find("`" + choice + "`"), std::string::npos) << "ARCHITECTURE.md has no row for " << choice;
+            ++choices;
+        }
+    }
+    EXPECT_GT(choices, 8);
+}
+
+TEST(Rooms, ArchitectureHasTwoPages)
+{
+    std::istringstream text(read_file(source_dir / "ARCHITECTURE.md"));
+    EXPECT_LE(std::distance(std::istream_iterator<std::string>(text), {}), 1800);
+}
+
+// Types and functions that documents name exist.
+TEST(Documents, NamesOfTheEngineExist)
+{
+    std::string engine;
+    for (const char* folder : {"src", "include"})
+    {
+        for (const fs::path& source : sources_in(source_dir / folder))
+            engine += read_file(source);
+    }
+    int checked = 0;
+    for (const char* document : {"ARCHITECTURE.md", "docs/solver.md"})
+    {
+        for (const std::string& text : quoted(read_file(source_dir / document)))
+        {
+            const bool is_name = std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+            if (!is_name || text.size() < 8)
+                continue;
+            ++checked;
+            EXPECT_NE(engine.find(text), std::string::npos)
+                << document << " names " << text << ", which the engine does not have";
+        }
+    }
+    EXPECT_GT(checked, 15);
 }
 
 } // namespace
