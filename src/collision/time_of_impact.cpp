@@ -114,7 +114,7 @@ public:
         if (!surface)
         {
             sight.distance = std::max(distance_to_line(m_leaf, in_leaf.x, in_leaf.y) - m_probe.radius,
-                                      way_to_where_it_answers(m_leaf, in_leaf.x, in_leaf.y));
+                                      displacement_to_the_end(m_leaf, in_leaf.x, in_leaf.y));
             return sight;
         }
         sight.faces = true;
@@ -338,7 +338,7 @@ private:
 
     // Beyond its ends a piece of a chain leaves everything to its neighbors, except for the corner that it shares with the previous piece. Returns a lower
     // bound on the distance to the points that the piece answers for; 0 is always safe.
-    static double way_to_where_it_answers(const LeafView& view, double px, double py)
+    static double displacement_to_the_end(const LeafView& view, double px, double py)
     {
         const Leaf& leaf = *view.leaf;
         if (leaf.type != LeafType::Segment)

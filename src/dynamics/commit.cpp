@@ -127,11 +127,11 @@ void commit_state(const StepContext& ctx, std::int32_t index)
     BodySim& sim = ctx.state.sims[static_cast<std::size_t>(body)];
     double x = s.delta_position.x;
     double y = s.delta_position.y;
-    bool crowded = false;
+    bool needs_wall_check = false;
     if (const std::int32_t f = ctx.scratch.flight.flier_of_state[static_cast<std::size_t>(index)]; f != none)
     {
         const Flier& flier = ctx.scratch.flight.fliers[static_cast<std::size_t>(f)];
-        crowded = flier.crowded;
+        needs_wall_check = flier.needs_wall_check;
         const CenterMotion center = center_of(flier); // the path itself, in double
         x = flier.landed ? x : center.x;
         y = flier.landed ? y : center.y;
@@ -142,8 +142,9 @@ void commit_state(const StepContext& ctx, std::int32_t index)
         return;
     }
     const Position displacement{x, y};
-    const Position free =
-        crowded || may_have_passed(ctx, s, body) ? free_displacement(ctx, body, displacement, s.delta_rotation) : displacement;
+    const Position free = needs_wall_check || may_have_passed(ctx, s, body)
+                              ? free_displacement(ctx, body, displacement, s.delta_rotation)
+                              : displacement;
     if (free != displacement)
     {
         s.flags |= body_flag::stopped;

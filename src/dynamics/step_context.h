@@ -41,6 +41,8 @@ struct Scratch
     MeetingsWorkspace meetings;
     LayoutWorkspace layout;
     CachedGraph cached_graph;
+    CachedConstraints cached_constraints;
+    Reuse reuse = Reuse::Nothing; ///< in this step
     SolverWorkspace solver;
     FlightWorkspace flight;
     SensorWorkspace sensors;

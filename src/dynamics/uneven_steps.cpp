@@ -62,7 +62,7 @@ void begin_substeps(StepContext& ctx)
     state.longest_substep = std::max(ctx.h, still_known);
 }
 
-void note_forces(StepContext& ctx)
+void save_impulses(StepContext& ctx)
 {
     if (!is_short(ctx))
         return;
@@ -73,7 +73,7 @@ void note_forces(StepContext& ctx)
                    { std::ranges::copy(impulses, scratch.uneven.joint_impulses_before[static_cast<std::size_t>(i)].begin()); });
 }
 
-void average_forces(StepContext& ctx)
+void average_saved_impulses(StepContext& ctx)
 {
     if (!is_short(ctx))
         return;

@@ -12,7 +12,7 @@ namespace carom::internal {
 void begin_substeps(StepContext& ctx);
 
 /// Called before the solve and after it. They do nothing if the sub-step is the longest recent one.
-void note_forces(StepContext& ctx);
-void average_forces(StepContext& ctx);
+void save_impulses(StepContext& ctx);
+void average_saved_impulses(StepContext& ctx);
 
 } // namespace carom::internal

@@ -38,7 +38,7 @@ BodySim make_sim(const BodyDef& def)
         sim.angular_velocity = def.angular_velocity;
     }
     sim.gravity_scale = def.gravity_scale;
-    sim.crowded = def.type != BodyType::Dynamic;
+    sim.caches_manifolds = def.type != BodyType::Dynamic;
     sim.linear_damping = def.linear_damping;
     sim.angular_damping = def.angular_damping;
     return sim;
@@ -356,7 +356,7 @@ void Body::set_type(BodyType type)
     m_data->state.graph_dirty = true;
     t.record().type = type;
     t.record().has_target = t.record().had_target = false;
-    t.sim().crowded = type != BodyType::Dynamic;
+    t.sim().caches_manifolds = type != BodyType::Dynamic;
     if (type == BodyType::Static)
     {
         t.sim().velocity = {};

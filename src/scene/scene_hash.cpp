@@ -39,9 +39,9 @@ void add(Hasher& h, const FloatBox& b)
 void add_body(Hasher& h, const BodyRecord& r, const BodySim& s)
 {
     h.add(static_cast<int>(r.type) | (static_cast<int>(r.enabled) << 2) | (static_cast<int>(r.can_sleep) << 3) |
-          (static_cast<int>(s.crowded) << 8) | (static_cast<int>(r.has_target) << 4) | (static_cast<int>(r.locks.linear_x) << 5) |
-          (static_cast<int>(r.locks.linear_y) << 6) | (static_cast<int>(r.locks.angular) << 7) |
-          (static_cast<int>(r.plane_cell) << 16));
+          (static_cast<int>(s.caches_manifolds) << 8) | (static_cast<int>(r.has_target) << 4) |
+          (static_cast<int>(r.locks.linear_x) << 5) | (static_cast<int>(r.locks.linear_y) << 6) |
+          (static_cast<int>(r.locks.angular) << 7) | (static_cast<int>(r.plane_cell) << 16));
     h.add(r.awake_index);
     add(h, s.center);
     add(h, s.rotation);

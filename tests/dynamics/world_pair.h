@@ -65,8 +65,7 @@ public:
             both([dt](World& w) { w.scene.step(dt); });
             stayed += constraints_are_unchanged() ? 1 : 0;
             const std::string when = "step " + std::to_string(m_followed.scene.step_count());
-            EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.constraints_are_unchanged);
-            EXPECT_FALSE(m_anew.scene.data().scratch.cached_graph.hinges_are_unchanged);
+            EXPECT_EQ(m_anew.scene.data().scratch.reuse, internal::Reuse::Nothing);
             EXPECT_EQ(m_followed.scene.state_hash(), m_anew.scene.state_hash()) << when;
             EXPECT_EQ(m_followed.scene.report().touching, m_anew.scene.report().touching) << when;
             EXPECT_EQ(m_followed.scene.report().pairs, m_anew.scene.report().pairs) << when;
@@ -79,9 +78,9 @@ public:
 
     [[nodiscard]] bool constraints_are_unchanged()
     {
-        return m_followed.scene.data().scratch.cached_graph.constraints_are_unchanged;
+        return m_followed.scene.data().scratch.reuse == internal::Reuse::Constraints;
     }
-    [[nodiscard]] bool hinges_are_unchanged() { return m_followed.scene.data().scratch.cached_graph.hinges_are_unchanged; }
+    [[nodiscard]] bool hinges_are_unchanged() { return m_followed.scene.data().scratch.reuse != internal::Reuse::Nothing; }
     [[nodiscard]] const World& followed() const { return m_followed; }
     [[nodiscard]] const World& anew() const { return m_anew; }
 

@@ -260,7 +260,7 @@ void take_off_fast_movers(StepContext& ctx, const Island& island, int k, IslandO
     for (Flier& f : span.fliers())
     {
         const BodyState& s = span.state_of(f.state);
-        const bool was_struck = island.policy.exact_impacts || f.crowded || f.deflected;
+        const bool was_struck = island.policy.exact_impacts || f.needs_wall_check || f.deflected;
         if (f.landed && was_struck &&
             (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
             take_off_with_bats(span, f);

@@ -69,7 +69,7 @@ private:
             return;
         m_span.state.contacts[index].manifold = manifold; // the constraint refers to these points
         impulses_of(m_span.state, index) = {};
-        m_span.state.contacts[index].flags &= ~contact_flag::kept;
+        m_span.state.contacts[index].flags &= ~contact_flag::cached;
         const bool flier_is_a = contact.body_a == m_flier.body;
         ContactConstraint constraint = prepare_constraint(m_span.ctx, index, manifold, flier_is_a ? m_flier.state : other,
                                                           flier_is_a ? other : m_flier.state);

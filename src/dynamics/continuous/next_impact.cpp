@@ -241,7 +241,7 @@ private:
         const Flier* other = m_span.flier_at(m_span.state_in_island(body));
         if (m_flier.looks > most_looks)
         {
-            m_flier.crowded = true; // its path is checked against walls
+            m_flier.needs_wall_check = true; // its path is checked against walls
             return;
         }
         // Before its last change the other body had another path; until then the two have not met.

@@ -23,9 +23,9 @@ std::span<const ImpactEvent> impacts_of(const StepContext& ctx, int body, int k,
     output.law_impacts.clear();
     if (k == 0)
     {
-        for (const PendingImpact& untold : ctx.scene.pending_impacts)
-            if (untold.body == body)
-                output.law_impacts.push_back(untold.event);
+        for (const PendingImpact& unreported : ctx.scene.pending_impacts)
+            if (unreported.body == body)
+                output.law_impacts.push_back(unreported.event);
     }
     const BodyId id = body_id(ctx.state, body);
     for (const ImpactEvent& event : std::span(output.impacts).subspan(output.reported_impacts))

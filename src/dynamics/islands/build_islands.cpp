@@ -1,5 +1,5 @@
 // Stage 4, islands: first the bodies that fly, the joint edges (joint_edges.cpp) and the islands (island_graph.cpp), then the arrays of all islands side by
-// side (island_layout.cpp). Where nothing has changed since the last step and nothing flies, the cached graph is reused (cached_graph.cpp), and so are
+// side (island_layout.cpp). Where no body or edge of the scene has changed, no body flies, and every island is large enough (IslandPolicy::caches_graph), the graph is reused (cached_graph.cpp), and so are
 // constraints (cached_constraints.cpp) and hinges (WideKernels::follow_joints).
 
 #include "dynamics/islands/island_graph.h"
@@ -13,22 +13,23 @@ namespace carom::internal {
 
 void build_islands(StepContext& ctx)
 {
-    ctx.scratch.graph.fullest_cell = 0;
-    if (ctx.scratch.cached_graph.constraints_are_unchanged)
+    Scratch& scratch = ctx.scratch;
+    scratch.graph.fullest_cell = 0;
+    if (scratch.reuse == Reuse::Constraints)
     {
         refill_islands(ctx);
         return;
     }
     list_fliers(ctx);
     gather_joints(ctx);
-    ctx.scratch.cached_graph.hinges_are_unchanged = graph_is_unchanged(ctx);
-    if (ctx.scratch.cached_graph.hinges_are_unchanged)
+    if (graph_is_unchanged(ctx))
     {
+        scratch.reuse = Reuse::Graph;
         refill_islands(ctx);
         cache_constraints(ctx);
         return;
     }
-    ctx.scratch.cached_graph.constraints_apart = false;
+    scratch.cached_constraints.are_valid = false;
     build_island_graph(ctx);
     lay_out_islands(ctx);
     cache_graph(ctx);

@@ -130,7 +130,7 @@ ContactEdges::ContactEdges(StepContext& ctx, std::size_t contacts_to_a_task)
     // Edges of the last step are compared with the new ones and overwritten by them.
     EdgesOfTask& all = edges_of(0);
     all.edges.swap(scratch.graph.edges);
-    all.stay = scratch.cached_graph.are_plain;
+    all.stay = scratch.cached_graph.is_valid;
     all.to_compare = all.stay ? all.edges.size() : 0;
     set_size(all.edges, std::max(all.edges.size(), ctx.state.awake_contacts.size()));
 }
@@ -210,7 +210,7 @@ void ContactEdges::join()
         scratch.cached_graph.edges_are_unchanged = parts[0].stay && count == parts[0].to_compare;
         return;
     }
-    const bool may_stay = scratch.cached_graph.are_plain && scratch.graph.edges.size() == count;
+    const bool may_stay = scratch.cached_graph.is_valid && scratch.graph.edges.size() == count;
     set_size(scratch.graph.edges, count);
     for_each_in_chunks(m_ctx.scene.def.tasks, parts.size(), parts_joined_at_once,
                        [&](std::size_t i)

@@ -70,7 +70,7 @@ private:
             append_all(shapes, some.shapes);
         }
         if (!shapes.empty())
-            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.meetings.keeps_its_way);
+            state.broad_phase.choose_all_but(Layer::Moving, shapes, scratch.meetings.keeps_its_path);
     }
 
     // A struck body may leave as fast as the striking one arrives. So each island notes the longest displacement of its fliers that may still meet something.
@@ -153,7 +153,7 @@ private:
         {
             const unsigned lanes = (1u << std::min(tree.leaf_count() - k * BoxTree::arity, BoxTree::arity)) - 1;
             state.broad_phase.for_each_overlap(
-                tree, k, lanes, Layer::Moving, scratch.meetings.keeps_its_way,
+                tree, k, lanes, Layer::Moving, scratch.meetings.keeps_its_path,
                 [&](std::int32_t place, int shape)
                 {
                     const std::size_t other = place_of_shape(shape);

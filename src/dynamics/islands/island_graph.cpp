@@ -87,7 +87,8 @@ public:
                            {
                                const std::int32_t place = scratch.graph.flying[i];
                                std::int32_t& flight = scratch.graph.flight[static_cast<std::size_t>(place)];
-                               if (is_crowd(tally_of(scratch, place).unloaded) && !is_fast_mover(body_at(place)))
+                               if (limits_flight_to_fast_movers(tally_of(scratch, place).unloaded) &&
+                                   !is_fast_mover(body_at(place)))
                                    scratch.graph.could_fly[static_cast<std::size_t>(place)] = std::exchange(flight, solver_owned);
                            });
         std::erase_if(scratch.graph.flying,

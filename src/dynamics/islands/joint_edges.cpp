@@ -50,7 +50,7 @@ public:
         scratch.graph.flight.clear();
         scratch.graph.could_fly.clear();
         scratch.graph.is_loaded.clear();
-        scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hung = false;
+        scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hinged_fliers = false;
         for (const std::int32_t body :
              scratch.graph.placed) // only bodies that were awake in the last step: a body that never moves costs nothing
             scratch.graph.places[static_cast<std::size_t>(body)] = none;
@@ -103,13 +103,13 @@ public:
     // A step changes nothing that joint edges depend on, except whether a body may fly.
     void gather_joints()
     {
-        CachedGraph& kept = scratch.cached_graph;
-        kept.stay_plain = kept.are_plain && !state.graph_dirty && bodies_are_unchanged(ctx);
-        kept.joints_are_unchanged = kept.stay_plain && !scratch.graph.has_hung && !kept.has_hung;
-        kept.has_hung = scratch.graph.has_hung;
-        if (kept.joints_are_unchanged)
+        CachedGraph& cached = scratch.cached_graph;
+        cached.is_current = cached.is_valid && !state.graph_dirty && bodies_are_unchanged(ctx);
+        cached.joints_are_unchanged = cached.is_current && !scratch.graph.has_hinged_fliers && !cached.had_hinged_fliers;
+        cached.had_hinged_fliers = scratch.graph.has_hinged_fliers;
+        if (cached.joints_are_unchanged)
             return;
-        scratch.graph.joint_edges.swap(kept.joints);
+        scratch.graph.joint_edges.swap(cached.joints);
         using Some = std::vector<JointEdge>;
         const auto joints = static_cast<std::size_t>(state.joints.capacity());
         const std::span<Some> parts =
@@ -168,7 +168,7 @@ private:
             return kind;
         if (!is_closed(ctx, kind, body))
             return solver_owned;
-        std::atomic_ref(scratch.graph.has_hung).store(true, std::memory_order_relaxed);
+        std::atomic_ref(scratch.graph.has_hinged_fliers).store(true, std::memory_order_relaxed);
         return kind;
     }
 

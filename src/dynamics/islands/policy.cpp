@@ -32,9 +32,9 @@ void force(Value& choice, const std::optional<Value>& forced)
 bool has_soft_joints(const IslandTally& t, float dt)
 {
     const bool calm = t.subdivisions == 1;
-    const bool lies = 4 * t.bearing >= t.joints && calm;
+    const bool rests = 4 * t.bearing >= t.joints && calm;
     const bool is_damped = t.damped == t.joints && (t.contacts == 0 || (calm && dt * t.swing < calm_swing));
-    return t.joints >= enough_soft_joints && t.bodies <= most_watched_bodies && !t.hangs && t.fliers == 0 && (lies || is_damped);
+    return t.joints >= enough_soft_joints && t.bodies <= most_watched_bodies && !t.hangs && t.fliers == 0 && (rests || is_damped);
 }
 
 // Wide constraints do not support manifolds that change within the step, subdivided sub-steps, or the energies of joints.
@@ -92,7 +92,7 @@ int partitions_of(const IslandPolicy& policy, int bodies, int edges)
     return policy.wide_contacts && parts > 1 ? static_cast<int>(std::bit_floor(static_cast<unsigned>(parts))) : 0;
 }
 
-bool are_many(int partitions) { return partitions > few_partitions; }
+bool exceeds_shared_cache(int partitions) { return partitions > few_partitions; }
 
 bool is_worth_all_threads(int partitions, int wide_joint_blocks)
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-// How an island is solved. Only policy.cpp decides by an island's size or content; all other code reads the choices below. They depend on the island alone,
-// never on threads or on other islands. Tests may force any of them.
+// How an island is solved. Only policy.cpp decides by an island's size or content; all other code reads the choices below. They depend on the island and the
+// length of the step, never on threads. Tests may force any of them. Islands in free fall and islands with soft joints are then solved several at a time, as one Island.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ inline constexpr int most_converging_bodies = 32; ///< number of bodies whose sp
 inline constexpr int most_direct_rows = 128;      ///< beyond it, DirectSolve takes longer than soft rows
 inline constexpr int most_subdivisions = 32;      ///< limit where a kinematic body or a joint's arm turns
 inline constexpr int most_hinge_subdivisions =
-    64; ///< limit where a body on a hinge turns a contact: the error becomes its own energy
+    64; ///< limit where a body on a hinge turns a contact: the integration error would become kinetic energy of the mechanism
 
 /// Data by which the policy of an island is chosen.
 struct IslandTally
@@ -37,8 +37,9 @@ struct IslandTally
 
 struct IslandPolicy
 {
-    bool free_fall = false;   ///< isolated bodies in free fall: no solver, and many of them in one island
-    bool soft_joints = false; ///< joints are soft constraints in lanes, and several such islands are solved as one
+    bool free_fall = false; ///< isolated bodies in free fall: no solver, and many of them in one island
+    bool soft_joints =
+        false; ///< one soft pass over joints, hinges in lanes, as in a pile; several such islands are solved as one
     bool recomputes_contacts =
         false; ///< manifolds are recomputed within the step, and chain pieces that a body may come to face have constraints
     bool converges = false; ///< contacts are solved until they converge, in up to 16 passes; otherwise in one pass
@@ -47,9 +48,9 @@ struct IslandPolicy
     bool conserves_energy = false; ///< speeds are held to the energy that loads leave, see IslandEnergy
     bool caches_manifolds =
         false; ///< manifolds are cached from step to step, and bodies that have been slow for long enough lose their speed (rest damping)
-    bool caches_graph = false;                   ///< where nothing in it has changed, all slots stay the same
-    bool wide_contacts = false;                  ///< contacts are solved in wide constraints of eight lanes
-    bool wide_joints = false;                    ///< so are hinges
+    bool caches_graph = false;  ///< its layout depends on bodies and edges alone: reused where no island of the scene has changed
+    bool wide_contacts = false; ///< contacts are solved in wide constraints of eight lanes
+    bool wide_joints = false;   ///< so are hinges
     std::int32_t subdivisions = 1;               ///< per sub-step
     std::int32_t direct_rows = most_direct_rows; ///< up to so many rows, joints outside of lanes are solved all at once; 0: never
 };
@@ -72,7 +73,7 @@ struct ForcedPolicy
 };
 
 /// In a crowd only fast movers fly: contacts of the other bodies are speculative, and one contact more or less does not decide their paths.
-[[nodiscard]] inline bool is_crowd(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
+[[nodiscard]] inline bool limits_flight_to_fast_movers(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
 
 /// Do contacts whose normals turn, and joints whose arms turn, subdivide the sub-steps of an island of so many bodies?
 [[nodiscard]] inline bool follows_turning_contacts(int bodies) { return bodies <= few_bodies; }
@@ -92,7 +93,7 @@ struct ForcedPolicy
 [[nodiscard]] int partitions_of(const IslandPolicy& policy, int bodies, int edges);
 
 /// More partitions than stay in the shared processor cache. An island this large always has fliers, and its partitions relax before the fliers move, too.
-[[nodiscard]] bool are_many(int partitions);
+[[nodiscard]] bool exceeds_shared_cache(int partitions);
 
 /// Do all threads solve the island together?
 [[nodiscard]] bool is_worth_all_threads(int partitions, int wide_joint_blocks);

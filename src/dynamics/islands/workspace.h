@@ -99,7 +99,7 @@ struct MeetingsWorkspace
     std::vector<TreeLeaf> reaches;          ///< boxes that these may reach
     std::vector<SomeReaches> reaches_of_task;
     BoxTree reach_tree;
-    std::vector<std::uint8_t> keeps_its_way; ///< items that are not deflected, in the blocks of the moving layer
+    std::vector<std::uint8_t> keeps_its_path; ///< items that are not deflected, in the blocks of the moving layer
     std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> meetings_of_task; ///< pairs of islands that meet
 };
 
@@ -119,7 +119,7 @@ struct GraphWorkspace
     std::vector<std::uint8_t> is_isolated;    ///< whether a flier has nothing near, by awake index
     std::vector<std::uint8_t> may_be_struck;  ///< whether a flier may strike the body, by awake index
     bool has_kinematic = false;               ///< a kinematic body is awake
-    bool has_hung = false;                    ///< a body that may fly about a hinge is awake
+    bool has_hinged_fliers = false;           ///< a body that may fly about a hinge is awake
     bool has_uneven = false;                  ///< an awake body is locked along one axis of the plane only
     std::vector<EdgesOfTask> edges_of_task;
     std::vector<ContactEdge> edges;

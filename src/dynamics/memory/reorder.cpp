@@ -366,7 +366,7 @@ void reorder(StepContext& ctx)
     }
     sort_bodies(ctx.state);
     part_bodies(ctx);
-    if (ctx.scratch.cached_graph.constraints_unchanged_for >= steps_between)
+    if (ctx.scratch.cached_constraints.unchanged_for >= steps_between)
         return; // they are still in the order of the last time
     ContactOrder order(ctx);
     order.find();

@@ -30,9 +30,9 @@ constexpr std::size_t islands_per_task = 4;
 
 bool are_in_place(const StepContext& ctx)
 {
-    const CachedGraph& kept = ctx.scratch.cached_graph;
-    return kept.constraints_apart && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
-           ctx.state.awake_contacts == kept.contacts && bodies_are_unchanged(ctx);
+    const CachedConstraints& cached = ctx.scratch.cached_constraints;
+    return cached.are_valid && !ctx.state.graph_dirty && ctx.scene.law_count == 0 && ctx.state.joints.count() == 0 &&
+           ctx.state.awake_contacts == cached.contacts && bodies_are_unchanged(ctx);
 }
 
 // A contact without a lane must still need none.
@@ -48,9 +48,9 @@ bool look_at_loose(const StepContext& ctx, std::int32_t index)
     return true;
 }
 
-bool loose_stay(const StepContext& ctx)
+bool loose_contacts_are_unchanged(const StepContext& ctx)
 {
-    const std::vector<std::int32_t>& loose = ctx.scratch.cached_graph.loose;
+    const std::vector<std::int32_t>& loose = ctx.scratch.cached_constraints.loose;
     std::atomic<bool> stay{true};
     for_each_in_chunks(ctx.scene.def.tasks, loose.size(), contacts_per_task,
                        [&](std::size_t i)
@@ -133,44 +133,45 @@ bool leans_on_statics(const SceneState& state, const ContactEdge& l)
 bool refresh_cached_constraints(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    CachedGraph& kept = scratch.cached_graph;
-    kept.constraints_are_unchanged = false;
-    const std::uint64_t stayed_for = std::exchange(kept.constraints_unchanged_for, 0);
+    CachedConstraints& cached = scratch.cached_constraints;
+    scratch.reuse = Reuse::Nothing;
+    const std::uint64_t unchanged_for = std::exchange(cached.unchanged_for, 0);
     scratch.narrow.is_looked_at.clear();
-    const bool are_of_this_state = ctx.state.lanes_stamp != 0 && kept.stamp == ctx.state.lanes_stamp;
+    const bool are_of_this_state = ctx.state.lanes_stamp != 0 && cached.stamp == ctx.state.lanes_stamp;
     ctx.state.lanes_stamp = 0; // invalid until the constraints have been solved
-    kept.are_plain = kept.are_plain && are_of_this_state;
-    if (!are_of_this_state || !kept.constraints_apart)
+    scratch.cached_graph.is_valid &= are_of_this_state;
+    if (!are_of_this_state || !cached.are_valid)
         return false;
     scratch.narrow.borne.assign(scratch.solver.state_bodies.size(), 0);
     scratch.narrow.is_looked_at.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    kept.constraints_are_unchanged = are_in_place(ctx) && loose_stay(ctx) && constraints_are_unchanged(ctx) &&
-                                     (!ctx.scene.def.continuous || all_are_borne(ctx));
-    if (!kept.constraints_are_unchanged)
+    const bool are_unchanged = are_in_place(ctx) && loose_contacts_are_unchanged(ctx) && constraints_are_unchanged(ctx) &&
+                               (!ctx.scene.def.continuous || all_are_borne(ctx));
+    if (!are_unchanged)
         return false;
+    scratch.reuse = Reuse::Constraints;
     scratch.narrow.is_looked_at.clear();
-    kept.constraints_unchanged_for = stayed_for + 1;
+    cached.unchanged_for = unchanged_for + 1;
     return true;
 }
 
 void cache_constraints(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
-    CachedGraph& kept = scratch.cached_graph;
+    CachedConstraints& cached = scratch.cached_constraints;
     const auto may_stay = [&](const ContactEdge& l)
     { return !l.has(edge_flag::solved) || (l.has(edge_flag::plain) && leans_on_statics(ctx.state, l)); };
-    kept.constraints_apart = ctx.state.joints.count() == 0 && !scratch.graph.has_kinematic && !scratch.solver.islands.empty() &&
-                             std::ranges::all_of(scratch.graph.edges, may_stay);
-    if (!kept.constraints_apart)
+    cached.are_valid = ctx.state.joints.count() == 0 && !scratch.graph.has_kinematic && !scratch.solver.islands.empty() &&
+                       std::ranges::all_of(scratch.graph.edges, may_stay);
+    if (!cached.are_valid)
         return;
-    kept.contacts = ctx.state.awake_contacts;
-    kept.touching = ctx.report.touching;
+    cached.contacts = ctx.state.awake_contacts;
+    cached.touching = ctx.report.touching;
     std::vector<std::int32_t>& has_lane = scratch.order;
     has_lane.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
     for (const ContactEdge& l : scratch.layout.solved_edges)
         has_lane[as_index(l.contact)] = 1;
-    kept.loose.clear();
-    std::copy_if(kept.contacts.begin(), kept.contacts.end(), std::back_inserter(kept.loose),
+    cached.loose.clear();
+    std::copy_if(cached.contacts.begin(), cached.contacts.end(), std::back_inserter(cached.loose),
                  [&](std::int32_t contact) { return has_lane[as_index(contact)] == 0; });
 }
 

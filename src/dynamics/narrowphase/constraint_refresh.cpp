@@ -59,11 +59,11 @@ void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes
         changes.gone |= bit;
         return;
     }
-    ContactEdge link;
-    link.contact = index;
-    link.a = constraint.a.v[i];
-    link.b = constraint.b.v[i];
-    refill_lane(m_ctx, link, constraint, notes, i);
+    ContactEdge edge;
+    edge.contact = index;
+    edge.a = constraint.a.v[i];
+    edge.b = constraint.b.v[i];
+    refill_lane(m_ctx, edge, constraint, notes, i);
     note_if_loaded(constraint, notes, i, least_separation(contact.manifold));
 }
 

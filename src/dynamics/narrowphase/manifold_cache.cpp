@@ -41,27 +41,27 @@ struct Moved
     float cosine;
 };
 
-Rotation turned_since(const CachedManifold& kept, const BodySim& own, const BodySim& other)
+Rotation turned_since(const CachedManifold& cached, const BodySim& own, const BodySim& other)
 {
-    return inverse(own.rotation) * other.rotation * inverse(kept.rotation);
+    return inverse(own.rotation) * other.rotation * inverse(cached.rotation);
 }
 
 // Chord of a rotation, on a circle of radius 1.
 float chord_of(Rotation turn) { return std::sqrt(turn.s * turn.s + (1 - turn.c) * (1 - turn.c)); }
 
-Moved moved_since(const CachedManifold& kept, const BodySim& own, const BodySim& other)
+Moved moved_since(const CachedManifold& cached, const BodySim& own, const BodySim& other)
 {
-    const Rotation turn = turned_since(kept, own, other);
-    return {length(place_of(other, own) - kept.center) + other.extent * chord_of(turn), turn.c};
+    const Rotation turn = turned_since(cached, own, other);
+    return {length(place_of(other, own) - cached.center) + other.extent * chord_of(turn), turn.c};
 }
 
 // Lower bound on the distance of two shapes without a point. Only displacement along the separating direction, and rotation, reduce it.
-float room(const CachedManifold& kept, const BodySim& own, const BodySim& other)
+float room(const CachedManifold& cached, const BodySim& own, const BodySim& other)
 {
-    const Vec2 displacement = place_of(other, own) - kept.center;
-    const Vec2 direction = kept.found.parting.direction;
+    const Vec2 displacement = place_of(other, own) - cached.center;
+    const Vec2 direction = cached.found.parting.direction;
     const float gain = direction == Vec2{} ? -length(displacement) : dot(direction, displacement);
-    return kept.reach + gain - kept.found.parting.arm * chord_of(turned_since(kept, own, other));
+    return cached.reach + gain - cached.found.parting.arm * chord_of(turned_since(cached, own, other));
 }
 
 // Bound on the distance of the shape's corners from the center of rotation.
@@ -71,7 +71,7 @@ float arm_of(const SceneState& state, int shape, const BodySim& sim)
     return sim.extent - (leaf.type == LeafType::Capsule ? std::min(leaf.r0, leaf.r1) : leaf.r0);
 }
 
-void cache_edge(CachedEdge& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
+void cache_edge(CachedEdge& cached, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)
 {
     const bool of_b = found.clipped.of_b;
     const auto on_a = [&](Vec2 p) { return p - a.local_center; };
@@ -80,20 +80,21 @@ void cache_edge(CachedEdge& kept, const BodySim& a, const BodySim& b, const Rela
     {
         const Vec2 edge = found.clipped.edge[i];
         const Vec2 corner = found.clipped.corners[i];
-        kept.edge[i] = of_b ? on_b(edge) : on_a(edge);
-        kept.corners[i] = of_b ? on_a(corner) : on_b(corner);
+        cached.edge[i] = of_b ? on_b(edge) : on_a(edge);
+        cached.corners[i] = of_b ? on_a(corner) : on_b(corner);
     }
-    kept.normal = of_b ? inverse_rotate(pose.rotation, found.normal) : found.normal;
+    cached.normal = of_b ? inverse_rotate(pose.rotation, found.normal) : found.normal;
 }
 
-void cache_corners(CachedCorners& kept, const BodySim& a, const BodySim& b, const RelativePose& pose, const NearestCorners& found)
+void cache_corners(CachedCorners& cached, const BodySim& a, const BodySim& b, const RelativePose& pose,
+                   const NearestCorners& found)
 {
-    kept.corners[0] = found.at[0] - a.local_center;
-    kept.corners[1] = pose.to_b(found.at[1]) - b.local_center;
-    kept.cones[0] = found.cones[0];
-    kept.cones[1] = inverse_rotate(pose.rotation, found.cones[1]);
-    kept.radii[0] = found.radii[0];
-    kept.radii[1] = found.radii[1];
+    cached.corners[0] = found.at[0] - a.local_center;
+    cached.corners[1] = pose.to_b(found.at[1]) - b.local_center;
+    cached.cones[0] = found.cones[0];
+    cached.cones[1] = inverse_rotate(pose.rotation, found.cones[1]);
+    cached.radii[0] = found.radii[0];
+    cached.radii[1] = found.radii[1];
 }
 
 // True if the cached data is in the axes of b.
@@ -105,25 +106,25 @@ bool is_of_b(const SceneState& state, const Contact& contact, const LocalManifol
            arm_of(state, contact.shape_b, sim_of(state, contact.body_b));
 }
 
-void keep(const SceneState& state, const Contact& contact, const LocalManifold& found, CachedManifold& kept)
+void keep(const SceneState& state, const Contact& contact, const LocalManifold& found, CachedManifold& cached)
 {
     const BodySim& a = sim_of(state, contact.body_a);
     const BodySim& b = sim_of(state, contact.body_b);
     const bool of_b = caches_edge_of_b(contact);
     const BodySim& own = of_b ? b : a;
     const BodySim& other = of_b ? a : b;
-    kept.center = place_of(other, own);
-    kept.rotation = inverse(own.rotation) * other.rotation;
-    kept.reach = found.reach;
-    kept.radius = found.clipped.radius;
+    cached.center = place_of(other, own);
+    cached.rotation = inverse(own.rotation) * other.rotation;
+    cached.reach = found.reach;
+    cached.radius = found.clipped.radius;
     const RelativePose pose = relative_pose(a.pose(), b.pose());
     if (found.count == 0)
-        kept.found.parting = {of_b ? inverse_rotate(pose.rotation, -found.parting) : found.parting,
-                              arm_of(state, of_b ? contact.shape_a : contact.shape_b, other)};
+        cached.found.parting = {of_b ? inverse_rotate(pose.rotation, -found.parting) : found.parting,
+                                arm_of(state, of_b ? contact.shape_a : contact.shape_b, other)};
     else if (found.clipped.radius >= 0)
-        cache_edge(kept.found.edge, a, b, pose, found);
+        cache_edge(cached.found.edge, a, b, pose, found);
     else
-        cache_corners(kept.found.nearest, a, b, pose, found.nearest);
+        cache_corners(cached.found.nearest, a, b, pose, found.nearest);
 }
 
 // Distance within which the shapes get points.
@@ -146,19 +147,19 @@ struct Facing
 
     Facing(const CachedManifold& k, const BodySim& a, const BodySim& b, bool edge_of_b) : radius(k.radius), of_b(edge_of_b)
     {
-        const CachedEdge& kept = k.found.edge;
+        const CachedEdge& cached = k.found.edge;
         const BodySim& own = of_b ? b : a;
         const BodySim& other = of_b ? a : b;
         const Vec2 apart = b.center - a.center;
-        const Vec2 normal = rotate(own.rotation, kept.normal);
+        const Vec2 normal = rotate(own.rotation, cached.normal);
         n = of_b ? -normal : normal;
         offset = of_b ? -apart : apart;
-        start = rotate(own.rotation, kept.edge[0]);
-        const Vec2 edge = rotate(own.rotation, kept.edge[1]) - start;
+        start = rotate(own.rotation, cached.edge[0]);
+        const Vec2 edge = rotate(own.rotation, cached.edge[1]) - start;
         end = dot(edge, edge);
         for (int i = 0; i < 2; ++i)
         {
-            corners[i] = offset + rotate(other.rotation, kept.corners[i]);
+            corners[i] = offset + rotate(other.rotation, cached.corners[i]);
             along[i] = dot(edge, corners[i] - start);
         }
     }
@@ -216,90 +217,90 @@ bool is_best_still(const Facing& facing, const Facing::Foot& lowest, const Moved
 }
 
 // One corner is before the edge, and the other is too far away to be a second point.
-bool has_one_point(const CachedManifold& kept, const Facing& facing, const Moved& moved, float margin, float longest_path)
+bool has_one_point(const CachedManifold& cached, const Facing& facing, const Moved& moved, float margin, float longest_path)
 {
     const Facing::Foot near = facing.foot(0);
     const bool is_alone = facing.is_round() || facing.foot(1).separation > margin;
-    return near.inside && near.separation <= margin && is_alone && margin + moved.displacement <= kept.reach &&
+    return near.inside && near.separation <= margin && is_alone && margin + moved.displacement <= cached.reach &&
            is_best_still(facing, near, moved, longest_path);
 }
 
 // Both corners are before the edge, and no other corner has replaced one of them.
-bool has_two_points(const CachedManifold& kept, const Facing& facing, const Moved& moved, float longest_path)
+bool has_two_points(const CachedManifold& cached, const Facing& facing, const Moved& moved, float longest_path)
 {
     const Facing::Foot first = facing.foot(0);
     const Facing::Foot second = facing.foot(1);
     const Facing::Foot& lowest = second.separation < first.separation ? second : first;
     return facing.meets() && (lowest.inside || !facing.is_steep()) && lowest.separation <= longest_path &&
-           moved.displacement <= kept.reach && is_best_still(facing, lowest, moved, longest_path);
+           moved.displacement <= cached.reach && is_best_still(facing, lowest, moved, longest_path);
 }
 
 // The line between the two nearest corners.
 struct Nearest
 {
-    const CachedCorners& kept;
+    const CachedCorners& cached;
     Vec2 from; ///< corner from the center of a; `to`: from the center of b
     Vec2 to;
     Vec2 n;
     float separation;
     bool leads_out; ///< the line leads out of both cones: nothing is nearer
 
-    Nearest(const CachedCorners& k, const BodySim& a, const BodySim& b) : kept(k)
+    Nearest(const CachedCorners& k, const BodySim& a, const BodySim& b) : cached(k)
     {
-        from = rotate(a.rotation, kept.corners[0]);
-        to = rotate(b.rotation, kept.corners[1]);
+        from = rotate(a.rotation, cached.corners[0]);
+        to = rotate(b.rotation, cached.corners[1]);
         const Vec2 gap = (b.center - a.center) + to - from;
         const float distance = std::sqrt(dot(gap, gap));
         n = {gap.x / distance, gap.y / distance};
-        separation = distance - (kept.radii[0] + kept.radii[1]);
+        separation = distance - (cached.radii[0] + cached.radii[1]);
         leads_out = distance > CachedCorners::least_distance &&
-                    dot(n, rotate(a.rotation, kept.cones[0])) >= dot(kept.cones[0], kept.cones[0]) &&
-                    dot(-n, rotate(b.rotation, kept.cones[1])) >= dot(kept.cones[1], kept.cones[1]);
+                    dot(n, rotate(a.rotation, cached.cones[0])) >= dot(cached.cones[0], cached.cones[0]) &&
+                    dot(-n, rotate(b.rotation, cached.cones[1])) >= dot(cached.cones[1], cached.cones[1]);
     }
 
     void put(Manifold& m) const
     {
         m.normal = n;
         m.points[0].separation = separation;
-        m.points[0].anchor_a = from + kept.radii[0] * n;
-        m.points[0].anchor_b = to - kept.radii[1] * n;
+        m.points[0].anchor_a = from + cached.radii[0] * n;
+        m.points[0].anchor_b = to - cached.radii[1] * n;
     }
 };
 
-void follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, Manifold& m)
+void follow(const CachedManifold& cached, const BodySim& a, const BodySim& b, const Contact& contact, Manifold& m)
 {
     if (m.count == 0)
         return;
     if (caches_nearest(contact))
     {
-        Nearest(kept.found.nearest, a, b).put(m);
+        Nearest(cached.found.nearest, a, b).put(m);
         return;
     }
     const bool of_b = caches_edge_of_b(contact);
-    const Facing facing(kept, a, b, of_b);
-    m.normal = rotate(of_b ? b.rotation : a.rotation, kept.found.edge.normal);
+    const Facing facing(cached, a, b, of_b);
+    m.normal = rotate(of_b ? b.rotation : a.rotation, cached.found.edge.normal);
     for (int i = 0; i < m.count; ++i)
         facing.put(i, m.points[i]);
 }
 
 // Would the narrow phase still find the cached features?
-bool can_follow(const CachedManifold& kept, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
+bool can_follow(const CachedManifold& cached, const BodySim& a, const BodySim& b, const Contact& contact, float margin,
                 float longest_path)
 {
     if (!is_cached(contact))
         return false;
     if (contact.manifold.count == 0)
-        return margin <= (caches_edge_of_b(contact) ? room(kept, b, a) : room(kept, a, b));
+        return margin <= (caches_edge_of_b(contact) ? room(cached, b, a) : room(cached, a, b));
     if (caches_nearest(contact))
     {
-        const Nearest nearest(kept.found.nearest, a, b);
+        const Nearest nearest(cached.found.nearest, a, b);
         return nearest.leads_out && nearest.separation <= margin;
     }
     const bool of_b = caches_edge_of_b(contact);
-    const Moved moved = of_b ? moved_since(kept, b, a) : moved_since(kept, a, b);
-    const Facing facing(kept, a, b, of_b);
-    return contact.manifold.count == 1 ? has_one_point(kept, facing, moved, margin, longest_path)
-                                       : has_two_points(kept, facing, moved, longest_path);
+    const Moved moved = of_b ? moved_since(cached, b, a) : moved_since(cached, a, b);
+    const Facing facing(cached, a, b, of_b);
+    return contact.manifold.count == 1 ? has_one_point(cached, facing, moved, margin, longest_path)
+                                       : has_two_points(cached, facing, moved, longest_path);
 }
 
 } // namespace
@@ -308,15 +309,15 @@ void follow_manifold(const StepContext& ctx, int index)
 {
     SceneState& state = ctx.state;
     Contact& contact = state.contacts[index];
-    CachedManifold& kept = state.cached_manifolds[static_cast<std::size_t>(index)];
+    CachedManifold& cached = state.cached_manifolds[static_cast<std::size_t>(index)];
     const BodySim& a = sim_of(state, contact.body_a);
     const BodySim& b = sim_of(state, contact.body_b);
     const Tolerances& t = ctx.scene.tolerances;
     contact.flags &= ~contact_flag::followed;
     const float margin = margin_of(ctx, contact);
-    if (can_follow(kept, a, b, contact, margin, t.keep))
+    if (can_follow(cached, a, b, contact, margin, t.keep))
     {
-        follow(kept, a, b, contact, contact.manifold);
+        follow(cached, a, b, contact, contact.manifold);
         return;
     }
     const Manifold old = contact.manifold;
@@ -329,9 +330,9 @@ void follow_manifold(const StepContext& ctx, int index)
     contact.flags |= found.is_of_union ? contact_flag::of_union : 0u;
     if (!can_cache(state, contact, found))
         return;
-    contact.flags |= contact_flag::kept | (is_of_b(state, contact, found) ? contact_flag::edge_of_b : 0u) |
+    contact.flags |= contact_flag::cached | (is_of_b(state, contact, found) ? contact_flag::edge_of_b : 0u) |
                      (found.count > 0 && found.clipped.radius < 0 ? contact_flag::nearest : 0u);
-    keep(state, contact, found, kept);
+    keep(state, contact, found, cached);
 }
 
 FollowedScene followed_scene(const StepContext& ctx)

@@ -11,16 +11,16 @@
 namespace carom::internal {
 
 /// True if each body was solved in a crowd in the last step, or is not dynamic.
-[[nodiscard]] inline bool in_crowd(const SceneState& state, const Contact& contact)
+[[nodiscard]] inline bool caches_manifold(const SceneState& state, const Contact& contact)
 {
-    return state.sims[static_cast<std::size_t>(contact.body_a)].crowded &&
-           state.sims[static_cast<std::size_t>(contact.body_b)].crowded;
+    return state.sims[static_cast<std::size_t>(contact.body_a)].caches_manifolds &&
+           state.sims[static_cast<std::size_t>(contact.body_b)].caches_manifolds;
 }
 
 /// True if the manifold was found in a crowd and nothing has changed the contact since.
 [[nodiscard]] inline bool is_cached(const Contact& contact)
 {
-    return (contact.flags & (contact_flag::kept | contact_flag::fresh)) == contact_flag::kept;
+    return (contact.flags & (contact_flag::cached | contact_flag::fresh)) == contact_flag::cached;
 }
 
 /// True if the cached edge belongs to b or, without a point, if the separating direction is in the axes of b.
@@ -37,9 +37,9 @@ inline constexpr float surely = 0.999f;
 /// True if the contact can be updated in a batch: it is in a crowd, nothing has changed it, and without a point it did not touch.
 [[nodiscard]] inline bool is_updated_with_others(const SceneState& state, const Contact& contact)
 {
-    const std::uint32_t asked = contact_flag::kept | contact_flag::fresh | contact_flag::one_way | contact_flag::passing |
+    const std::uint32_t asked = contact_flag::cached | contact_flag::fresh | contact_flag::one_way | contact_flag::passing |
                                 (contact.manifold.count == 0 ? contact_flag::touching : 0);
-    return (contact.flags & asked) == contact_flag::kept && in_crowd(state, contact);
+    return (contact.flags & asked) == contact_flag::cached && caches_manifold(state, contact);
 }
 
 /// Manifold of a contact between steps, at the poses of the start of the last step. Where only its wide constraint has followed it, it is followed here.

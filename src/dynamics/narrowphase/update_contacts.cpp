@@ -111,7 +111,7 @@ void find_manifold(const StepContext& ctx, int index)
 void update_manifold(const StepContext& ctx, int index)
 {
     Contact& contact = ctx.state.contacts[index];
-    if (in_crowd(ctx.state, contact))
+    if (caches_manifold(ctx.state, contact))
         follow_manifold(ctx, index);
     else
         find_manifold(ctx, index);
@@ -258,7 +258,7 @@ public:
         for (std::size_t i = 0; i < m_contacts.size(); ++i)
         {
             if (m_changes[i] != TouchChange::Nothing)
-                tell(m_contacts[i], m_changes[i]);
+                report(m_contacts[i], m_changes[i]);
         }
     }
 
@@ -279,7 +279,7 @@ private:
     }
 
     // Events are written later, see report_noted_begins.
-    void tell(std::int32_t index, TouchChange what)
+    void report(std::int32_t index, TouchChange what)
     {
         Contact& contact = m_ctx.state.contacts[index];
         if (!concerns_no_other(contact))
@@ -436,7 +436,7 @@ void update_contacts(StepContext& ctx)
     if (refresh_cached_constraints(ctx))
     {
         ctx.report.pairs = static_cast<int>(ctx.state.awake_contacts.size());
-        ctx.report.touching = ctx.scratch.cached_graph.touching;
+        ctx.report.touching = ctx.scratch.cached_constraints.touching;
         return;
     }
     SceneState& state = ctx.state;

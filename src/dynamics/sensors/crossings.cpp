@@ -49,7 +49,7 @@ private:
             const int before = depth;
             depth += c.enters ? 1 : -1;
             if (std::min(before, depth) == 0)
-                tell(c);
+                report(c);
         }
     }
 
@@ -68,7 +68,7 @@ private:
         return count;
     }
 
-    void tell(const Crossing& c)
+    void report(const Crossing& c)
     {
         const float time = std::clamp(static_cast<float>(c.time), 0.0f, m_ctx.dt);
         (c.enters ? m_ctx.scene.events.enters : m_ctx.scene.events.exits)

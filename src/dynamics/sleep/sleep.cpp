@@ -43,9 +43,9 @@ bool hangs_on_spring(const SceneState& state, const BodyRecord& record)
     return false;
 }
 
-bool bears_in_crowd(const StepContext& ctx, const BodySim& sim)
+bool bears_load_in_pile(const StepContext& ctx, const BodySim& sim)
 {
-    return sim.crowded && sim.gravity_scale * ctx.state.gravity != Vec2{};
+    return sim.caches_manifolds && sim.gravity_scale * ctx.state.gravity != Vec2{};
 }
 
 void slow_down(BodySim& sim, float by)
@@ -103,7 +103,7 @@ void settle_or_stir(const StepContext& ctx, int body, BodySim& sim)
     else
         sim.sleep_time = 0;
     if (sim.sleep_time >= time_to_sleep && speed < rest_damping_speed * limit && record.type == BodyType::Dynamic &&
-        bears_in_crowd(ctx, sim))
+        bears_load_in_pile(ctx, sim))
         slow_down(sim, std::max(1 - ctx.dt / rest_damping_time, 0.0f));
 }
 

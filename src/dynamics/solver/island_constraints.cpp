@@ -158,7 +158,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
     const StepContext island_ctx = island.policy.subdivisions > 1 ? subdivided(ctx, island.policy.subdivisions) : ctx;
-    if (!ctx.scratch.cached_graph.constraints_are_unchanged)
+    if (ctx.scratch.reuse != Reuse::Constraints)
         contact_buckets(ctx.scratch, island).for_each(team, [&](int g) { fill_block(island_ctx, island, g); });
     for_each_place(team, island.first_constraint, island.constraint_count,
                    [&](std::int32_t i) { fill_constraint(island_ctx, island, i); });
@@ -172,7 +172,7 @@ void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
         .all(team,
              [&](int first, int last)
              {
-                 if (ctx.scratch.cached_graph.hinges_are_unchanged)
+                 if (ctx.scratch.reuse != Reuse::Nothing)
                      follow_joint_blocks(island_ctx, island, first, last);
                  else
                      fill_joint_blocks(island_ctx, island, first, last);

@@ -1,5 +1,8 @@
-// Takes one island through all its sub-steps. In every sub-step the soft constraints advance first,
-// then the island's fliers through the same interval; then everything relaxes and bounces.
+// One island through all its sub-steps. There are three ways through a sub-step:
+//   advance_airborne       every body of the island flies; what lands is relaxed
+//   advance_by_partition   all constraints are in lanes and nothing flies: each partition is solved, moved and relaxed while it is in the cache
+//   advance                solve with bias, move, fly, relax
+// then restitution, and sums over the step. Terms: a core is half of the inside of a body, which must not come into a wall; joints yield where a wall holds what they pull.
 
 #include "dynamics/solver/island_solver.h"
 
@@ -107,7 +110,10 @@ private:
         integrate_velocities(m_work, m_contacts.begin_substep(k));
         warm_start();
         m_recomputed.predict_curvatures();
-        goes_by_partition() ? advance_by_partition(k) : advance(k);
+        if (goes_by_partition())
+            advance_by_partition(k);
+        else
+            advance(k);
         bounce(k);
         finish_substep(k);
     }
@@ -132,7 +138,8 @@ private:
     {
         const Island& island = m_work.island;
         return island.partitions > 0 && m_work.joints.empty() && island.wide_joint_count == 0 && m_work.constraints.empty() &&
-               m_work.late_constraints().empty() && !island.traced && (are_many(island.partitions) || !m_work.has_fliers());
+               m_work.late_constraints().empty() && !island.traced &&
+               (exceeds_shared_cache(island.partitions) || !m_work.has_fliers());
     }
 
     void advance_by_partition(int k)

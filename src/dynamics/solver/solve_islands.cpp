@@ -100,7 +100,7 @@ void form_batches(Scratch& scratch)
     for (Island& island : scratch.solver.islands)
     {
         island.wide_store += is_shared(island) ? store : 0; // the large ones come behind
-        if (scratch.cached_graph.constraints_apart)
+        if (scratch.cached_constraints.are_valid)
         {
             island.wide_store = island.first_wide;
             blocks = island.first_wide + island.wide_count;
@@ -160,7 +160,7 @@ void solve_islands(StepContext& ctx)
         WorkerTeam::run(tasks, [&](WorkerTeam& team) { solve_large(ctx, team); }, batches, solve_some);
     else
         run_tasks(tasks, batches, solve_some);
-    ctx.state.lanes_stamp = ++scratch.cached_graph.stamp;
+    ctx.state.lanes_stamp = ++scratch.cached_constraints.stamp;
 }
 
 } // namespace carom::internal

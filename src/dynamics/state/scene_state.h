@@ -57,8 +57,8 @@ struct alignas(64) BodySim
     float size = 1e30f; ///< least inner radius of its shapes
     float mass = 0;
     float inertia = 0;
-    bool crowded = false;       ///< solved in a large island in the last step, or not dynamic
-    Position previous_center{}; ///< at the start of the last step
+    bool caches_manifolds = false; ///< solved in a large island in the last step, or not dynamic
+    Position previous_center{};    ///< at the start of the last step
     Rotation previous_rotation{};
     float sleep_time = 0; ///< s below the sleep speed
     Vec2 inverse_mass{};  ///< per axis: 0 where locked
@@ -154,14 +154,14 @@ inline constexpr std::uint32_t loaded = 32;      ///< had an impulse at the end 
 inline constexpr std::uint32_t begun = 64;       ///< began to touch during the solve, not yet reported
 inline constexpr std::uint32_t one_way = 128;    ///< one of the shapes is one-way
 inline constexpr std::uint32_t plain = 512;      ///< no points means apart; pieces of chains and arcs may also face elsewhere
-inline constexpr std::uint32_t kept = 256;       ///< its manifold is cached in SceneState::cached_manifolds, fixed to the bodies
+inline constexpr std::uint32_t cached = 256;     ///< its manifold is cached in SceneState::cached_manifolds, fixed to the bodies
 inline constexpr std::uint32_t edge_of_b = 2048; ///< the cached manifold is relative to b
 inline constexpr std::uint32_t nearest = 4096;   ///< cached are the two nearest corners, not an edge
 inline constexpr std::uint32_t sleeper = 8192;   ///< one or both of the bodies sleep
 inline constexpr std::uint32_t piece = 16384;    ///< of a chain or the like: other contacts may touch for the same public shapes
 inline constexpr std::uint32_t of_union =
     32768; ///< flush neighbors have turned or emptied its manifold: no points does not mean apart
-inline constexpr std::uint32_t all_cached = kept | edge_of_b | nearest;
+inline constexpr std::uint32_t all_cached = cached | edge_of_b | nearest;
 inline constexpr std::uint32_t followed =
     1024; ///< its constraint alone is current: normal, anchors and separations here are older than the step, see settled_manifold
 } // namespace contact_flag

@@ -163,8 +163,8 @@ TEST(DynamicsLargeIsland, WhatFliesIntoNinetyThousandBallsIsTheSameOnThreeThread
             scene.step(1.0f / 60);
         ASSERT_EQ(scenes[1].state_hash(), scenes[0].state_hash()) << "step " << i;
         const internal::Scratch& scratch = scenes[0].data().scratch;
-        ASSERT_TRUE(std::ranges::any_of(scratch.solver.islands,
-                                        [](const internal::Island& island) { return internal::are_many(island.partitions); }));
+        ASSERT_TRUE(std::ranges::any_of(scratch.solver.islands, [](const internal::Island& island)
+                                        { return internal::exceeds_shared_cache(island.partitions); }));
         EXPECT_GT(std::ranges::count(scratch.solver.partition_of, 31), 1000) << "the last part";
         if (i == 0)
         {

@@ -38,8 +38,8 @@ TEST(DynamicsPolicy, FromTheSeventeenthBodyOnContactsAreSolvedAsInAPile)
     const IslandPolicy many = of_bodies(17);
     EXPECT_FALSE(many.recomputes_contacts || many.converges || many.exact_impacts || many.conserves_energy);
     EXPECT_TRUE(many.wide_contacts && many.caches_manifolds && many.caches_graph);
-    EXPECT_FALSE(internal::is_crowd(16));
-    EXPECT_TRUE(internal::is_crowd(17));
+    EXPECT_FALSE(internal::limits_flight_to_fast_movers(16));
+    EXPECT_TRUE(internal::limits_flight_to_fast_movers(17));
     EXPECT_TRUE(internal::follows_turning_contacts(16));
     EXPECT_FALSE(internal::follows_turning_contacts(17));
 }

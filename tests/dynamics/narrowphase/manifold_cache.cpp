@@ -62,7 +62,7 @@ struct Tally
 void compare(const SceneState& state, int index, Tally& tally)
 {
     const Contact& contact = state.contacts[index];
-    if (!is_cached(contact) || !in_crowd(state, contact))
+    if (!is_cached(contact) || !caches_manifold(state, contact))
         return;
     const BodyPose a = pose_before(state, contact.body_a);
     const BodyPose b = pose_before(state, contact.body_b);

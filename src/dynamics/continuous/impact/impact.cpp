@@ -222,7 +222,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     note_deflected(m_span.scratch, m_span.output, m_span.scratch.flight.flier_of_state[static_cast<std::size_t>(f.state)]);
     if (m_renewed)
         return;
-    f.crowded |= !m_span.island.policy.exact_impacts || f.impacts >= crowd_limit;
+    f.needs_wall_check |= !m_span.island.policy.exact_impacts || f.impacts >= crowd_limit;
     ++f.impacts;
     m_span.output.capped |= is_capped(m_span, f);
 }

@@ -116,7 +116,7 @@ private:
     // together anyway.
     [[nodiscard]] std::int64_t work_of(int body) const
     {
-        return are_many(m_island.partitions) ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
+        return exceeds_shared_cache(m_island.partitions) ? 1 : 1 + 2 * std::popcount(colors_of(m_state, body));
     }
 
     // Partition of the bodies that have finite mass. Boundary constraints between two partitions come after all partitions.

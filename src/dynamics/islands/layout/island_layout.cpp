@@ -298,7 +298,7 @@ private:
             return;
         }
         set_constants(island_ctx, body, c);
-        m_state.sims[as_index(body)].crowded = island.policy.caches_manifolds;
+        m_state.sims[as_index(body)].caches_manifolds = island.policy.caches_manifolds;
         if (island.policy.free_fall)
             s.flags |= body_flag::free_fall;
     }

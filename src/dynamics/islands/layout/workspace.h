@@ -88,25 +88,36 @@ struct CachedBody
     std::uint8_t cell; ///< plane cell
 };
 
+/// How much of the last step an islands stage uses again. Each includes those before it.
+enum class Reuse : std::uint8_t
+{
+    Nothing,
+    Graph,      ///< islands, layout and the slots of hinges: states and constraints are filled
+    Constraints ///< wide contact constraints as well, refreshed in place by the contacts stage: only states are filled
+};
+
 /// Inputs of the islands of the last step, see cached_graph.cpp.
 struct CachedGraph
 {
     std::vector<CachedBody> bodies;
     std::vector<JointEdge> joints;
     std::vector<std::uint8_t> bound;   ///< by state: constraints, limits or motors hold it
-    bool are_plain = false;            ///< their layout depends on bodies and edges alone
-    bool stay_plain = false;           ///< are_plain, and no body or joint has changed, been added or been removed since
+    bool is_valid = false;             ///< the layout depends on bodies and edges alone
+    bool is_current = false;           ///< and no body or joint has changed, been added or been removed since
     bool edges_are_unchanged = false;  ///< contact edges are unchanged
     bool joints_are_unchanged = false; ///< and joint edges are unchanged
-    bool hinges_are_unchanged = false; ///< and wide hinges keep their slots
-    bool has_hung = false;             ///< GraphWorkspace::has_hung when joint edges were gathered
-    bool constraints_apart = false;    ///< the graph is unchanged: each island has its own storage for wide contact constraints
-    bool constraints_are_unchanged = false;      ///< in this step, wide contact constraints have been refreshed in place
-    std::uint64_t constraints_unchanged_for = 0; ///< number of steps, including this one
-    std::uint64_t stamp = 0;                     ///< of the constraints, as in SceneState::lanes_stamp; unique within a scene
-    std::vector<std::int32_t> contacts;          ///< awake contacts when the constraints were filled
-    std::vector<std::int32_t> loose;             ///< those of the contacts without a lane
-    int touching = 0;                            ///< touching contacts, for the report
+    bool had_hinged_fliers = false;    ///< GraphWorkspace::has_hinged_fliers when joint edges were gathered
+};
+
+/// Wide contact constraints of the last step, see narrowphase/cached_constraints.cpp.
+struct CachedConstraints
+{
+    bool are_valid = false;             ///< the graph was unchanged: each island has its own storage for them
+    std::uint64_t unchanged_for = 0;    ///< number of steps, including this one
+    std::uint64_t stamp = 0;            ///< as in SceneState::lanes_stamp; unique within a scene
+    std::vector<std::int32_t> contacts; ///< awake contacts when the constraints were filled
+    std::vector<std::int32_t> loose;    ///< those of the contacts without a lane
+    int touching = 0;                   ///< touching contacts, for the report
 };
 
 struct LayoutWorkspace

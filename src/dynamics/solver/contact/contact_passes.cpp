@@ -70,7 +70,7 @@ void ContactPasses::solve_by_partition()
     const auto partitions =
         std::span(m_work.scratch.solver.partition_of).subspan(as_index(island.first_state + 1), as_index(island.dynamic_count));
     const Walls walls = this->walls();
-    m_partitions.crossing(m_work.team, solve);
+    m_partitions.boundary(m_work.team, solve);
     m_partitions.in_parts(m_work.team,
                           [&](int partition)
                           {
@@ -81,7 +81,7 @@ void ContactPasses::solve_by_partition()
                               m_partitions.of_part(partition, [&](int begin, int end) { walls.guard_wide_cores(begin, end); });
                               m_partitions.of_part(partition, relax);
                           });
-    m_partitions.crossing(m_work.team, relax);
+    m_partitions.boundary(m_work.team, relax);
 }
 
 void ContactPasses::relax_struck()
@@ -96,7 +96,7 @@ void ContactPasses::relax_struck()
     std::ranges::sort(partitions);
     partitions.erase(std::ranges::unique(partitions).begin(), partitions.end());
     const auto relax = [this](int first, int last) { relax_again(first, last); };
-    m_partitions.crossing(m_work.team, relax);
+    m_partitions.boundary(m_work.team, relax);
     m_work.team.in_pieces(static_cast<int>(partitions.size()), false,
                           [&](int i) { m_partitions.of_part(partitions[as_index(i)], relax); });
     solve_contact_constraints(m_work.view, m_work.late_constraints(), false);

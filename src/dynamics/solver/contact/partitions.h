@@ -21,13 +21,13 @@ public:
     template <class Pass>
     void by_color(WorkerTeam& team, const Pass& pass)
     {
-        crossing(team, pass);
+        boundary(team, pass);
         in_parts(team, [&](int partition) { of_part(partition, pass); });
     }
 
     /// The same for the boundary constraints.
     template <class Pass>
-    void crossing(WorkerTeam& team, const Pass& pass) const
+    void boundary(WorkerTeam& team, const Pass& pass) const
     {
         for (int bucket = m_parts * m_buckets; bucket < (m_parts + 1) * m_buckets; ++bucket)
             share_bucket(team, bucket, pass);
@@ -61,8 +61,8 @@ public:
             if (first < last)
                 pass(first, last);
         };
-        const int crossing = m_parts * m_buckets;
-        const int end = crossing + m_buckets;
+        const int boundary = m_parts * m_buckets;
+        const int end = boundary + m_buckets;
         if (m_parts == 0 || start(end) < enough_blocks)
         {
             team.share(start(end), enough_blocks, those);
@@ -76,7 +76,7 @@ public:
                        {
                            const int partition = piece / quarters;
                            slice(start(partition * m_buckets), start((partition + 1) * m_buckets), piece % quarters, quarters);
-                           slice(start(crossing), start(end), piece, quarters * m_parts);
+                           slice(start(boundary), start(end), piece, quarters * m_parts);
                        });
     }
 

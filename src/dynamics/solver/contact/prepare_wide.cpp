@@ -64,7 +64,7 @@ void clear_sums(WideContact& constraint, WideContactNotes& notes)
 void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact& constraint, WideContactNotes& notes, int i)
 {
     for (std::uint32_t* lanes :
-         {&notes.loaded, &notes.may_hit, &notes.untold, &notes.edge_of_b, &notes.nearest, &notes.kept, &notes.followed})
+         {&notes.loaded, &notes.may_hit, &notes.unreported, &notes.edge_of_b, &notes.nearest, &notes.cached, &notes.followed})
         *lanes &= ~(1u << i);
     const Contact& contact = ctx.state.contacts[states.contact];
     const Manifold& m = contact.manifold;
@@ -101,9 +101,9 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact&
     }
     ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
     if (!touches(contact))
-        notes.untold |= 1u << i;
+        notes.unreported |= 1u << i;
     if (is_cached(contact))
-        notes.kept |= 1u << i;
+        notes.cached |= 1u << i;
 }
 
 ContactConstraint constraint_of_lane(Scratch& scratch, std::int32_t index)
@@ -174,7 +174,7 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
         p.base.v[i] = p.separation.v[i] = p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
     notes.loaded &= ~(1u << i);
     notes.may_hit &= ~(1u << i);
-    notes.untold &= ~(1u << i);
+    notes.unreported &= ~(1u << i);
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;
 }

@@ -68,12 +68,12 @@ private:
         }
         std::vector<ImpactReport>& in_parts = m_output.reports_of_parts;
         in_parts.resize(std::max(in_parts.size(), as_index(m_island.partitions)));
-        const int crossing = contact_buckets(m_scratch, m_island)
+        const int boundary = contact_buckets(m_scratch, m_island)
                                  .by_part(team, [&](int first, int last, int partition)
                                           { bounce_blocks(first, last, k, in_parts[as_index(partition)]); });
-        for (ImpactReport& told : std::span(in_parts).first(as_index(m_island.partitions)))
-            take(told);
-        bounce_blocks(crossing, m_island.wide_count, k, m_output);
+        for (ImpactReport& report : std::span(in_parts).first(as_index(m_island.partitions)))
+            take(report);
+        bounce_blocks(boundary, m_island.wide_count, k, m_output);
     }
 
     void find_struck_lanes()
@@ -88,25 +88,25 @@ private:
                          });
     }
 
-    void take(ImpactReport& told)
+    void take(ImpactReport& report)
     {
-        append_all(m_output.impacts, told.impacts);
-        append_all(m_output.begins, told.begins);
-        append_all(m_output.kicked_shapes, told.kicked_shapes);
-        m_output.bulk_impacts += std::exchange(told.bulk_impacts, 0);
-        told.impacts.clear();
-        told.begins.clear();
-        told.kicked_shapes.clear();
+        append_all(m_output.impacts, report.impacts);
+        append_all(m_output.begins, report.begins);
+        append_all(m_output.kicked_shapes, report.kicked_shapes);
+        m_output.bulk_impacts += std::exchange(report.bulk_impacts, 0);
+        report.impacts.clear();
+        report.begins.clear();
+        report.kicked_shapes.clear();
     }
 
-    void bounce_blocks(int first, int last, int k, ImpactReport& told)
+    void bounce_blocks(int first, int last, int k, ImpactReport& report)
     {
         const std::span<const std::int32_t> lanes = m_output.struck_lanes;
         for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(lanes, first * lane_count) - lanes.begin());
              i < lanes.size() && lanes[i] < last * lane_count; ++i)
         {
             prefetch_struck(i);
-            bounce_lane(lanes[i], k, told);
+            bounce_lane(lanes[i], k, report);
         }
     }
 
@@ -130,7 +130,7 @@ private:
     }
 
     // For a lane that bears a load: it is reported once and bounces once.
-    void bounce_lane(std::int32_t lane, int k, ImpactReport& told)
+    void bounce_lane(std::int32_t lane, int k, ImpactReport& report)
     {
         const WideContact& wide = m_wide[lane / lane_count];
         WideContactNotes& notes = m_notes[lane / lane_count];
@@ -146,12 +146,12 @@ private:
         const std::int32_t index = m_island.wide_store * lane_count + lane;
         ContactConstraint constraint = constraint_of_lane(m_scratch, index);
         constraint.hit = strikes ? 0 : 1;
-        if ((notes.untold & bit) != 0)
-            begin_touch(constraint, k, told);
-        notes.untold &= ~bit;
+        if ((notes.unreported & bit) != 0)
+            begin_touch(constraint, k, report);
+        notes.unreported &= ~bit;
         if (!strikes)
             return;
-        resolve_impact(constraint, approach, k, told);
+        resolve_impact(constraint, approach, k, report);
         notes.may_hit &= ~bit;
         put_impulses(m_scratch, constraint, index);
     }
@@ -218,16 +218,16 @@ private:
         return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), constraint.n);
     }
 
-    void resolve_impact(ContactConstraint& constraint, float approach, int k, ImpactReport& told)
+    void resolve_impact(ContactConstraint& constraint, float approach, int k, ImpactReport& report)
     {
         constraint.hit = 1;
         const Contact& contact = m_ctx.state.contacts[constraint.contact];
         const float e = mixed_restitution(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
         const KickResult kick = kick_speed(m_ctx.scene, contact.shape_a, contact.shape_b, approach);
         if (kick.a_fired)
-            told.kicked_shapes.push_back(contact.shape_a);
+            report.kicked_shapes.push_back(contact.shape_a);
         if (kick.b_fired)
-            told.kicked_shapes.push_back(contact.shape_b);
+            report.kicked_shapes.push_back(contact.shape_b);
         auto event = event_of<ImpactEvent>(m_ctx.state, contact);
         const ContactConstraint before = constraint;
         bounce_points(constraint, e, kick.speed);
@@ -238,9 +238,9 @@ private:
         fill_impact(constraint, event);
         take_impulses(constraint, e, kick.speed);
         forget_pushes(before, constraint);
-        ++told.bulk_impacts;
+        ++report.bulk_impacts;
         if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted the bodies, or speeds overflowed
-            append(told.impacts, event);
+            append(report.impacts, event);
     }
 
     [[nodiscard]] static float wanted_speed(const ConstraintPoint& p, float e, float kick)
@@ -375,10 +375,10 @@ private:
         return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[constraint.a].delta_position + arm;
     }
 
-    void begin_touch(const ContactConstraint& constraint, int k, ImpactReport& told) const
+    void begin_touch(const ContactConstraint& constraint, int k, ImpactReport& report) const
     {
         const Contact& contact = m_ctx.state.contacts[constraint.contact];
-        begin_touch_within_step(m_ctx.state, told,
+        begin_touch_within_step(m_ctx.state, report,
                                 {constraint.contact, contact.shape_a, contact.shape_b,
                                  place_on_a(constraint, constraint.points[0].ra), constraint.n,
                                  m_ctx.h * static_cast<float>(k + 1)});

@@ -52,15 +52,15 @@ struct alignas(64) WideContactNotes
     LaneInts contact; ///< none: the lane is empty
     LaneInts body_a;
     LaneInts body_b;
-    LaneFloats approach[2];  ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
-    std::int32_t count;      ///< number of points, the same in all lanes
-    std::uint32_t may_hit;   ///< bore no load when the step began and have not been struck
-    std::uint32_t loaded;    ///< the contact has contact_flag::loaded
-    std::uint32_t untold;    ///< did not touch when the step began, and the touch is not reported yet
-    std::uint32_t edge_of_b; ///< the normal is that of an edge of b
-    std::uint32_t nearest;   ///< the normal leads from corner to corner
-    std::uint32_t kept;      ///< the manifold is cached
-    std::uint32_t followed;  ///< the contact has contact_flag::followed
+    LaneFloats approach[2];   ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
+    std::int32_t count;       ///< number of points, the same in all lanes
+    std::uint32_t may_hit;    ///< bore no load when the step began and have not been struck
+    std::uint32_t loaded;     ///< the contact has contact_flag::loaded
+    std::uint32_t unreported; ///< did not touch when the step began, and the touch is not reported yet
+    std::uint32_t edge_of_b;  ///< the normal is that of an edge of b
+    std::uint32_t nearest;    ///< the normal leads from corner to corner
+    std::uint32_t cached;     ///< the manifold is cached
+    std::uint32_t followed;   ///< the contact has contact_flag::followed
 };
 
 /// Blocks with the same number of points, no two of which share a body that has finite mass.

@@ -57,7 +57,7 @@ struct AxisPiece
     double constant = 0; ///< impulse of a motor that is at its maximum
     SpringLine spring;
 
-    [[nodiscard]] bool keeps_rate() const { return kind != Kind::Free; }
+    [[nodiscard]] bool keeps_its_rate() const { return kind != Kind::Free; }
     [[nodiscard]] bool is_at_stop() const { return kind == Kind::AtLower || kind == Kind::AtUpper; }
     [[nodiscard]] double impulse(double at) const { return constant + spring.impulse(at); }
 };

@@ -70,7 +70,7 @@ void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointW
     const double before = law.scope.sum(old);
     const double free_rate = static_cast<double>(bodies.speed(rows.axis)) - k * before;
     const AxisPiece piece = law.solve(free_rate, k);
-    const double after = piece.keeps_rate() ? (piece.rate - free_rate) / k : piece.impulse(piece.rate);
+    const double after = piece.keeps_its_rate() ? (piece.rate - free_rate) / k : piece.impulse(piece.rate);
     set_axis_impulses(joint, law.scope.merge(old, law.split(piece, after, piece.rate)));
     const auto change = static_cast<float>(after - before);
     bodies.apply_along_axis(rows, change, held);

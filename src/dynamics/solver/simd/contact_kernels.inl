@@ -346,18 +346,18 @@ CAROM_INLINE void note_approach(const WideContact& constraint, WideContactNotes&
 template <int points>
 CAROM_INLINE std::uint8_t struck_lanes(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before, float rest_speed)
 {
-    if ((notes.may_hit | notes.untold) == 0)
+    if ((notes.may_hit | notes.unreported) == 0)
         return 0;
     const I8 first = load(constraint.points[0].normal_impulse) > all(0);
     const I8 second = points == 2 ? load(constraint.points[1].normal_impulse) > all(0) : I8{};
     const unsigned loaded = bits(first | second);
     if ((loaded & notes.may_hit) == 0)
-        return static_cast<std::uint8_t>(loaded & notes.untold);
+        return static_cast<std::uint8_t>(loaded & notes.unreported);
     note_approach<points>(constraint, notes, before);
     I8 struck = first & (load(notes.approach[0]) > all(rest_speed));
     if (points == 2)
         struck |= second & (load(notes.approach[1]) > all(rest_speed));
-    return static_cast<std::uint8_t>((loaded & notes.untold) | (bits(struck) & notes.may_hit));
+    return static_cast<std::uint8_t>((loaded & notes.unreported) | (bits(struck) & notes.may_hit));
 }
 
 template <class F, int points>

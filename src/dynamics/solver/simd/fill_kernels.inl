@@ -92,8 +92,8 @@ void fill(WideContact& constraint, WideContactNotes& notes, const Contact* conta
     store(notes.approach[1], all(0));
     notes.loaded = filled & lanes_with(flags, contact_flag::loaded);
     notes.may_hit = filled & ~notes.loaded;
-    notes.untold = filled & ~lanes_with(flags, contact_flag::touching);
-    notes.kept = lanes_with(flags, contact_flag::kept) & ~lanes_with(flags, contact_flag::fresh);
+    notes.unreported = filled & ~lanes_with(flags, contact_flag::touching);
+    notes.cached = lanes_with(flags, contact_flag::cached) & ~lanes_with(flags, contact_flag::fresh);
     notes.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);
     notes.nearest = lanes_with(flags, contact_flag::nearest);
     notes.followed = 0;

@@ -25,7 +25,7 @@ CAROM_INLINE LaneInts with_all_lanes(LaneInts contacts)
 // The cached manifolds of eight contacts, and their bodies.
 struct Places
 {
-    const CachedManifold* kept[lane_count];
+    const CachedManifold* cached[lane_count];
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
 
@@ -35,7 +35,7 @@ struct Places
         for (int i = 0; i < lane_count; ++i)
         {
             const int lane = notes.contact.v[i] < 0 ? some : i;
-            kept[i] = scene.kept + notes.contact.v[lane];
+            cached[i] = scene.cached + notes.contact.v[lane];
             a[i] = scene.sims + notes.body_a.v[lane];
             b[i] = scene.sims + notes.body_b.v[lane];
         }
@@ -46,7 +46,7 @@ struct Places
         for (int i = 0; i < lane_count; ++i)
         {
             const Contact& contact = scene.contacts[contacts.v[i]];
-            kept[i] = scene.kept + contacts.v[i];
+            cached[i] = scene.cached + contacts.v[i];
             a[i] = scene.sims + contact.body_a;
             b[i] = scene.sims + contact.body_b;
         }
@@ -124,7 +124,7 @@ CAROM_INLINE I8 lanes_of(std::uint32_t bits)
 }
 
 // The cached manifolds of eight contacts, as they lie in memory.
-struct Kept
+struct Cached
 {
     Arrow first[2];  ///< the edge, or both corners
     Arrow second[2]; ///< the corners that face the edge, or the cones of both
@@ -133,7 +133,7 @@ struct Kept
     Turn rotation;
     F8 reach, radius;
 
-    CAROM_INLINE explicit Kept(const Places& places)
+    CAROM_INLINE explicit Cached(const Places& places)
     {
         static_assert(offsetof(CachedManifold, found) == 0 &&
                       offsetof(CachedManifold, center) == 40 && offsetof(CachedManifold, rotation) == 48 &&
@@ -141,7 +141,7 @@ struct Kept
         static_assert(offsetof(CachedEdge, corners) == 16 && offsetof(CachedEdge, normal) == 32 && offsetof(CachedCorners, cones) == 16 &&
                       offsetof(CachedCorners, radii) == 32);
         const auto at = [&](int offset)
-        { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
+        { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.cached[i]) + offset; }; };
         gather4(at(0), first[0].x, first[0].y, first[1].x, first[1].y);
         gather4(at(16), second[0].x, second[0].y, second[1].x, second[1].y);
         gather4(at(32), last.x, last.y, center.x, center.y);
@@ -169,23 +169,23 @@ struct Stand : Two
     F8 displacement; ///< bound for any point of the other relative to the edge's body, since the manifold was found
     F8 cosine; ///< of the relative rotation since then
 
-    CAROM_INLINE Stand(const Places& places, const Kept& kept, std::uint32_t edges_of_b)
-        : Two(places, lanes_of(edges_of_b)), reach(kept.reach), radius(kept.radius)
+    CAROM_INLINE Stand(const Places& places, const Cached& cached, std::uint32_t edges_of_b)
+        : Two(places, lanes_of(edges_of_b)), reach(cached.reach), radius(cached.radius)
     {
-        n = turned(own, kept.last);
+        n = turned(own, cached.last);
         outward = select(own_is_b, {-n.x, -n.y}, n);
-        start = turned(own, kept.first[0]);
-        const Arrow stop = turned(own, kept.first[1]);
+        start = turned(own, cached.first[0]);
+        const Arrow stop = turned(own, cached.first[1]);
         const Arrow edge = {stop.x - start.x, stop.y - start.y};
         end = edge.x * edge.x + edge.y * edge.y;
         for (int i = 0; i < 2; ++i)
         {
-            const Arrow corner = turned(other, kept.second[i]);
+            const Arrow corner = turned(other, cached.second[i]);
             corners[i] = {offset.x + corner.x, offset.y + corner.y};
             along[i] = edge.x * (corners[i].x - start.x) + edge.y * (corners[i].y - start.y);
         }
         const F8 extent = lanes_from([&](int i) { return ((edges_of_b >> i & 1u) != 0 ? places.a : places.b)[i]->extent; });
-        const Change change(*this, kept.center, kept.rotation);
+        const Change change(*this, cached.center, cached.rotation);
         displacement = length_of(change.displacement) + extent * change.chord();
         cosine = change.cosine;
     }
@@ -267,22 +267,22 @@ struct Kinds
 };
 
 // Contacts from corner to corner, as Nearest in manifold_cache.cpp.
-CAROM_INLINE void take_nearest(I8 lanes, const Kept& kept, const Stand& s, Found& found)
+CAROM_INLINE void take_nearest(I8 lanes, const Cached& cached, const Stand& s, Found& found)
 {
-    const Arrow from = turned(s.a, kept.first[0]);
-    const Arrow to = turned(s.b, kept.first[1]);
+    const Arrow from = turned(s.a, cached.first[0]);
+    const Arrow to = turned(s.b, cached.first[1]);
     const Arrow gap = {s.apart.x + to.x - from.x, s.apart.y + to.y - from.y};
     const F8 distance = length_of(gap);
     const Arrow n = {gap.x / distance, gap.y / distance};
-    const F8 separation = distance - (kept.last.x + kept.last.y);
+    const F8 separation = distance - (cached.last.x + cached.last.y);
     const Arrow back = {-n.x, -n.y};
     const I8 leads_out = (distance > all(CachedCorners::least_distance)) &
-                         (dot(n, turned(s.a, kept.second[0])) >= dot(kept.second[0], kept.second[0])) &
-                         (dot(back, turned(s.b, kept.second[1])) >= dot(kept.second[1], kept.second[1]));
+                         (dot(n, turned(s.a, cached.second[0])) >= dot(cached.second[0], cached.second[0])) &
+                         (dot(back, turned(s.b, cached.second[1])) >= dot(cached.second[1], cached.second[1]));
     Point& p = found.points[0];
     found.n = select(lanes, n, found.n);
-    p.a = select(lanes, {from.x + kept.last.x * n.x, from.y + kept.last.x * n.y}, p.a);
-    p.b = select(lanes, {to.x - kept.last.y * n.x, to.y - kept.last.y * n.y}, p.b);
+    p.a = select(lanes, {from.x + cached.last.x * n.x, from.y + cached.last.x * n.y}, p.a);
+    p.b = select(lanes, {to.x - cached.last.y * n.x, to.y - cached.last.y * n.y}, p.b);
     p.separation = found.separation = select(lanes, separation, p.separation);
     found.second = select(lanes, all(3e38f), found.second);
     found.displacement = select(lanes, all(0), found.displacement);
@@ -310,8 +310,8 @@ CAROM_INLINE I8 are_alone(const Found& now, F8 margin, const FollowedScene& scen
 template <int points>
 CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const FollowedScene& scene)
 {
-    const Kept kept(places);
-    const Stand stand(places, kept, kinds.edge_of_b);
+    const Cached cached(places);
+    const Stand stand(places, cached, kinds.edge_of_b);
     Found found;
     found.n = stand.n;
     found.displacement = stand.displacement;
@@ -332,17 +332,17 @@ CAROM_INLINE Found follow_points(const Places& places, const Kinds& kinds, const
     found.second = select(stand.is_round(), all(3e38f), second);
     found.holds = found.points[0].inside & is_best_still(stand, found.points[0].inside, first, scene);
     if (kinds.nearest != 0)
-        take_nearest(lanes_of(kinds.nearest), kept, stand, found);
+        take_nearest(lanes_of(kinds.nearest), cached, stand, found);
     return found;
 }
 
 // Sorts lanes by what has become of their contacts.
-CAROM_INLINE void tell(I8 loaded, const WideContactNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, RefreshedContacts& found)
+CAROM_INLINE void report(I8 loaded, const WideContactNotes& notes, const Found& now, I8 filled, const FollowedScene& scene, RefreshedContacts& found)
 {
-    const I8 touching = ~lanes_of(notes.untold);
+    const I8 touching = ~lanes_of(notes.unreported);
     const I8 near = now.separation <= select(touching, all(2 * scene.slop), all(scene.slop));
     const I8 borne = loaded & (now.separation <= all(scene.speculation));
-    found.unsure = bits(filled & ~(lanes_of(notes.kept) & now.holds));
+    found.unsure = bits(filled & ~(lanes_of(notes.cached) & now.holds));
     found.begins_or_ends = bits(filled & (near != touching));
     found.borne = bits(filled & borne);
     found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
@@ -362,7 +362,7 @@ void refresh_contact(WideContact& constraint, const WideContactNotes& notes, con
     store(constraint.ny, select(filled, now.n.y, all(0)));
     for (int k = 0; k < points; ++k)
         put(constraint.points[k], now.points[k], now.n, filled);
-    tell(bears(constraint, points), notes, now, filled, scene, found);
+    report(bears(constraint, points), notes, now, filled, scene, found);
 }
 
 void follow(WideContact& constraint, const WideContactNotes& notes, const FollowedScene& scene, RefreshedContacts& found)
@@ -425,15 +425,15 @@ std::uint32_t stay_apart(const LaneInts& contacts, const FollowedScene& scene)
     constexpr float rounding = 1e-5f;
     const Places places(contacts, scene);
     const auto kept_at = [&](int offset)
-    { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.kept[i]) + offset; }; };
+    { return [&places, offset](int i) { return reinterpret_cast<const char*>(places.cached[i]) + offset; }; };
     Arrow direction, center;
-    Turn kept;
+    Turn cached;
     F8 arm, reach, unused, unused_too;
     gather4(kept_at(0), direction.x, direction.y, arm, unused);
     gather4(kept_at(32), unused, unused_too, center.x, center.y);
-    gather4(kept_at(48), kept.c, kept.s, reach, unused);
+    gather4(kept_at(48), cached.c, cached.s, reach, unused);
     const Two two(places, lanes_of(lanes_with_flag(contacts, scene, contact_flag::edge_of_b)));
-    const Change change(two, center, kept);
+    const Change change(two, center, cached);
     const I8 any_direction = (direction.x == all(0)) & (direction.y == all(0));
     const F8 gain = select(any_direction, -length_of(change.displacement), dot(direction, change.displacement));
     const F8 room = reach + gain - arm * change.chord();

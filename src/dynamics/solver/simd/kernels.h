@@ -25,11 +25,11 @@ struct FollowedScene
 {
     const BodySim* sims;
     const Contact* contacts;
-    const CachedManifold* kept; ///< by contact
-    const SweptBox* boxes;      ///< by shape
-    float sure_displacement;    ///< below this relative displacement of the bodies a manifold surely holds
-    float surely;               ///< factor on a bound of the displacement up to which a manifold surely holds
-    float sure_cosine;          ///< above this cosine of the relative rotation it surely holds
+    const CachedManifold* cached; ///< by contact
+    const SweptBox* boxes;        ///< by shape
+    float sure_displacement;      ///< below this relative displacement of the bodies a manifold surely holds
+    float surely;                 ///< factor on a bound of the displacement up to which a manifold surely holds
+    float sure_cosine;            ///< above this cosine of the relative rotation it surely holds
     float slop;
     float speculation;
 };

@@ -12,14 +12,14 @@ CAROM_INLINE F8 length_of(F8 x, F8 y)
 }
 
 // Displacements of eight bodies.
-struct Ways
+struct Displacements
 {
     F8 x, y;    ///< of their centers
     F8 any_displacement; ///< of any point beyond that, by rotation and by the curvature of its parabola
     F8 motion;  ///< of any point
     I8 sound;
 
-    CAROM_INLINE Ways(const BodySim* const (&bodies)[lane_count], const SweepStep& step)
+    CAROM_INLINE Displacements(const BodySim* const (&bodies)[lane_count], const SweepStep& step)
     {
         static_assert(offsetof(BodySim, velocity) == 32 && offsetof(BodySim, angular_velocity) == 40 && offsetof(BodySim, extent) == 44);
         static_assert(offsetof(BodySim, inverse_mass) == 92 && offsetof(BodySim, inverse_inertia) == 100 &&
@@ -93,14 +93,14 @@ CAROM_INLINE Bounds tight_bounds(const SweptEight& eight)
 }
 
 // Bounds of the boxes over their displacements, with a margin.
-CAROM_INLINE Bounds swept(const Bounds& tight, const Ways& displacement, float margin)
+CAROM_INLINE Bounds swept(const Bounds& tight, const Displacements& displacement, float margin)
 {
     const F8 none = all(0);
     return {tight.lx + least(displacement.x, none) - displacement.any_displacement - margin, tight.ly + least(displacement.y, none) - displacement.any_displacement - margin,
             tight.ux + greatest(displacement.x, none) + displacement.any_displacement + margin, tight.uy + greatest(displacement.y, none) + displacement.any_displacement + margin};
 }
 
-CAROM_INLINE void put_paths(const SweptEight& eight, const Bounds& tight, const Ways& displacement)
+CAROM_INLINE void put_paths(const SweptEight& eight, const Bounds& tight, const Displacements& displacement)
 {
     static_assert(offsetof(SweptBox, path) == 0 && offsetof(BoxPath, box) == 0 && offsetof(BoxPath, shift) == 16 &&
                   offsetof(BoxPath, any_displacement) == 24 && offsetof(SweptBox, layer) == 28);
@@ -113,7 +113,7 @@ CAROM_INLINE void put_paths(const SweptEight& eight, const Bounds& tight, const 
 
 bool sweep(SweptEight& eight, const SweepStep& step)
 {
-    const Ways displacement(eight.bodies, step);
+    const Displacements displacement(eight.bodies, step);
     if (bits(displacement.sound) != 0xff)
         return false;
     const Bounds tight = tight_bounds(eight);

@@ -42,7 +42,10 @@ AxisLaw law_of(const Case& c)
     return law;
 }
 
-bool are_same(const AxisPiece& a, const AxisPiece& b) { return a.kind == b.kind && (a.keeps_rate() || a.constant == b.constant); }
+bool are_same(const AxisPiece& a, const AxisPiece& b)
+{
+    return a.kind == b.kind && (a.keeps_its_rate() || a.constant == b.constant);
+}
 
 // Along rates without an impulse from far below all pieces to far above them.
 std::vector<AxisPiece> pieces_in_order(const AxisLaw& law)

@@ -78,7 +78,7 @@ void DirectSolve::solve_pieces()
     std::ranges::fill(m_wanted_compliances, 0);
     for (const Axis& axis : m_axes)
     {
-        if (!axis.piece.keeps_rate())
+        if (!axis.piece.keeps_its_rate())
             m_wanted_compliances[as_index(axis.row)] =
                 axis.piece.spring.is_there() ? axis.piece.spring.compliance : JointMatrix::off;
     }
@@ -105,7 +105,7 @@ void DirectSolve::solve_pieces()
         const double leak = softness(axis) * axis.before;
         double& wanted = m_impulses[as_index(axis.row)];
         const SpringLine& spring = axis.piece.spring;
-        if (axis.piece.keeps_rate())
+        if (axis.piece.keeps_its_rate())
             wanted = axis.piece.rate - speed - leak;
         else if (spring.is_there())
             wanted = spring.rest - speed - leak - spring.compliance * (axis.before - axis.piece.constant);
