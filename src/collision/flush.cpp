@@ -9,6 +9,7 @@
 #include "collision/flush.h"
 
 #include "collision/hull.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/surface.h"
 
 #include <algorithm>
@@ -255,7 +256,7 @@ private:
             for (int i = 0; i < leaf.count; ++i)
                 farthest = std::max(farthest, carom::dot(n, m_visitor.points[i]) + leaf.r0);
         }
-        else if (leaf.type != LeafType::Circle)
+        else if (traits_of(leaf).has_two_ends)
             farthest = std::max(farthest, carom::dot(n, leaf.p1) + leaf.r1);
         return static_cast<double>(farthest + carom::dot(m_hull.normal(edge), m_pose.position) - m_hull.offset(edge));
     }
@@ -278,16 +279,9 @@ private:
     double m_tolerance;
 };
 
-bool has_edges(const Leaf& leaf)
-{
-    return leaf.type == LeafType::Polygon || leaf.type == LeafType::Capsule || leaf.type == LeafType::Segment;
-}
-
-bool may_visit(const Leaf& leaf) { return has_edges(leaf) || leaf.type == LeafType::Circle; }
-
 } // namespace
 
-bool may_be_flush(const Leaf& leaf) { return has_edges(leaf) || leaf.type == LeafType::HalfSpace; }
+bool may_be_flush(const Leaf& leaf) { return traits_of(leaf).has_edges || !traits_of(leaf).is_bounded; }
 
 bool is_farther(const LeafView& leaf, Vec2 point, double reach) { return is_farther(leaf, wide(point), reach); }
 
@@ -298,7 +292,7 @@ Vec2 touched_point(const LocalManifold& m, int i, bool of_a, const RelativePose&
 
 bool may_be_hidden(const LeafView& touched, const RelativePose& pose, bool of_a, double tolerance, const LocalManifold& m)
 {
-    if (!has_edges(*touched.leaf))
+    if (!traits_of(*touched.leaf).has_edges)
         return false;
     const Hull hull(touched);
     const Vec2 n = of_a ? m.normal : -inverse_rotate(pose.rotation, m.normal);
@@ -327,7 +321,7 @@ Vec2 edge_normal(const LeafView& leaf, int edge) { return Hull(leaf).normal(edge
 FlushAnswer ask_flush(const LeafView& touched, const FlushNeighbours& neighbours, const LeafView& visitor,
                       const RelativePose& pose, std::span<const Vec2> points, Vec2 n)
 {
-    if (neighbours.count == 0 || points.empty() || !has_edges(*touched.leaf) || !may_visit(*visitor.leaf))
+    if (neighbours.count == 0 || points.empty() || !traits_of(*touched.leaf).has_edges || !traits_of(*visitor.leaf).has_corners)
         return {};
     return Union(touched, neighbours, visitor, pose).ask(points, n);
 }

@@ -9,6 +9,7 @@
 #include "collision/flush.h"
 #include "collision/probes.h"
 #include "core/trigonometry.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/surface.h"
 
 #include <algorithm>
@@ -219,8 +220,8 @@ private:
     {
         const Leaf& leaf = *m_leaf.leaf;
         const std::optional<Surface<double>> plain = surface_at<double>(m_leaf, px, py);
-        const bool line = leaf.type == LeafType::Segment || leaf.type == LeafType::Arc;
-        if (!line || m_probe.band == 0 || (plain && plain->feature != 0) || (plain && plain->distance > m_probe.band))
+        if (!traits_of(leaf).is_line || m_probe.band == 0 || (plain && plain->feature != 0) ||
+            (plain && plain->distance > m_probe.band))
             return plain;
         // The surface at the same point, solid on both sides.
         Leaf both = leaf;

@@ -5,6 +5,7 @@
 #include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/turns.h"
+#include "geometry/leaf_traits.h"
 #include "scene/access.h"
 
 #include <cmath>
@@ -335,7 +336,7 @@ void Body::set_type(BodyType type)
         for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape)
         {
             const ShapeRecord& shape = m_data->state.shapes[s];
-            const bool massless = !shape.has_leaf || shape.leaf.type == LeafType::Arc || shape.leaf.type == LeafType::HalfSpace;
+            const bool massless = !shape.has_leaf || !traits_of(shape.leaf).may_be_dynamic;
             if (!Checker{"Body::set_type"}.holds(!massless, "type", "Dynamic",
                                                  "the body has an arc, chain or half-space, which carry no mass"))
                 return;
@@ -346,7 +347,7 @@ void Body::set_type(BodyType type)
         for (int s = t.record().first_shape; s != none; s = m_data->state.shapes[s].next_shape)
         {
             if (!Checker{"Body::set_type"}.holds(!m_data->state.shapes[s].has_leaf ||
-                                                     m_data->state.shapes[s].leaf.type != LeafType::HalfSpace,
+                                                     traits_of(m_data->state.shapes[s].leaf).is_bounded,
                                                  "type", "Kinematic", "the body has a half-space, which never moves"))
                 return;
         }

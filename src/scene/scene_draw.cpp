@@ -5,6 +5,7 @@
 #include "dynamics/sleep/wake.h"
 #include "dynamics/state/body_store.h"
 #include "geometry/bounds.h"
+#include "geometry/leaf_traits.h"
 #include "scene/access.h"
 
 #include <algorithm>
@@ -135,7 +136,7 @@ private:
     void draw_leaf(DrawRole role, const LeafView& v, const Pose& pose) const
     {
         const Leaf& leaf = *v.leaf;
-        if (leaf.type != LeafType::HalfSpace && !overlaps(box_of(outer_bounds(v, pose)), m_view))
+        if (traits_of(leaf).is_bounded && !overlaps(box_of(outer_bounds(v, pose)), m_view))
             return;
         const Position p0 = transform(pose, leaf.p0);
         switch (leaf.type)

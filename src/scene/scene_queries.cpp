@@ -8,6 +8,7 @@
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "geometry/bounds.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/ray.h"
 #include "geometry/surface.h"
 #include "scene/access.h"
@@ -350,7 +351,7 @@ template <class Visit>
 void visit_near_leaf(const SceneState& state, int leaf, float slop, Visit&& visit)
 {
     const QueryFilter all{};
-    if (state.shapes[leaf].leaf.type == LeafType::HalfSpace)
+    if (!traits_of(state.shapes[leaf].leaf).is_bounded)
         visit_leaves(state, all, [&](const FloatBox& node) { return reaches_half_space(state, leaf, node, slop); }, visit);
     else
         visit_box(state, all, grow(box_of(outer_bounds(leaf_view(state, leaf), pose_of(state, leaf))), slop), visit);

@@ -9,6 +9,7 @@
 #include "dynamics/solver/simd/kernels.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"
+#include "geometry/leaf_traits.h"
 
 #include <algorithm>
 #include <bit>
@@ -73,7 +74,7 @@ void look_around(const StepContext& ctx, int shape, const FloatBox& box, Pairs& 
         offer_pair(ctx, shape, other, pairs);
         return true;
     };
-    if (state.shapes[shape].leaf.type == LeafType::HalfSpace)
+    if (!traits_of(state.shapes[shape].leaf).is_bounded)
     {
         const auto reaches = [&](const FloatBox& other) { return reaches_half_space(state, shape, other, 0); };
         broad_phase.descend(Layer::Moving, reaches, offer);

@@ -10,6 +10,7 @@
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/quarantine.h"
 #include "dynamics/task_sizes.h"
+#include "geometry/leaf_traits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,11 +151,9 @@ private:
     {
         const BodyRecord& record = m_ctx.state.bodies[body];
         bool plain = record.type == BodyType::Dynamic && record.first_shape != none;
-        for_each_leaf(m_ctx.state, body, [&](int shape) { plain &= has_corners(m_ctx.state.shapes[shape].leaf); });
+        for_each_leaf(m_ctx.state, body, [&](int shape) { plain &= traits_of(m_ctx.state.shapes[shape].leaf).has_corners; });
         return plain;
     }
-
-    static bool has_corners(const Leaf& leaf) { return leaf.type != LeafType::Arc && leaf.type != LeafType::HalfSpace; }
 
     bool put_in_lanes(std::size_t place)
     {
@@ -184,7 +183,7 @@ private:
             return;
         m_eight.corners[lane] = &leaf.p0;
         m_eight.corner_counts[lane] = 2;
-        if (leaf.type != LeafType::Circle)
+        if (traits_of(leaf).has_two_ends)
         {
             m_eight.radii[1].v[lane] = leaf.r1;
             return;

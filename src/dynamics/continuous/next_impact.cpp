@@ -8,6 +8,7 @@
 #include "dynamics/narrowphase/material.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/surface.h"
 
 #include <algorithm>
@@ -326,8 +327,7 @@ private:
     {
         const SceneState& state = m_span.state;
         const int body = state.shapes[shape].body;
-        const LeafType type = state.shapes[shape].leaf.type;
-        if (state.bodies[body].type != BodyType::Static || (type != LeafType::Segment && type != LeafType::Arc))
+        if (state.bodies[body].type != BodyType::Static || !traits_of(state.shapes[shape].leaf).is_line)
             return false;
         const Reach& own = own_displacement().reach;
         const BodySim& sim = m_span.sim_of(body);

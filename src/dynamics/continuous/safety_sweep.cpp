@@ -9,6 +9,7 @@
 #include "dynamics/narrowphase/material.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/surface.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ Core core_of(const LeafView& v)
     const double radius = 0.5 * inner_radius(v);
     if (leaf.type == LeafType::Circle)
         return {leaf.p0, radius};
-    if (leaf.type != LeafType::Polygon)
+    if (traits_of(leaf).has_two_ends)
         return {0.5f * (leaf.p0 + leaf.p1), radius};
     Vec2 sum{};
     for (int i = 0; i < leaf.count; ++i)

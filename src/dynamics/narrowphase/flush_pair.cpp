@@ -5,6 +5,7 @@
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
+#include "geometry/leaf_traits.h"
 
 #include <algorithm>
 
@@ -116,8 +117,7 @@ private:
 
     [[nodiscard]] bool are_boxes_near(int other) const
     {
-        return m_state.shapes[other].leaf.type == LeafType::HalfSpace ||
-               m_state.shapes[m_touched].leaf.type == LeafType::HalfSpace ||
+        return !traits_of(m_state.shapes[other].leaf).is_bounded || !traits_of(m_state.shapes[m_touched].leaf).is_bounded ||
                overlaps(grow(m_state.broad_phase.box(m_touched), m_state.slop), m_state.broad_phase.box(other));
     }
 

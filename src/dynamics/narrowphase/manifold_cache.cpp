@@ -5,6 +5,7 @@
 #include "collision/edge_rules.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/state/scene_data.h"
+#include "geometry/leaf_traits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +20,13 @@ constexpr float surely_turned = 0.9801f;
 // The normal of an edge is fixed to the body of the edge; the normal of two corners or circles is fixed to neither body.
 bool can_cache(const SceneState& state, const Contact& contact, const LocalManifold& found)
 {
-    const auto has_edges = [&](int shape)
+    const auto can_follow_corners = [&](int shape)
     {
-        const LeafType type = state.shapes[shape].leaf.type;
-        const bool is_line = type == LeafType::Segment && (contact.flags & contact_flag::plain) != 0;
-        return type == LeafType::Polygon || type == LeafType::Capsule || type == LeafType::Circle || is_line;
+        const LeafTraits& traits = traits_of(state.shapes[shape].leaf);
+        return traits.has_corners && (!traits.is_line || (contact.flags & contact_flag::plain) != 0);
     };
-    return (contact.flags & contact_flag::one_way) == 0 && !found.is_of_union && has_edges(contact.shape_a) &&
-           has_edges(contact.shape_b) && (found.count == 0 || found.clipped.radius >= 0 || found.nearest.radii[0] >= 0);
+    return (contact.flags & contact_flag::one_way) == 0 && !found.is_of_union && can_follow_corners(contact.shape_a) &&
+           can_follow_corners(contact.shape_b) && (found.count == 0 || found.clipped.radius >= 0 || found.nearest.radii[0] >= 0);
 }
 
 const BodySim& sim_of(const SceneState& state, int body) { return state.sims[static_cast<std::size_t>(body)]; }
@@ -68,7 +68,7 @@ float room(const CachedManifold& cached, const BodySim& own, const BodySim& othe
 float arm_of(const SceneState& state, int shape, const BodySim& sim)
 {
     const Leaf& leaf = state.shapes[shape].leaf;
-    return sim.extent - (leaf.type == LeafType::Capsule ? std::min(leaf.r0, leaf.r1) : leaf.r0);
+    return sim.extent - (traits_of(leaf).has_two_ends ? std::min(leaf.r0, leaf.r1) : leaf.r0);
 }
 
 void cache_edge(CachedEdge& cached, const BodySim& a, const BodySim& b, const RelativePose& pose, const LocalManifold& found)

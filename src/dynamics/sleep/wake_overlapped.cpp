@@ -8,6 +8,7 @@
 #include "dynamics/sleep/wake.h"
 #include "dynamics/stages.h"
 #include "dynamics/state/contact_store.h"
+#include "geometry/leaf_traits.h"
 
 #include <vector>
 
@@ -54,7 +55,7 @@ private:
             meet(shape, other);
             return true;
         };
-        if (m_state.shapes[shape].leaf.type == LeafType::HalfSpace)
+        if (!traits_of(m_state.shapes[shape].leaf).is_bounded)
         {
             m_state.broad_phase.descend(
                 Layer::Resting, [&](const FloatBox& box) { return reaches_half_space(m_state, shape, box, 0); }, look_at);

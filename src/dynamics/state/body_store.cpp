@@ -5,6 +5,7 @@
 #include "dynamics/narrowphase/manifold_cache.h"
 #include "dynamics/state/contact_store.h"
 #include "geometry/bounds.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/mass.h"
 #include "geometry/surface.h"
 
@@ -154,7 +155,7 @@ void add_to_broad_phase(SceneData& scene, int shape)
     SceneState& state = scene.state;
     const ShapeRecord& record = state.shapes[shape];
     const Layer layer = state.bodies[record.body].awake_index != none ? Layer::Moving : Layer::Resting;
-    state.broad_phase.insert(shape, fat_box(scene, shape), layer, {record.trigger, record.leaf.type == LeafType::HalfSpace},
+    state.broad_phase.insert(shape, fat_box(scene, shape), layer, {record.trigger, !traits_of(record.leaf).is_bounded},
                              filter_bits(record.filter));
     look_again(state, shape);
 }

@@ -7,6 +7,7 @@
 #include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sleep/wake.h"
 #include "dynamics/solver/contact/coloring.h"
+#include "geometry/leaf_traits.h"
 
 namespace carom::internal {
 
@@ -168,7 +169,7 @@ bool has_contact(const SceneState& state, int shape_a, int shape_b)
 
 namespace {
 
-bool is_plain(const Leaf& leaf) { return leaf.type != LeafType::Arc && !is_of_chain(leaf); }
+bool is_plain(const Leaf& leaf) { return traits_of(leaf).faces_all && !is_of_chain(leaf); }
 
 } // namespace
 

@@ -3,6 +3,7 @@
 // A leaf as circles fixed to its body, its probes. A leaf touches another with one of them, or with a flat side that meets a probe of the other.
 
 #include "collision/time_of_impact.h"
+#include "geometry/leaf_traits.h"
 #include "geometry/surface.h"
 
 namespace carom::internal {
@@ -93,7 +94,7 @@ void for_each_probe_pair(const LeafView& a, const LeafView& b, Visit&& visit)
 {
     const bool a_is_circle = a.leaf->type == LeafType::Circle;
     const bool b_is_circle = b.leaf->type == LeafType::Circle;
-    const auto is_line = [](const LeafView& v) { return v.leaf->type == LeafType::Segment || v.leaf->type == LeafType::Arc; };
+    const auto is_line = [](const LeafView& v) { return traits_of(*v.leaf).is_line; };
     int number = 0;
     if (!b_is_circle || a_is_circle)
         for_each_probe(a, is_line(b), [&](const Probe& p) { visit(p, number++, true); });

@@ -2,6 +2,7 @@
 
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/effective_mass.h"
+#include "geometry/leaf_traits.h"
 
 #include "dynamics/solver/joint/joint_solver.h"
 #include "dynamics/state/body_store.h"
@@ -191,7 +192,7 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         // The limit is a length: coefficient times the radius of the rolling shape.
         const Leaf& leaf_a = ctx.state.shapes[contact.shape_a].leaf;
         const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;
-        const float radius = std::fmax(leaf_a.type == LeafType::HalfSpace ? 0 : leaf_a.r0, leaf_b.r0);
+        const float radius = std::fmax(traits_of(leaf_a).is_bounded ? leaf_a.r0 : 0, leaf_b.r0);
         const float k = ca.inverse_inertia + cb.inverse_inertia;
         constraint.rolling = contact.rolling_resistance * radius;
         constraint.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.subdivisions);
