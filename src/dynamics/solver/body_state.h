@@ -2,6 +2,7 @@
 
 // Bodies as the solver sees them: velocities, pose changes within the step, and the constants of a sub-step.
 
+#include "dynamics/solver/effective_mass.h"
 #include "dynamics/state/scene_state.h"
 
 #include <cstdint>
@@ -51,6 +52,8 @@ struct StateConstants
     Vec2 acceleration{};
     float linear_decay = 1; ///< factor on the velocity over a sub-step
     float angular_decay = 1;
+
+    [[nodiscard]] InverseMass<float> inverse() const { return {inverse_mass.x, inverse_mass.y, inverse_inertia}; }
 };
 
 /// A state whose body has a force law, and its accelerations without that law.

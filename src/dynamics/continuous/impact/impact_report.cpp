@@ -20,7 +20,8 @@ namespace {
 // The effective mass of a body at the arm's end along the row's normal; 0 if it is infinite.
 float point_mass(const ImpactBody& b, const ImpactRow& row, double turn, double arm_x, double arm_y)
 {
-    const double k = row.nx * row.nx * b.inverse_mass_x + row.ny * row.ny * b.inverse_mass_y + turn * turn * b.inverse_inertia;
+    const ImpulseLine<double> line{row.nx, row.ny, turn};
+    const double k = response(b.inverse(), line, line);
     return exceeds_rounding(k, (arm_x * arm_x + arm_y * arm_y) * b.inverse_inertia) ? static_cast<float>(1 / k) : 0;
 }
 

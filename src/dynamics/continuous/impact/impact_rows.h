@@ -56,9 +56,9 @@ inline double compliance(const Bodies& bodies, const ImpactRow& r, const Directi
 {
     const ImpactBody& a = bodies[static_cast<std::size_t>(r.a)];
     const ImpactBody& b = bodies[static_cast<std::size_t>(r.b)];
-    const auto of = [&](const ImpactBody& body, double turn)
-    { return d.x * d.x * body.inverse_mass_x + d.y * d.y * body.inverse_mass_y + turn * turn * body.inverse_inertia; };
-    const double k = of(a, d.turn_a) + of(b, d.turn_b);
+    const ImpulseLine<double> through_a{d.x, d.y, d.turn_a};
+    const ImpulseLine<double> through_b{d.x, d.y, d.turn_b};
+    const double k = response(a.inverse(), through_a, through_a) + response(b.inverse(), through_b, through_b);
     const double at_most = (r.arm_a_x * r.arm_a_x + r.arm_a_y * r.arm_a_y) * a.inverse_inertia +
                            (r.arm_b_x * r.arm_b_x + r.arm_b_y * r.arm_b_y) * b.inverse_inertia;
     return exceeds_rounding(k, at_most) ? k : 0;
@@ -73,10 +73,10 @@ inline bool are_a_pair(const std::vector<ImpactRow>& rows, int i, int j)
 
 inline double couple(const Bodies& bodies, const ImpactRow& p, const ImpactRow& q)
 {
-    const auto of = [&](const ImpactBody& body, double turn_p, double turn_q)
-    { return p.nx * q.nx * body.inverse_mass_x + p.ny * q.ny * body.inverse_mass_y + turn_p * turn_q * body.inverse_inertia; };
-    return of(bodies[static_cast<std::size_t>(p.a)], p.turn_a, q.turn_a) +
-           of(bodies[static_cast<std::size_t>(p.b)], p.turn_b, q.turn_b);
+    const InverseMass<double> a = bodies[static_cast<std::size_t>(p.a)].inverse();
+    const InverseMass<double> b = bodies[static_cast<std::size_t>(p.b)].inverse();
+    return response<double>(a, {p.nx, p.ny, p.turn_a}, {q.nx, q.ny, q.turn_a}) +
+           response<double>(b, {p.nx, p.ny, p.turn_b}, {q.nx, q.ny, q.turn_b});
 }
 
 struct Two

@@ -12,6 +12,7 @@
 // so that the energy changes by sum of x u (1 - e) / 2 <= 0: it never rises, whatever the e of each contact (apart from kicks).
 
 #include "carom/math.h"
+#include "dynamics/solver/effective_mass.h"
 
 #include <cstdint>
 #include <functional>
@@ -27,6 +28,8 @@ struct ImpactBody
     double inverse_mass_x = 0;
     double inverse_mass_y = 0;
     double inverse_inertia = 0;
+
+    [[nodiscard]] InverseMass<double> inverse() const { return {inverse_mass_x, inverse_mass_y, inverse_inertia}; }
 };
 
 /// d(gap)/dt = n · (vb - va) + turn_b wb - turn_a wa: n runs from a to b, turn = arm x n. The tangent is perp(n).

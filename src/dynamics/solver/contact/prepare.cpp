@@ -81,8 +81,8 @@ float effective_mass(const StateConstants& a, const StateConstants& b, Vec2 d, V
 {
     const float ca = cross(ra, d);
     const float cb = cross(rb, d);
-    const float k = d.x * d.x * (a.inverse_mass.x + b.inverse_mass.x) + d.y * d.y * (a.inverse_mass.y + b.inverse_mass.y) +
-                    ca * ca * a.inverse_inertia + cb * cb * b.inverse_inertia;
+    const ImpulseLine<float> line{d.x, d.y, ca};
+    const float k = response(a.inverse(), line, line, b.inverse(), cb, cb);
     const float at_most = dot(ra, ra) * a.inverse_inertia + dot(rb, rb) * b.inverse_inertia;
     return exceeds_rounding(k, at_most) ? 1 / k : 0;
 }
@@ -92,10 +92,9 @@ float coupling(const StateConstants& a, const StateConstants& b, const ContactCo
 {
     const ConstraintPoint& p = constraint.points[0];
     const ConstraintPoint& q = constraint.points[1];
-    const float k = constraint.n.x * constraint.n.x * (a.inverse_mass.x + b.inverse_mass.x) +
-                    constraint.n.y * constraint.n.y * (a.inverse_mass.y + b.inverse_mass.y) +
-                    cross(p.ra, constraint.n) * cross(q.ra, constraint.n) * a.inverse_inertia +
-                    cross(p.rb, constraint.n) * cross(q.rb, constraint.n) * b.inverse_inertia;
+    const Vec2 n = constraint.n;
+    const float k = response<float>(a.inverse(), {n.x, n.y, cross(p.ra, n)}, {n.x, n.y, cross(q.ra, n)}, b.inverse(),
+                                    cross(p.rb, n), cross(q.rb, n));
     const bool distinct = p.normal_mass > 0 && q.normal_mass > 0 && k * k * p.normal_mass * q.normal_mass < 0.999f;
     return distinct ? k : 0;
 }

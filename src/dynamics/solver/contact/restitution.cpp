@@ -364,8 +364,8 @@ private:
     // The effective mass of a body at the arm's end along n; 0 where it cannot move.
     static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
     {
-        const float turn = cross(arm, n);
-        const float inverse = n.x * n.x * c.inverse_mass.x + n.y * n.y * c.inverse_mass.y + turn * turn * c.inverse_inertia;
+        const ImpulseLine<float> line{n.x, n.y, cross(arm, n)};
+        const float inverse = response(c.inverse(), line, line);
         return exceeds_rounding(inverse, dot(arm, arm) * c.inverse_inertia) ? 1 / inverse : 0;
     }
 

@@ -34,8 +34,7 @@ struct JointBodies
     // J M^-1 J'^T for two rows.
     [[nodiscard]] float couple(const JointRow& r, const JointRow& q) const
     {
-        return r.d.x * q.d.x * (ca.inverse_mass.x + cb.inverse_mass.x) + r.d.y * q.d.y * (ca.inverse_mass.y + cb.inverse_mass.y) +
-               r.arm_a * q.arm_a * ca.inverse_inertia + r.arm_b * q.arm_b * cb.inverse_inertia;
+        return response<float>(ca.inverse(), {r.d.x, r.d.y, r.arm_a}, {q.d.x, q.d.y, q.arm_a}, cb.inverse(), r.arm_b, q.arm_b);
     }
 
     [[nodiscard]] float mass(const JointRow& r) const
