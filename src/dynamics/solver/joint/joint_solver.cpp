@@ -239,6 +239,30 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
     }
 }
 
+void note_stops(const SolverView& view, const SceneState& state, std::span<const JointWork> joints)
+{
+    constexpr float tiny = 1e-3f; // rad
+    constexpr std::uint16_t stops = body_flag::at_lower | body_flag::at_upper;
+    for (const JointWork& work : joints)
+    {
+        for (const std::int32_t s : {work.a, work.b})
+            view.states[s].flags = static_cast<std::uint16_t>(view.states[s].flags & ~stops);
+    }
+    for (const JointWork& work : joints)
+    {
+        const JointRecord& joint = state.joints[work.joint];
+        const bool a_stands = view.constants[work.a].inverse_inertia == 0;
+        const bool b_stands = view.constants[work.b].inverse_inertia == 0;
+        if (joint.kind != JointType::Revolute || !joint.enable_limit || a_stands == b_stands || is_in_flight(view, work))
+            continue;
+        std::uint16_t& flags = view.states[a_stands ? work.b : work.a].flags;
+        if (work.pose.angle - joint.lower < tiny)
+            flags |= a_stands ? body_flag::at_lower : body_flag::at_upper;
+        if (joint.upper - work.pose.angle < tiny)
+            flags |= a_stands ? body_flag::at_upper : body_flag::at_lower;
+    }
+}
+
 void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints)
 {
     for (JointWork& work : joints)
@@ -253,20 +277,8 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
             work.add(work.rows.axis, axis_impulse(joint));
         if (joint.kind == JointType::Spring && length(pose.gap) > 0)
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
-        if (joint.kind != JointType::Revolute || !joint.enable_limit)
-            continue;
-        // A stop makes a body immovable only if the stop's other body is immovable.
-        const bool b_free = view.constants[work.a].inverse_inertia == 0;
-        BodyState& free = view.states[b_free ? work.b : work.a];
-        const float tiny = 1e-3f;
-        const bool low = pose.angle - joint.lower < tiny;
-        const bool high = joint.upper - pose.angle < tiny;
-        free.flags &= ~(body_flag::at_lower | body_flag::at_upper);
-        if (low)
-            free.flags |= b_free ? body_flag::at_lower : body_flag::at_upper;
-        if (high)
-            free.flags |= b_free ? body_flag::at_upper : body_flag::at_lower;
     }
+    note_stops(view, state, joints);
 }
 
 } // namespace carom::internal

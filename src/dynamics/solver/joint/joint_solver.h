@@ -29,7 +29,10 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
 void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct,
                        float rest_speed);
 
-/// Sums the impulses for the read-back, and marks bodies that lean on a limit of a hinge to the world.
+/// Marks bodies that are at a stop whose other body cannot rotate: an impact finds them immovable in that direction of rotation, whatever other joints they have.
+void note_stops(const SolverView& view, const SceneState& state, std::span<const JointWork> joints);
+
+/// Sums the impulses for the read-back, and notes stops.
 void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints);
 
 } // namespace carom::internal
