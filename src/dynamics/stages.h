@@ -42,7 +42,7 @@ void settle_bodies(StepContext& ctx);
 /// Events: sorts the events of the step, and adds those that the user caused since the last one.
 void publish_events(StepContext& ctx);
 
-/// Reorders bodies and contacts for locality, every 32nd step.
+/// Reorders bodies and contacts for locality, now and then: see reorder.cpp.
 void reorder(StepContext& ctx);
 
 /// After the step: runs the user's callbacks from the events.

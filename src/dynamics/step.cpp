@@ -17,7 +17,7 @@ namespace {
 
 constexpr float longest_step = 1.0f / 30; // s
 
-// Contacts are at most as stiff as 0.15 of the rate of the longest recent sub-step, twice that against bodies of infinite mass. With the rate of the present
+// The frequency of contacts is at most 0.15 / (longest recent sub-step), twice that against bodies of infinite mass. With the rate of the present
 // sub-step, steps of changing length would change the stiffness, and stacks would rise and sink. With 3/16 a pyramid of a hundred layers still moves at 28 mm/s in the mean
 // after 4 to 8 s, with 0.15 at 4 mm/s; its boxes have strayed by 16 and 25 cm, and by 35 cm with 1/8. Joints: see joint_solver.cpp.
 void set_softness(StepContext& ctx)
@@ -86,12 +86,12 @@ const StepReport& step(SceneData& scene, float dt)
 {
     StageTimes ms;
     Stopwatch watch;
-    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness once
+    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness, as subdivided() does for an island
     watch.time(ms.sweep, [&] { sweep_paths(ctx); });
     watch.time(ms.pairs, [&] { find_pairs(ctx); });
     watch.time(ms.contacts, [&] { update_contacts(ctx); });
     watch.time(ms.islands, [&] { build_islands(ctx); });
-    save_impulses(ctx);
+    save_impulses(ctx); // of a step shorter than recent ones: averaged with the new ones below, see uneven_steps.h
     watch.time(ms.solve, [&] { solve_islands(ctx); });
     watch.time(ms.commit, [&] { commit(ctx); });
     average_saved_impulses(ctx);

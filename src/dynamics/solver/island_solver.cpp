@@ -1,6 +1,6 @@
 // One island through all its sub-steps. There are three ways through a sub-step:
 //   advance_airborne       every body of the island flies; what lands is relaxed
-//   advance_by_partition   all constraints are in lanes and nothing flies: each partition is solved, moved and relaxed while it is in the cache
+//   advance_by_partition   all constraints are in lanes, and nothing flies or the island is huge: each partition is solved, moved and relaxed while in the cache
 //   advance                solve with bias, move, fly, relax
 // then restitution, and sums over the step. Terms: a core is half of the inside of a body, which must not come into a wall; joints yield where a wall holds what they pull.
 
