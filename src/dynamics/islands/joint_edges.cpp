@@ -51,8 +51,8 @@ public:
         scratch.graph.could_fly.clear();
         scratch.graph.is_loaded.clear();
         scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hinged_fliers = false;
-        for (const std::int32_t body :
-             scratch.graph.placed) // only bodies that were awake in the last step: a body that never moves costs nothing
+        // Only bodies that were awake in the last step: a body that never moves costs nothing.
+        for (const std::int32_t body : scratch.graph.placed)
             scratch.graph.places[static_cast<std::size_t>(body)] = none;
         scratch.graph.places.resize(std::max(scratch.graph.places.size(), static_cast<std::size_t>(state.bodies.capacity())),
                                     none);

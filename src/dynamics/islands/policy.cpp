@@ -17,8 +17,8 @@ constexpr int edges_to_a_partition = 2048;
 constexpr int edges_to_a_huge_partition = 8192; // their constraints stay in a cache between solving and relaxation
 constexpr int few_partitions = 16;              // their constraints stay in the shared processor cache
 constexpr int most_partitions = plane_cells;    // at most one to a plane cell
-constexpr int joint_blocks_worth_threads =
-    1536; // with fewer, waiting at the end of each color costs more than a second thread gains
+// With fewer, waiting at the end of each color costs more than a second thread gains.
+constexpr int joint_blocks_worth_threads = 1536;
 constexpr int blocks_in_caches = 8'192;
 
 template <class Value>

@@ -9,14 +9,14 @@
 
 namespace carom::internal {
 
-inline constexpr int few_bodies =
-    16; ///< as in a break of fifteen balls: beyond it, one contact more or less does not decide a ball's path
+/// As in a break of fifteen balls: beyond it, one contact more or less does not decide a ball's path.
+inline constexpr int few_bodies = 16;
 inline constexpr int most_watched_bodies = 64;    ///< island size up to which energy is monitored: the capacity of IslandEnergy
 inline constexpr int most_converging_bodies = 32; ///< number of bodies whose speeds IslandSolver can store
 inline constexpr int most_direct_rows = 128;      ///< beyond it, DirectSolve takes longer than soft rows
 inline constexpr int most_subdivisions = 32;      ///< limit where a kinematic body or a joint's arm turns
-inline constexpr int most_hinge_subdivisions =
-    64; ///< limit where a body on a hinge turns a contact: the integration error would become kinetic energy of the mechanism
+/// Limit where a body on a hinge turns a contact: the integration error would become kinetic energy of the mechanism.
+inline constexpr int most_hinge_subdivisions = 64;
 
 /// Data by which the policy of an island is chosen.
 struct IslandTally
@@ -38,16 +38,16 @@ struct IslandTally
 struct IslandPolicy
 {
     bool free_fall = false; ///< isolated bodies in free fall: no solver, and many of them in one island
-    bool soft_joints =
-        false; ///< one soft pass over joints, hinges in lanes, as in a pile; several such islands are solved as one
-    bool recomputes_contacts =
-        false; ///< manifolds are recomputed within the step, and chain pieces that a body may come to face have constraints
+    /// One soft pass over joints, hinges in lanes, as in a pile; several such islands are solved as one.
+    bool soft_joints = false;
+    /// Manifolds are recomputed within the step, and chain pieces that a body may come to face have constraints.
+    bool recomputes_contacts = false;
     bool converges = false; ///< contacts are solved until they converge, in up to 16 passes; otherwise in one pass
-    bool exact_impacts =
-        false; ///< all contacts of an impact reflect at once, and a body that becomes fast takes off; otherwise impacts are solved in pairs
+    /// All contacts of an impact reflect at once, and a body that becomes fast takes off; otherwise impacts are solved in pairs.
+    bool exact_impacts = false;
     bool conserves_energy = false; ///< speeds are held to the energy that loads leave, see IslandEnergy
-    bool caches_manifolds =
-        false; ///< manifolds are cached from step to step, and bodies that have been slow for long enough lose their speed (rest damping)
+    /// Manifolds are cached from step to step, and bodies that have been slow for long enough lose their speed (rest damping).
+    bool caches_manifolds = false;
     bool caches_graph = false;  ///< its layout depends on bodies and edges alone: reused where no island of the scene has changed
     bool wide_contacts = false; ///< contacts are solved in wide constraints of eight lanes
     bool wide_joints = false;   ///< so are hinges

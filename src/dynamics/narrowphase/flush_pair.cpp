@@ -13,8 +13,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double share_of_size =
-    0.02; // fraction of the smaller shape's size: a gap below it is no step, neither of a small shape nor for one
+// Fraction of the smaller shape's size: a gap below it is no step, neither of a small shape nor for one.
+constexpr double share_of_size = 0.02;
 
 class Neighbourhood
 {

@@ -12,8 +12,8 @@ namespace carom::internal {
 namespace body_flag {
 inline constexpr std::uint16_t dynamic = 1;
 inline constexpr std::uint16_t flier = 2; ///< in flight: moved by flight, not by the solver
-inline constexpr std::uint16_t unbound =
-    4; ///< only joints and forces that are constant over a sub-step act on it: it drifts along exact parabolas
+/// Only joints and forces that are constant over a sub-step act on it: it drifts along exact parabolas.
+inline constexpr std::uint16_t unbound = 4;
 inline constexpr std::uint16_t at_lower = 8;    ///< a hinge limit blocks clockwise rotation
 inline constexpr std::uint16_t at_upper = 16;   ///< a hinge limit blocks counter-clockwise rotation
 inline constexpr std::uint16_t traced = 32;     ///< its path is recorded: it is near a trigger

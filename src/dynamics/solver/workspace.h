@@ -36,10 +36,10 @@ struct Island
     std::int32_t edge_count = 0;
     std::int32_t first_constraint = 0; ///< contact constraints, sorted by color
     std::int32_t constraint_count = 0;
-    std::int32_t first_wide =
-        0; ///< blocks of wide contact constraints, sorted by color, in large islands; `constraints` then hold what fits no lane
-    std::int32_t wide_store =
-        0; ///< first block in wide_contacts: the small islands of a task use the same memory, one after the other
+    /// Blocks of wide contact constraints, sorted by color, in large islands; `constraints` then hold what fits no lane.
+    std::int32_t first_wide = 0;
+    /// First block in wide_contacts: the small islands of a task use the same memory, one after the other.
+    std::int32_t wide_store = 0;
     std::int32_t wide_count = 0;
     std::int32_t first_wide_joint = 0;
     std::int32_t wide_joint_count = 0;
@@ -56,8 +56,8 @@ struct Island
     std::int32_t first_impact_constraint = 0; ///< constraints that bear no load yet and may be struck
     std::int32_t impact_constraint_count = 0;
     std::int32_t colors = 0;
-    std::int32_t first_bucket =
-        0; ///< buckets of its wide contact constraints, partition by partition, in bucket_starts; one more start marks the end
+    /// Buckets of its wide contact constraints, partition by partition, in bucket_starts; one more start marks the end.
+    std::int32_t first_bucket = 0;
     std::int32_t bucket_count = 0; ///< in each partition, and of boundary constraints: two to a color
     std::int32_t partitions = 0;   ///< of the plane; threads solve them side by side
     std::int32_t first_joint_lane = 0;
@@ -153,8 +153,8 @@ struct IslandOutput : ImpactReport
     ImpactWork impact_work{};    ///< budget left in this sub-step
     std::int64_t looks_left = 0; ///< budget of searches for the next impact, likewise
     bool capped = false;
-    bool disturbed =
-        false; ///< since velocities were integrated: a flier has struck a solver-owned body, or constraints came or went
+    /// Since velocities were integrated: a flier has struck a solver-owned body, or constraints came or went.
+    bool disturbed = false;
 
     void clear();
     IslandOutput();

@@ -159,11 +159,11 @@ inline constexpr std::uint32_t edge_of_b = 2048; ///< the cached manifold is rel
 inline constexpr std::uint32_t nearest = 4096;   ///< cached are the two nearest corners, not an edge
 inline constexpr std::uint32_t sleeper = 8192;   ///< one or both of the bodies sleep
 inline constexpr std::uint32_t piece = 16384;    ///< of a chain or the like: other contacts may touch for the same public shapes
-inline constexpr std::uint32_t of_union =
-    32768; ///< flush neighbors have turned or emptied its manifold: no points does not mean apart
+/// Flush neighbors have turned or emptied its manifold: no points does not mean apart.
+inline constexpr std::uint32_t of_union = 32768;
 inline constexpr std::uint32_t all_cached = cached | edge_of_b | nearest;
-inline constexpr std::uint32_t followed =
-    1024; ///< its constraint alone is current: normal, anchors and separations here are older than the step, see settled_manifold
+/// Its constraint alone is current: normal, anchors and separations here are older than the step, see settled_manifold.
+inline constexpr std::uint32_t followed = 1024;
 } // namespace contact_flag
 
 /// Impulses of a manifold's point, for warm starting and for queries.
@@ -360,8 +360,8 @@ struct SceneState
     std::vector<std::int32_t> awake_contacts;
     std::vector<std::int32_t> trigger_contacts;
     std::vector<std::int32_t> fresh_shapes; ///< new or moved by the user: they search for pairs whatever their type
-    std::uint64_t lanes_stamp =
-        0; ///< identifies the wide contact constraints in Scratch that hold the impulses of this state; 0: none do
+    /// Identifies the wide contact constraints in Scratch that hold the impulses of this state; 0: none do.
+    std::uint64_t lanes_stamp = 0;
     float substep_of_impulses = 0; ///< s, length of the sub-step to which the impulses of contacts and joints belong
     float longest_substep = 0;     ///< s, longest recent sub-step
     bool graph_dirty = true;       ///< touches, joints, masses, types or sleep have changed since islands were built

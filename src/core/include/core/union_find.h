@@ -27,8 +27,8 @@ public:
     {
         const std::int32_t under = std::min(a, b);
         const auto nobody = static_cast<std::int32_t>(m_parents.size()) - 1;
-        m_parents[static_cast<std::size_t>(under >= 0 ? std::max(a, b) : nobody)] =
-            under; // branch-free: the branch would be mispredicted
+        // Branch-free: the branch would be mispredicted.
+        m_parents[static_cast<std::size_t>(under >= 0 ? std::max(a, b) : nobody)] = under;
     }
 
     /// Makes each element a child of its root. The parents are those of reset and guess.

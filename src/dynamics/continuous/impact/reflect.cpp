@@ -243,8 +243,8 @@ double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& row
     return greatest;
 }
 
-constexpr double slow =
-    1e-3; // of the fastest approach: a slower contact is at rest, and a later round reflects it after this one's impulses
+// Of the fastest approach: a slower contact is at rest, and a later round reflects it after this one's impulses.
+constexpr double slow = 1e-3;
 
 // A round of reflections; false if no row approaches.
 bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::Approaching)

@@ -17,8 +17,8 @@ struct ConstraintPoint
     Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
     Vec2 rb0{};
     float base = 0; ///< separation = base + n · (relative displacement of the anchors)
-    float predicted_curvature =
-        0; ///< error of the straight-line prediction of the separation over the next sub-step (round contacts)
+    /// Error of the straight-line prediction of the separation over the next sub-step (round contacts).
+    float predicted_curvature = 0;
     float normal_impulse = 0;
     float tangent_impulse = 0;
     float normal_mass = 0;

@@ -175,8 +175,8 @@ void RecomputedContacts::refresh_constraint(ContactConstraint& constraint)
     if (now.contact == constraint.contact)
         return;
     leave_color(m_work.ctx.state, m_work.ctx.state.contacts[now.contact]);
-    m_work.ctx.state.contacts[now.contact].color =
-        std::exchange(m_work.ctx.state.contacts[constraint.contact].color, none); // both contacts have the same bodies
+    // Both contacts have the same bodies.
+    m_work.ctx.state.contacts[now.contact].color = std::exchange(m_work.ctx.state.contacts[constraint.contact].color, none);
     forget_impulses(m_work.ctx.state, constraint.contact);
     constraint.contact = now.contact;
 }

@@ -22,8 +22,8 @@ struct AxisSpring
 {
     float stiffness = 0; ///< N/m or N m/rad
     float damping = 0;   ///< N s/m or N m s/rad
-    float theta =
-        1; ///< time within the sub-step at which the force is taken: 1/2 keeps energy, 1 damps what a sub-step cannot follow
+    /// Time within the sub-step at which the force is taken: 1/2 keeps energy, 1 damps what a sub-step cannot follow.
+    float theta = 1;
 
     [[nodiscard]] bool is_there() const { return stiffness > 0 || damping > 0; }
     /// The impulse before the bodies move, for a given stretch at the start of the sub-step.

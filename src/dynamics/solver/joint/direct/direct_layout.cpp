@@ -196,8 +196,8 @@ bool DirectSolve::is_locked(const Node& node) const
 Triple DirectSolve::inverse_mass(const Node& node) const
 {
     const StateConstants& c = m_view.constants[node.state];
-    const bool counts_as_harder =
-        m_mass_kind == Masses::Loaded && !m_may_contradict && node.stretch > most_stretch; // loops yield instead
+    // Loops yield instead.
+    const bool counts_as_harder = m_mass_kind == Masses::Loaded && !m_may_contradict && node.stretch > most_stretch;
     const float share = counts_as_harder ? most_stretch / node.stretch : 1;
     return as_triple(c.inverse_mass, share * c.inverse_inertia);
 }
