@@ -24,7 +24,7 @@ class Contestant
 {
 public:
     virtual ~Contestant() = default;
-    /// What a step needs that is no work of the engine's: not timed.
+    /// Work for a step that is not the engine's: not timed.
     virtual void prepare(float) {}
     /// The timed part: what the scene's schedule changes before the step, and the step.
     virtual void step(float h) = 0;
@@ -37,9 +37,9 @@ public:
     [[nodiscard]] virtual int contacts() = 0;
     /// Equal where the engine's state is equal.
     [[nodiscard]] virtual std::uint64_t hash() = 0;
-    /// Of the last step; zeros where the engine does not tell.
+    /// Times of the last step; zeros where the engine does not report them.
     [[nodiscard]] virtual Stages stages() const { return {}; }
-    /// What the engine holds on the heap for this scene.
+    /// Memory that the engine holds on the heap for this scene.
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 

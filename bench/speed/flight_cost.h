@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What impacts at their own time cost where there are few of them, or far too many.
+/// The cost of impacts at their own time, where there are few of them or far too many.
 
 #include "speed/run.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What this process holds, as the system and the allocator tell; zeros where they do not.
+/// Memory of this process, as the system and the allocator report it; zeros where they do not.
 
 #include <cstddef>
 

@@ -19,7 +19,7 @@ private:
     std::uint64_t m_value = 0xcbf29ce484222325u;
 };
 
-/// What a kinematic body did in the last step.
+/// The motion of a kinematic body in the last step.
 struct Motion
 {
     truth::Body body;

@@ -28,7 +28,7 @@ struct BodyPlan
 /// Throws truth::Missing where a shape or its material has no counterpart.
 [[nodiscard]] BodyPlan plan_body(const carom::ConstBody& body, const carom::Scene& scene);
 
-/// What differs between a scene now and when it was looked at last.
+/// Differences of a scene since it was looked at last.
 struct Changes
 {
     std::vector<truth::Body> gone{};

@@ -11,7 +11,7 @@ namespace speed {
 
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Of all that was sampled; not a number where a scene has nothing to measure.
+/// Statistics of all samples; not a number where a scene has nothing to measure.
 struct Spread
 {
     double mean = none;
@@ -43,7 +43,7 @@ public:
     /// How many are awake and move now.
     void count(Contestant& contestant);
     [[nodiscard]] Quality result() const;
-    /// What it holds itself.
+    /// Memory that it holds itself.
     [[nodiscard]] std::size_t bytes() const;
 
 private:

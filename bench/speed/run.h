@@ -46,7 +46,7 @@ struct Result
     double peak_mb = 0;
 };
 
-/// What Box2D's own benchmark program times: everything from the second step on. Samples for the quality are taken between the
+/// The time that Box2D's own benchmark program takes: everything from the second step on. Samples for the quality are taken between the
 /// steps, with the clock stopped.
 [[nodiscard]] Result run(const carom::scenes::SceneEntry& entry, const Contender& contender, const RunOptions& options);
 

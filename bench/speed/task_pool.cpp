@@ -81,7 +81,7 @@ void TaskPool::work_off(int thread)
     }
 }
 
-// Who holds a ticket, or has not told of what it did with one, keeps its round from ending.
+// A thread that holds a ticket, or has not reported what it did with one, keeps its round from ending.
 bool TaskPool::take_task(int thread)
 {
     std::atomic<std::uint64_t>& share = m_shares[static_cast<std::size_t>(thread)].tickets;

@@ -32,7 +32,7 @@ private:
 
     static constexpr std::size_t line = 64; ///< bytes of memory that one thread has or another
 
-    /// Of a thread in this round: round, and in the lower half how many of its tasks nobody has taken.
+    /// State of a thread in this round: the round, and in the lower half how many of its tasks are left.
     struct alignas(line) Share
     {
         std::atomic<std::uint64_t> tickets{0};
@@ -47,7 +47,7 @@ private:
 
     std::vector<Share> m_shares;
     std::vector<std::thread> m_threads{};
-    // Of the round; they stay until all its tasks are done. Whoever sees it begin has all of it at once.
+    // Data of the round; they stay until all its tasks are done. A thread that sees the round begin sees all of it.
     alignas(line) std::atomic<std::uint32_t> m_round{0};
     std::atomic<bool> m_over{false};
     int m_count = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What experiments take from samples of a motion.
+/// Quantities that experiments take from samples of a motion.
 
 #include "truth/vec.h"
 

@@ -58,7 +58,7 @@ double corner_distance(const std::vector<Vec>& a, const std::vector<Vec>& b)
     return least;
 }
 
-/// Of two hulls without radius; negative where they overlap.
+/// Separation of two hulls without radius; negative where they overlap.
 double signed_distance(const std::vector<Vec>& a, const std::vector<Vec>& b)
 {
     const double depth = std::max(separation(a, b), separation(b, a));

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What experiments and carom-bench may ask of an engine: written once, run on every engine through a thin adapter. SI units, radians.
+/// The interface through which experiments and carom-bench use an engine: written once, run on every engine through a thin adapter. SI units, radians.
 
 #include "truth/vec.h"
 
@@ -140,7 +140,7 @@ struct WorldDef
     int threads = 1;        ///< where an engine has threads
 };
 
-/// What an engine has not got.
+/// Features that an engine has not got.
 class Missing : public std::runtime_error
 {
 public:
@@ -157,7 +157,7 @@ public:
     void add_hinge(Body a, Body b, Vec anchor) { add_hinge(Hinge{.a = a, .b = b, .anchor = anchor}); }
     /// Force stiffness · (distance − length) − damping · (its rate) between two centers.
     virtual void add_spring(Body a, Body b, double length, double stiffness, double damping) = 0;
-    /// Of a kinematic body, kept through the following steps.
+    /// Velocity of a kinematic body, kept through the following steps.
     virtual void set_motion(Body body, Vec velocity, double spin) = 0;
     virtual void step(double dt) = 0;
     [[nodiscard]] virtual State state(Body body) const = 0;

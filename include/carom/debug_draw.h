@@ -15,7 +15,7 @@
 
 namespace carom {
 
-/// What a primitive stands for; choose your own colours by it.
+/// The meaning of a primitive; choose your own colours by it.
 enum class DrawRole : std::uint8_t
 {
     StaticShape,

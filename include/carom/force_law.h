@@ -18,12 +18,12 @@ struct BodyMotion
     Pose pose{};                ///< of the body's frame
     Vec2 velocity{};            ///< of the centre of mass, m/s
     float angular_velocity = 0; ///< rad/s
-    /// What has struck the body since the law was last called, in the order in which it was resolved; those of the end of the
+    /// Impacts on the body since the law was last called, in the order in which they were resolved; those of the end of the
     /// last step come with the first call of this one (their times are within that step). Valid during the call.
     std::span<const ImpactEvent> impacts{};
 };
 
-/// What acts on a body evenly through one sub-step, at the centre of mass.
+/// A load that acts on a body evenly through one sub-step, at the centre of mass.
 struct Load
 {
     Vec2 force{};     ///< N

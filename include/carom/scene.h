@@ -94,7 +94,7 @@ class Scene;
 /// Called by Scene::update before each of its steps.
 using BeforeStep = Function<void(Scene&)>;
 
-/// What Scene::update did.
+/// The result of Scene::update.
 struct UpdateResult
 {
     int steps = 0;   ///< steps taken

@@ -97,7 +97,7 @@ public:
         }
     }
 
-    // What a hinge has besides its pivot are constraints of their own. A motor and a spring count a's angle less b's.
+    // Everything beside the pivot of a hinge is a constraint of its own. A motor and a spring count a's angle less b's.
     void add_hinge(const Hinge& hinge) override
     {
         cpBody* a = find(hinge.a);

@@ -59,7 +59,7 @@ double measured_period(const Setup& setup, const std::vector<double>& angles)
     return crossings.size() < 21 ? none : (crossings.back() - crossings.front()) / 20 * setup.dt();
 }
 
-/// Of the last turning point.
+/// The angle at the last turning point.
 double last_amplitude(const std::vector<double>& angles)
 {
     for (std::size_t i = angles.size() - 2; i > 0; --i)
