@@ -86,13 +86,13 @@ public:
                            [&](std::size_t i)
                            {
                                const std::int32_t place = scratch.graph.flying[i];
-                               std::int32_t& flight = scratch.graph.flight[static_cast<std::size_t>(place)];
+                               std::int32_t& flight = scratch.graph.flight_mode[static_cast<std::size_t>(place)];
                                if (limits_flight_to_fast_movers(tally_of(scratch, place).unloaded) &&
                                    !is_fast_mover(body_at(place)))
                                    scratch.graph.could_fly[static_cast<std::size_t>(place)] = std::exchange(flight, solver_owned);
                            });
-        std::erase_if(scratch.graph.flying,
-                      [&](std::int32_t place) { return scratch.graph.flight[static_cast<std::size_t>(place)] == solver_owned; });
+        std::erase_if(scratch.graph.flying, [&](std::int32_t place)
+                      { return scratch.graph.flight_mode[static_cast<std::size_t>(place)] == solver_owned; });
         for (const std::int32_t place : scratch.graph.flying)
             ++tally_of(scratch, place).fliers;
     }
@@ -193,7 +193,7 @@ public:
     {
         const int body = body_at(place);
         const BodyRecord& record = state.bodies[body];
-        return scratch.graph.flight[static_cast<std::size_t>(place)] == none && record.first_joint == none &&
+        return scratch.graph.flight_mode[static_cast<std::size_t>(place)] == free_flight && record.first_joint == none &&
                meets_nothing(body) && is_free_of_loads(body) && !ctx.scene.def.record_substeps;
     }
 
@@ -274,7 +274,7 @@ public:
     }
     [[nodiscard]] bool in_flight(std::int32_t place) const
     {
-        return place >= 0 && scratch.graph.flight[static_cast<std::size_t>(place)] != solver_owned;
+        return place >= 0 && scratch.graph.flight_mode[static_cast<std::size_t>(place)] != solver_owned;
     }
 
     // Runs on all threads. The rest of the stage uses only these islands of edges.

@@ -47,7 +47,7 @@ public:
 
     void forget_bodies()
     {
-        scratch.graph.flight.clear();
+        scratch.graph.flight_mode.clear();
         scratch.graph.could_fly.clear();
         scratch.graph.is_loaded.clear();
         scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hinged_fliers = false;
@@ -66,7 +66,7 @@ public:
         const std::size_t count = state.awake_bodies.size();
         scratch.graph.placed.insert(scratch.graph.placed.end(), state.awake_bodies.begin() + static_cast<std::ptrdiff_t>(first),
                                     state.awake_bodies.end());
-        scratch.graph.flight.resize(count, solver_owned);
+        scratch.graph.flight_mode.resize(count, solver_owned);
         scratch.graph.could_fly.resize(count, solver_owned);
         scratch.graph.is_loaded.resize(first); // without the dummy element
         scratch.graph.is_loaded.resize(count + 1);
@@ -79,23 +79,23 @@ public:
                                note_place(body, static_cast<std::int32_t>(i));
                                note_uneven(body);
                                if (ctx.scene.def.continuous)
-                                   scratch.graph.flight[i] = kind_of_flight(body);
+                                   scratch.graph.flight_mode[i] = mode_of(body);
                            });
     }
 
     // A body that a contact loads does not fly. Branch-free: the branch would be mispredicted.
     void list_fliers()
     {
-        set_size(scratch.graph.flying, scratch.graph.flight.size());
+        set_size(scratch.graph.flying, scratch.graph.flight_mode.size());
         std::size_t count = 0;
-        for (std::size_t i = 0; i < scratch.graph.flight.size(); ++i)
+        for (std::size_t i = 0; i < scratch.graph.flight_mode.size(); ++i)
         {
             const bool loaded = scratch.graph.is_loaded[i] != 0;
-            const std::int32_t flight = scratch.graph.flight[i];
+            const std::int32_t flight = scratch.graph.flight_mode[i];
             scratch.graph.could_fly[i] = loaded ? flight : scratch.graph.could_fly[i];
-            scratch.graph.flight[i] = loaded ? solver_owned : flight;
+            scratch.graph.flight_mode[i] = loaded ? solver_owned : flight;
             scratch.graph.flying[count] = static_cast<std::int32_t>(i);
-            count += scratch.graph.flight[i] != solver_owned ? 1 : 0;
+            count += scratch.graph.flight_mode[i] != solver_owned ? 1 : 0;
         }
         scratch.graph.flying.resize(count);
     }
@@ -159,17 +159,17 @@ private:
             std::atomic_ref(scratch.graph.has_uneven).store(true, std::memory_order_relaxed);
     }
 
-    [[nodiscard]] std::int32_t kind_of_flight(int body) const
+    [[nodiscard]] std::int32_t mode_of(int body) const
     {
         if (state.bodies[body].type != BodyType::Dynamic)
             return solver_owned;
-        const std::int32_t kind = flight_of(state, body);
-        if (kind == solver_owned || kind == none)
-            return kind;
-        if (!is_closed(ctx, kind, body))
+        const std::int32_t mode = flight_mode_of(state, body);
+        if (mode == solver_owned || mode == free_flight)
+            return mode;
+        if (!is_closed(ctx, mode, body))
             return solver_owned;
         std::atomic_ref(scratch.graph.has_hinged_fliers).store(true, std::memory_order_relaxed);
-        return kind;
+        return mode;
     }
 
     // With a single thread, one task finds all joints.
@@ -202,7 +202,7 @@ private:
     // True if a jointed body may fly about a hinge to the world.
     [[nodiscard]] bool may_fly(std::int32_t place) const
     {
-        return place >= 0 && (scratch.graph.flight[static_cast<std::size_t>(place)] != solver_owned ||
+        return place >= 0 && (scratch.graph.flight_mode[static_cast<std::size_t>(place)] != solver_owned ||
                               scratch.graph.could_fly[static_cast<std::size_t>(place)] != solver_owned);
     }
 

@@ -8,7 +8,7 @@
 
 namespace carom::internal {
 
-/// Give awake bodies their indices as in ContactEdge, and note in Scratch::graph.flight which of them may fly as far as a single body shows. Contact loads are
+/// Give awake bodies their indices as in ContactEdge, and note in Scratch::graph.flight_mode which of them may fly as far as a single body shows. Contact loads are
 /// not known yet. place_bodies is called again after more bodies have woken, for these.
 void forget_bodies(StepContext& ctx);
 void place_bodies(StepContext& ctx);
@@ -22,13 +22,13 @@ void gather_joints(StepContext& ctx);
 /// For a body with joints: the undriven hinge to the world about which it turns, or solver_owned.
 [[nodiscard]] std::int32_t flight_about_hinge(const SceneState& state, int body);
 
-/// How a body may fly: none, freely; or the hinge to the world about which it turns. Otherwise solver_owned.
-[[nodiscard]] inline std::int32_t flight_of(const SceneState& state, int body)
+/// How a body may fly: free_flight, or the hinge to the world about which it turns. Otherwise solver_owned.
+[[nodiscard]] inline std::int32_t flight_mode_of(const SceneState& state, int body)
 {
     const BodyRecord& record = state.bodies[body];
     if (record.first_joint != none)
         return flight_about_hinge(state, body);
-    return record.has_finite_mass ? none : solver_owned;
+    return record.has_finite_mass ? free_flight : solver_owned;
 }
 
 /// Index of a body as in ContactEdge.

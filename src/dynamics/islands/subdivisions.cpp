@@ -129,8 +129,8 @@ private:
 
     [[nodiscard]] float driven_spin(int body) const
     {
-        const bool driven =
-            state.bodies[body].type == BodyType::Kinematic || (is_moving_dynamic(state, body) && flight_of(state, body) >= 0);
+        const bool driven = state.bodies[body].type == BodyType::Kinematic ||
+                            (is_moving_dynamic(state, body) && flight_mode_of(state, body) >= 0);
         return driven ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) + greatest_spin_of_law(ctx, body)
                       : 0;
     }

@@ -59,7 +59,9 @@ struct EdgesOfTask
     bool stay = false; ///< its edges are those of the last step
 };
 
-inline constexpr std::int32_t solver_owned = -2; ///< in GraphWorkspace::flight: the body does not fly
+/// Modes of flight of a body, beside the hinge to the world about which it turns.
+inline constexpr std::int32_t free_flight = none; ///< it flies freely
+inline constexpr std::int32_t solver_owned = -2;  ///< it does not fly
 
 /// Joint that takes part in a step, between two bodies of which at least one is dynamic.
 struct JointEdge
@@ -112,7 +114,7 @@ struct GraphWorkspace
     std::vector<UnionFind> more_sets;         ///< for further parts of the edges
     std::vector<std::int32_t> island_of;      ///< by awake index
     std::vector<std::int32_t> island_of_edge; ///< by contact edge; none: it gets no constraint
-    std::vector<std::int32_t> flight;         ///< by awake index: solver_owned, none (free), or the hinge about which it turns
+    std::vector<std::int32_t> flight_mode;    ///< by awake index: free_flight, solver_owned, or the hinge about which it turns
     std::vector<std::int32_t> flying;         ///< awake indices of the bodies that are not solver_owned
     std::vector<std::int32_t> could_fly;      ///< the same for a body that could fly but bears a load or is borne
     std::vector<std::uint8_t> is_loaded;      ///< whether a contact loads the body, by awake index; the last element is a dummy

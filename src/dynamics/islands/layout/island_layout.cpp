@@ -207,16 +207,16 @@ private:
     {
         if (island.policy.free_fall)
             return;
-        const std::int32_t kind = m_scratch.graph.flight[as_index(place)];
+        const std::int32_t mode = m_scratch.graph.flight_mode[as_index(place)];
         const std::int32_t could = m_scratch.graph.could_fly[as_index(place)];
         const int body = m_state.awake_bodies[as_index(place)];
         const std::int32_t s = m_scratch.solver.state_of[as_index(place)];
-        if (kind != solver_owned)
+        if (mode != solver_owned)
         {
             ++m_ctx.report.flight_bodies;
-            if (kind != none)
-                forget_impulses(m_state.joints[kind]);
-            m_scratch.layout.flier_seeds.push_back({s, body, kind, false});
+            if (mode != free_flight)
+                forget_impulses(m_state.joints[mode]);
+            m_scratch.layout.flier_seeds.push_back({s, body, mode, false});
         }
         else if (could != solver_owned && (island.policy.exact_impacts || may_take_off(place, could)))
         {
@@ -225,9 +225,9 @@ private:
     }
 
     // In a crowd, only a flier or a force law makes a body fast enough to take off within the step.
-    [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t kind) const
+    [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t mode) const
     {
-        return m_scratch.graph.may_be_struck[as_index(place)] != 0 || kind != none ||
+        return m_scratch.graph.may_be_struck[as_index(place)] != 0 || mode != free_flight ||
                force_law_of(m_ctx, m_state.awake_bodies[as_index(place)]) != nullptr;
     }
 
