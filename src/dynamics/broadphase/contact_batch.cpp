@@ -18,7 +18,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr std::size_t enough = 128; // contacts that are worth sharing among threads
+constexpr std::size_t enough_contacts = 128; // contacts that are worth sharing among threads
 constexpr std::size_t contacts_per_fill = 128;
 
 // Prefetches the body of one side, and the neighbors of the contact in that body's list.
@@ -123,7 +123,7 @@ template <class Visit>
 void ContactBatch::for_each_side(std::span<const std::int32_t> contacts, const Visit& visit) const
 {
     const TaskHooks& hooks = m_scene.def.tasks;
-    const int tasks = contacts.size() < enough ? 1 : hooks.worker_count;
+    const int tasks = contacts.size() < enough_contacts ? 1 : hooks.worker_count;
     const auto bound = [&](int task) { return std::int64_t{m_state.bodies.capacity()} * task / tasks; };
     run_tasks(hooks, tasks,
               [&](int task)
