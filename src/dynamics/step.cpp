@@ -72,11 +72,13 @@ void end_step(StepContext& ctx)
 
 } // namespace
 
-StepContext subdivided(const StepContext& ctx, int subdivisions)
+StepContext step_of(const StepContext& ctx, const Island& island)
 {
     StepContext s = ctx;
-    s.subdivisions = subdivisions;
-    s.substeps = ctx.substeps * subdivisions;
+    if (island.policy.subdivisions <= 1)
+        return s;
+    s.subdivisions = island.policy.subdivisions;
+    s.substeps = ctx.substeps * s.subdivisions;
     s.h = ctx.dt / static_cast<float>(s.substeps);
     set_softness(s);
     return s;
@@ -86,7 +88,7 @@ const StepReport& step(SceneData& scene, float dt)
 {
     StageTimes ms;
     Stopwatch watch;
-    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness, as subdivided() does for an island
+    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness, as step_of() does for an island
     watch.time(ms.sweep, [&] { sweep_paths(ctx); });
     watch.time(ms.pairs, [&] { find_pairs(ctx); });
     watch.time(ms.contacts, [&] { update_contacts(ctx); });

@@ -86,8 +86,8 @@ struct StepContext
     float rest_speed = 0; ///< slower approach is rest, not an impact: what gravity gives in two sub-steps
 };
 
-/// The same step with each sub-step subdivided.
-[[nodiscard]] StepContext subdivided(const StepContext& ctx, int subdivisions);
+/// The step as an island takes it: with sub-steps subdivided as its policy asks for.
+[[nodiscard]] StepContext step_of(const StepContext& ctx, const Island& island);
 
 /// Greatest displacement of any point of a body in this step, if nothing strikes it; 0 for a body that is not awake.
 [[nodiscard]] inline float motion_of(const StepContext& ctx, int body)

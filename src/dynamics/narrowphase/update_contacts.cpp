@@ -165,14 +165,19 @@ void inherit_load(StepContext& ctx, int index)
                      });
 }
 
+void wake_both(StepContext& ctx, int index)
+{
+    const Contact& contact = ctx.state.contacts[index];
+    wake_body(ctx.scene, contact.body_a);
+    wake_body(ctx.scene, contact.body_b);
+}
+
 // Begins a touch with the load of a neighboring piece, and wakes both bodies.
 void begin_loaded_touch(StepContext& ctx, int index)
 {
-    Contact& contact = ctx.state.contacts[index];
-    note_begin(contact);
+    note_begin(ctx.state.contacts[index]);
     inherit_load(ctx, index);
-    wake_body(ctx.scene, contact.body_a);
-    wake_body(ctx.scene, contact.body_b);
+    wake_both(ctx, index);
     begin_touch(ctx.scene, index);
 }
 
@@ -189,13 +194,6 @@ bool may_hit(const StepContext& ctx, const Contact& contact)
 {
     const bool moves = relative_motion(ctx.state, contact) > ctx.scene.tolerances.speculation;
     return moves && (contact.flags & contact_flag::passing) == 0;
-}
-
-void wake_both(StepContext& ctx, int index)
-{
-    const Contact& contact = ctx.state.contacts[index];
-    wake_body(ctx.scene, contact.body_a);
-    wake_body(ctx.scene, contact.body_b);
 }
 
 TouchChange change_of(const StepContext& ctx, const Contact& contact)

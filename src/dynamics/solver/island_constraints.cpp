@@ -157,7 +157,7 @@ void commit_joint(const StepContext& ctx, const JointWork& work)
 
 void fill_island(const StepContext& ctx, const Island& island, WorkerTeam& team)
 {
-    const StepContext island_ctx = island.policy.subdivisions > 1 ? subdivided(ctx, island.policy.subdivisions) : ctx;
+    const StepContext island_ctx = step_of(ctx, island);
     if (ctx.scratch.reuse != Reuse::Constraints)
         contact_buckets(ctx.scratch, island).for_each(team, [&](int g) { fill_block(island_ctx, island, g); });
     for_each_place(team, island.first_constraint, island.constraint_count,

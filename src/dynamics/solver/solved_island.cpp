@@ -9,9 +9,9 @@
 namespace carom::internal {
 
 SolvedIsland::SolvedIsland(const StepContext& step, const Island& solved, IslandOutput& out, WorkerTeam& workers)
-    : ctx(solved.policy.subdivisions > 1 ? subdivided(step, solved.policy.subdivisions) : step), scratch(step.scratch),
-      island(solved), output(out), team(workers), view{step.scratch.solver.states.data(), step.scratch.solver.constants.data(),
-                                                       ctx.h, 1 / ctx.h, step.scene.tolerances.push_speed},
+    : ctx(step_of(step, solved)), scratch(step.scratch), island(solved), output(out), team(workers),
+      view{step.scratch.solver.states.data(), step.scratch.solver.constants.data(), ctx.h, 1 / ctx.h,
+           step.scene.tolerances.push_speed},
       constraints(constraints_of(step.scratch, solved)),
       joints(std::span(step.scratch.solver.joints).subspan(as_index(solved.first_joint), as_index(solved.joint_count)))
 {}

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a row of an impact does to velocities: rates, impulses, effective masses, and two rows at once.
+// The effect of an impact's rows on velocities: rates, impulses, effective masses, and two rows at once.
 
 #include "dynamics/continuous/impact/reflect.h"
 #include "dynamics/solver/effective_mass.h"

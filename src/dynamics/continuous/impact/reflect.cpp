@@ -243,7 +243,7 @@ double greatest_approach(const Bodies& bodies, const std::vector<ImpactRow>& row
     return greatest;
 }
 
-// Of the fastest approach: a slower contact is at rest, and a later round reflects it after this one's impulses.
+// Fraction of the fastest approach: a slower contact is at rest, and a later round reflects it after this one's impulses.
 constexpr double slow = 1e-3;
 
 // A round of reflections; false if no row approaches.

@@ -171,8 +171,7 @@ private:
             const std::int32_t last = island + 1 != islands.end() ? std::min(end, first_of(*(island + 1))) : end;
             if (last <= i)
                 continue;
-            const StepContext island_ctx =
-                island->policy.subdivisions > 1 ? subdivided(m_ctx, island->policy.subdivisions) : m_ctx;
+            const StepContext island_ctx = step_of(m_ctx, *island);
             for (; i < last; ++i)
                 visit(island_ctx, *island, i);
         }
