@@ -269,22 +269,34 @@ enum class JointType : std::uint8_t
     Prismatic,
 };
 
-/// Index of a constraint in JointRecord::impulses.
+inline constexpr int most_joint_rows =
+    3; ///< held rows and free axes together: two bodies move relative to each other in three ways
+inline constexpr int most_joint_axes = 2; ///< free axes on which something acts
+
+/// Index of a constraint in JointRecord::impulses: of the held rows, then what acts on the first free axis, and the same on the second.
 enum JointSlot
 {
-    slot_x, ///< a point held along x, or a slider held across its axis
-    slot_y,
-    slot_lock,  ///< an angle held
-    slot_axis,  ///< a length held
-    slot_lower, ///< limits
+    slot_held,
+    slot_lower = slot_held + most_joint_rows, ///< limits
     slot_upper,
     slot_motor,
     slot_spring,
-    joint_slots
+    slots_before_second_axis,
+    joint_slots = slots_before_second_axis + (most_joint_axes - 1) * (slots_before_second_axis - slot_lower)
 };
 
-/// Errors of a joint: of its bilateral constraints, then how far it has passed its lower and upper limit, as negative numbers.
-inline constexpr int joint_errors = 4;
+[[nodiscard]] constexpr int slot_of_axis(int axis, JointSlot slot)
+{
+    return slot + axis * (slots_before_second_axis - slot_lower);
+}
+
+/// Errors of a joint: of its held rows, then for each axis how far it has passed its lower and upper limit, as negative numbers.
+inline constexpr int joint_errors = most_joint_rows + 2 * most_joint_axes;
+
+[[nodiscard]] constexpr std::size_t error_of_limit(int axis, JointSlot limit)
+{
+    return static_cast<std::size_t>(most_joint_rows + 2 * axis + (limit - slot_lower));
+}
 
 /// The pose of a body some time ago, or when it became quiet. Valid while its sleep_time is not 0.
 struct QuietStart

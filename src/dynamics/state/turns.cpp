@@ -92,9 +92,12 @@ void count_turns(std::int32_t& turns, Rotation before, Rotation after, const Bod
 float hinge_angle(const SceneState& state, const JointRecord& joint)
 {
     const HingeTurn h = hinge_turn(state, joint);
-    if (joint.kind == JointType::Prismatic)
-        return static_cast<float>(h.angle);
     return static_cast<float>(h.angle) + 2 * pi * static_cast<float>(h.turns - joint.turns); // as the lanes compute it
+}
+
+float shortest_angle(const SceneState& state, const JointRecord& joint)
+{
+    return static_cast<float>(hinge_turn(state, joint).angle);
 }
 
 void begin_counting(const SceneState& state, JointRecord& joint) { joint.turns = hinge_turn(state, joint).turns; }

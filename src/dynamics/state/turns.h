@@ -42,9 +42,10 @@ void count_turns(std::int32_t& turns, Rotation before, Rotation after);
 /// The same for a step that has been solved.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, const BodyState& s);
 
-/// angle_b - angle_a - reference_angle, rad. For a hinge it includes all turns since it was made, when it was within -pi and pi; for a slider
-/// it is always within them.
+/// angle_b - angle_a - reference_angle, rad, with all turns since the joint was made, when it was within -pi and pi.
 [[nodiscard]] float hinge_angle(const SceneState& state, const JointRecord& joint);
+/// The same without turns, always within -pi and pi: the error of an angle that is held.
+[[nodiscard]] float shortest_angle(const SceneState& state, const JointRecord& joint);
 
 /// Starts the count of a joint that is being made: it has no turns.
 void begin_counting(const SceneState& state, JointRecord& joint);

@@ -21,13 +21,22 @@ bool is_passive(const JointRecord& joint) { return joint.hertz == 0 && !joint.en
 
 bool may_lose(const JointRecord& joint)
 {
-    return joint.damping > 0 || joint.impulses[slot_lower] != 0 || joint.impulses[slot_upper] != 0;
+    if (joint.damping > 0)
+        return true;
+    for (int axis = 0; axis < most_joint_axes; ++axis)
+    {
+        const AxisImpulses impulses = axis_impulses(joint, axis);
+        if (impulses.lower != 0 || impulses.upper != 0)
+            return true;
+    }
+    return false;
 }
 
 // False for a slack rope and for a distant limit.
 bool is_at_work(const JointRecord& joint, const JointWork& work)
 {
-    return work.rows.held_count > 0 || joint.kind == JointType::Spring || axis_impulse(joint) != 0;
+    return joint.kind == JointType::Spring || work.rows.held_count > 0 ||
+           std::ranges::any_of(work.rows.axes(), [&](const JointAxis& axis) { return axis_impulse(joint, axis.number) != 0; });
 }
 
 bool is_loaded(const ContactConstraint& constraint)
@@ -337,7 +346,7 @@ double IslandEnergy::take_work(JointWork& work) const
 {
     const JointRecord& joint = m_state->joints[work.joint];
     const JointErrors errors = work.errors();
-    const auto make_good = [&](std::size_t i, JointSlot slot)
+    const auto make_good = [&](std::size_t i, int slot)
     {
         const float change = errors[i] - work.errors_before[i];
         const float made_good =
@@ -345,9 +354,14 @@ double IslandEnergy::take_work(JointWork& work) const
         work.moved[i] += made_good;
         return as_double(joint.impulses[slot]) * as_double(made_good);
     };
-    double sum = make_good(2, slot_lower) + make_good(3, slot_upper);
+    double sum = 0;
+    for (int axis = 0; axis < most_joint_axes; ++axis)
+    {
+        for (const JointSlot limit : {slot_lower, slot_upper})
+            sum += make_good(error_of_limit(axis, limit), slot_of_axis(axis, limit));
+    }
     for (int i = 0; i < work.rows.held_count; ++i)
-        sum += make_good(static_cast<std::size_t>(i), work.rows.held[i].slot);
+        sum += make_good(as_index(i), slot_held + i);
     return sum * as_double(m_view.inverse_h);
 }
 
@@ -355,7 +369,8 @@ void IslandEnergy::note_joint(JointWork& work)
 {
     const JointRecord& joint = m_state->joints[work.joint];
     Group& first = group_of(is_ours(work.a) ? work.a : work.b);
-    first.is_passive &= std::max(std::fabs(work.moved[0]), std::fabs(work.moved[1])) <= m_slop; // beyond it, an impact
+    for (int i = 0; i < most_joint_rows; ++i)
+        first.is_passive &= std::fabs(work.moved[as_index(i)]) <= m_slop; // beyond it, an impact
     first.constraint_work += take_work(work);
     for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
     {

@@ -9,23 +9,20 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
     const float l = length(pose.gap);
     const Vec2 d = l > 0 ? (1 / l) * pose.gap : Vec2{1, 0};
     const bool is_soft = joint.hertz > 0;
-    if (joint.lower == joint.upper && !is_soft)
+    const bool is_bounded = joint.lower != joint.upper;
+    if (!is_bounded && !is_soft)
     {
-        out.hold(line_row(d, pose, distance_error(joint, pose).x, slot_axis));
+        out.hold(line_row(d, pose, l - joint.lower));
         return;
     }
-    out.axis = line_row(d, pose, 0, slot_axis);
-    if (joint.lower == joint.upper)
-    {
-        out.acts.has_spring = true;
-        out.acts.stretch = l - joint.lower;
-        return;
-    }
-    out.acts.soft_limits = is_soft;
-    out.acts.has_lower = joint.lower > 0;
-    out.acts.has_upper = true;
-    out.acts.lower_error = l - joint.lower;
-    out.acts.upper_error = joint.upper - l;
+    AxisActs acts;
+    acts.has_spring = !is_bounded;
+    acts.soft_limits = is_bounded && is_soft;
+    acts.has_lower = is_bounded && joint.lower > 0;
+    acts.has_upper = is_bounded;
+    acts.stretch = acts.lower_error = l - joint.lower;
+    acts.upper_error = joint.upper - l;
+    out.free(0, line_row(d, pose, l), acts);
 }
 
 } // namespace carom::internal

@@ -34,7 +34,7 @@ void IslandJoints::begin_step()
         take_forbidden_speeds();
     find_pulled_constraints();
     note_moved();
-    note_stops(m_work.view, m_work.ctx.state, m_work.joints);
+    note_stops(m_work.view, m_work.joints);
 }
 
 void IslandJoints::place() { place_joints(m_work.view, m_work.ctx.state, m_work.joints); }

@@ -156,7 +156,7 @@ AxisLaw AxisActs::law_ahead(const AxisSpring& own, float h) const
     AxisLaw law;
     law.scope = {true, true, true};
     law.target = static_cast<double>(motor_speed);
-    law.most = static_cast<double>(most);
+    law.most = static_cast<double>(h * most);
     if (has_spring)
         law.spring = own.line(stretch, h);
     if (has_lower && soft_limits)
@@ -175,7 +175,7 @@ AxisLaw AxisActs::law_now(const AxisImpulses& borne, const float (&bounce)[2], f
     AxisLaw law;
     law.scope = {.motor = true, .limits = !soft_limits};
     law.target = static_cast<double>(motor_speed);
-    law.most = static_cast<double>(most);
+    law.most = static_cast<double>(h * most);
     const auto leave = [&](float error, double impulse, float speed)
     { return static_cast<double>(speed > 0 || impulse > 0 ? speed : -std::max(error, 0.0f) / h); };
     if (has_lower && !soft_limits)

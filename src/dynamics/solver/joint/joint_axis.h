@@ -26,6 +26,7 @@ struct AxisSpring
     float theta = 1;
 
     [[nodiscard]] bool is_there() const { return stiffness > 0 || damping > 0; }
+    [[nodiscard]] bool acts_after() const { return is_there() && theta < 1; }
     /// The impulse before the bodies move, for a given stretch at the start of the sub-step.
     [[nodiscard]] SpringLine line(float stretch, float h) const;
     /// The impulse after the bodies have moved, as a share of the impulse before they move.
@@ -128,7 +129,7 @@ struct AxisActs
     float lower_error = 0;    ///< coordinate - lower limit
     float upper_error = 0;    ///< upper limit - coordinate
     float motor_speed = 0;
-    float most = 0; ///< greatest impulse of the motor in a sub-step; 0: no motor
+    float most = 0; ///< greatest force or torque of the motor; 0: no motor
 
     [[nodiscard]] bool any() const { return has_spring || has_lower || has_upper || most > 0; }
     /// How far a displacement along the axis leads beyond a rigid stop; for an axis that is beyond it already, how much farther.

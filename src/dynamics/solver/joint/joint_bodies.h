@@ -43,12 +43,12 @@ struct JointBodies
         return k > 0 ? 1 / k : 0;
     }
 
-    /// Applies an impulse along the axis together with the reaction of the held rows. Soft held rows give only a share of that reaction.
-    void apply_along_axis(const JointRows& rows, float impulse, float share = 1) const
+    /// Applies an impulse along an axis together with the reaction of the held rows. Soft held rows give only a share of that reaction.
+    void apply_along(const JointAxis& axis, std::span<const JointRow> held, float impulse, float share = 1) const
     {
-        apply(rows.axis, impulse);
-        for (int i = 0; i < rows.held_count; ++i)
-            apply(rows.held[i], share * impulse * rows.reaction[i]);
+        apply(axis.row, impulse);
+        for (std::size_t i = 0; i < held.size(); ++i)
+            apply(held[i], share * impulse * axis.reaction[i]);
     }
 
     void apply(const JointRow& r, float impulse) const
@@ -62,20 +62,30 @@ struct JointBodies
     }
 };
 
-[[nodiscard]] inline AxisImpulses axis_impulses(const JointRecord& joint)
+[[nodiscard]] inline AxisImpulses axis_impulses(const JointRecord& joint, int number)
 {
-    const auto in = [&](JointSlot slot) { return static_cast<double>(joint.impulses[slot]); };
+    const auto in = [&](JointSlot slot) { return static_cast<double>(joint.impulses[slot_of_axis(number, slot)]); };
     return {in(slot_spring), in(slot_motor), in(slot_lower), in(slot_upper)};
 }
 
-[[nodiscard]] inline float axis_impulse(const JointRecord& joint) { return static_cast<float>(axis_impulses(joint).sum()); }
-
-inline void set_axis_impulses(JointRecord& joint, const AxisImpulses& to)
+[[nodiscard]] inline float axis_impulse(const JointRecord& joint, int number)
 {
-    joint.impulses[slot_spring] = static_cast<float>(to.spring);
-    joint.impulses[slot_motor] = static_cast<float>(to.motor);
-    joint.impulses[slot_lower] = static_cast<float>(to.lower);
-    joint.impulses[slot_upper] = static_cast<float>(to.upper);
+    return static_cast<float>(axis_impulses(joint, number).sum());
+}
+
+inline void set_axis_impulses(JointRecord& joint, int number, const AxisImpulses& to)
+{
+    const auto in = [&](JointSlot slot) -> float& { return joint.impulses[slot_of_axis(number, slot)]; };
+    in(slot_spring) = static_cast<float>(to.spring);
+    in(slot_motor) = static_cast<float>(to.motor);
+    in(slot_lower) = static_cast<float>(to.lower);
+    in(slot_upper) = static_cast<float>(to.upper);
+}
+
+/// The impulse of a row of the joint over the last sub-step.
+[[nodiscard]] inline float impulse_of(const JointRecord& joint, const JointRows& rows, int row)
+{
+    return row < rows.held_count ? joint.impulses[slot_held + row] : axis_impulse(joint, rows.axis[row - rows.held_count].number);
 }
 
 /// Whether the joint is a hinge to the world whose body is in flight about it. Such a hinge is enforced by flight, not by the solver.
@@ -93,34 +103,19 @@ struct Placement
 };
 /// Where the present velocities lead the body by the end of the sub-step.
 [[nodiscard]] Placement placed_ahead(const SolverView& view, std::int32_t state);
+/// The angle is computed only if the joint needs it.
 [[nodiscard]] JointPose joint_pose(const JointWork& work, const Placement& a, const Placement& b);
-
 [[nodiscard]] JointPose present_pose(const SolverView& view, const JointWork& work);
 
 /// Computes the poses and rows at the present poses of the bodies; for springs, the poses only.
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
-/// Computes the inverse mass along the axis, and how the held rows react to an impulse along it.
-void weigh_axis(const JointBodies& bodies, JointRows& rows);
-
-/// All rows of a joint; a spring has none.
-void place_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
-
-/// The rows that a joint keeps in any case: no limits, motors or springs.
-[[nodiscard]] JointRows holding_rows(const JointRecord& joint, const JointPose& pose);
-
-/// C of the held rows for the given placements of the bodies.
-[[nodiscard]] Vec2 held_error(const JointRecord& joint, const JointWork& work, const Placement& a, const Placement& b);
+/// Computes the inverse mass along each axis, and how the held rows react to an impulse along it.
+void weigh_axes(const JointBodies& bodies, JointRows& rows);
 
 /// Whether the joint has held rows and nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);
-/// Whether the joint is a hinge or slider that dissipates energy in motion: by a brake, or by a spring that is damped within a few swings.
+/// Whether the joint dissipates energy in motion: by a brake, or by a spring that is damped within a few swings.
 [[nodiscard]] bool loses_energy(const JointRecord& joint);
-
-/// The greatest number of rows that the joint has in the direct solve.
-[[nodiscard]] int most_rows_of(const JointRecord& joint);
-
-/// Whether the rows of the joint need the angle between the bodies.
-[[nodiscard]] bool has_angle(const JointRecord& joint);
 
 } // namespace carom::internal

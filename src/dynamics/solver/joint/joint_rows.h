@@ -12,29 +12,48 @@
 
 namespace carom::internal {
 
-/// One scalar equation: dC = d · (vb - va) + arm_b wb - arm_a wa. It is held at C = 0, or it is the free axis along which spring, motor and limits act.
+/// One scalar equation: dC = d · (vb - va) + arm_b wb - arm_a wa. It is held at C = 0, or C is the coordinate of a free axis.
 struct JointRow
 {
     Vec2 d{};
     float arm_a = 0;
     float arm_b = 0;
     float error = 0; ///< C
-    JointSlot slot = slot_x;
+
+    [[nodiscard]] bool is_angle() const { return d == Vec2{}; }
 };
 
+/// A line or angle along which the bodies may move relative to each other, and on which a spring, a motor or limits act.
+struct JointAxis
+{
+    JointRow row;
+    AxisActs acts;
+    int number = 0;         ///< its place among the axes of this kind of joint, whether something acts on them or not
+    float inverse_mass = 0; ///< while the held rows keep their speeds
+    float reaction[most_joint_rows] = {}; ///< impulses by which the held rows keep their speeds, per unit impulse along the axis
+};
+
+/// The equations of a joint: held rows, and the axes on which something acts. Two bodies move relative to each other in three ways, so that there are at
+/// most three in total.
 struct JointRows
 {
-    JointRow held[2];
-    JointRow axis; ///< line or angle along which the bodies may move relative to each other, if anything acts along it
-    AxisActs acts;
+    JointRow held[most_joint_rows];
+    JointAxis axis[most_joint_axes];
     int held_count = 0;
-    float axis_inverse_mass = 0; ///< while the held rows keep their speeds
-    float reaction[2] = {};      ///< impulses by which the held rows keep their speeds, per unit impulse along the axis
+    int axis_count = 0;
 
     void hold(const JointRow& row) { held[held_count++] = row; }
-    void clear() { *this = {}; }
+    void free(int number, const JointRow& row, const AxisActs& acts)
+    {
+        if (acts.any())
+            axis[axis_count++] = {.row = row, .acts = acts, .number = number};
+    }
     [[nodiscard]] std::span<const JointRow> holds() const { return {held, static_cast<std::size_t>(held_count)}; }
-    [[nodiscard]] bool has_axis() const { return acts.any(); }
+    [[nodiscard]] std::span<const JointAxis> axes() const { return {axis, static_cast<std::size_t>(axis_count)}; }
+    [[nodiscard]] std::span<JointAxis> axes() { return {axis, static_cast<std::size_t>(axis_count)}; }
+    [[nodiscard]] int count() const { return held_count + axis_count; }
+    /// Held rows first.
+    [[nodiscard]] const JointRow& row(int i) const { return i < held_count ? held[i] : axis[i - held_count].row; }
 };
 
 /// Impulse over mass = stretch e + speed u + acceleration a, for a spring; see springs.cpp.
@@ -58,23 +77,30 @@ struct JointPose
 
 using JointErrors = std::array<float, joint_errors>;
 
+/// What the solver keeps about a free axis from one place to the next.
+struct AxisWork
+{
+    AxisSpring spring{};    ///< the joint's own, or that of its soft limits
+    float approach[2] = {}; ///< speeds toward the lower and upper limit, before the forces of a sub-step
+    float bounce[2] = {};   ///< speeds at which the joint is to leave its limits
+};
+
 /// A joint in the solver: its record and the states of its bodies.
 struct JointWork
 {
     std::int32_t joint = none;
     std::int32_t a = 0;
     std::int32_t b = 0;
-    SpringKick before{}; ///< kick of a spring before the bodies move
-    SpringKick after{};  ///< kick after they have moved
-    AxisSpring spring{}; ///< spring along the free axis: the joint's own, or that of its soft limits
-    Vec2 ra0{};          ///< anchors from the centers of mass at the start of the step, world axes
+    SpringKick before{};            ///< kick of a spring before the bodies move
+    SpringKick after{};             ///< kick after they have moved
+    AxisWork axes[most_joint_axes]; ///< by JointAxis::number
+    Vec2 ra0{};                     ///< anchors from the centers of mass at the start of the step, world axes
     Vec2 rb0{};
     Vec2 axis0{};                ///< slider's axis at the start of the step
     Vec2 gap0{};                 ///< anchor b - anchor a at the start of the step
     float angle0 = 0;            ///< joint angle at the start of the step
-    bool wraps = false;          ///< its angle is that of the shortest rotation
-    float approach[2] = {};      ///< speeds toward the lower and upper limit, before the forces of a sub-step
-    float bounce[2] = {};        ///< speeds at which the joint is to leave its limits
+    bool needs_angle = false;    ///< an angle is held or something acts on it
+    bool wraps = false;          ///< its angle is held, and is that of the shortest rotation
     JointErrors errors_before{}; ///< errors at the start of the sub-step
     JointErrors moved{};         ///< parts of the errors that were made outside the solver and that it has not corrected yet
     bool yields = false;         ///< as in JointRecord
@@ -90,41 +116,35 @@ struct JointWork
     void add(const JointRow& row, float impulse)
     {
         force_sum += impulse * row.d;
-        if (row.d == Vec2{})
+        if (row.is_angle())
             torque_sum += impulse * row.arm_b;
     }
 };
 
-/// C of the held rows; if there is only one, the second value is 0.
-[[nodiscard]] inline Vec2 distance_error(const JointRecord& joint, const JointPose& pose)
-{
-    return {length(pose.gap) - joint.lower, 0};
-}
-[[nodiscard]] inline Vec2 revolute_error(const JointPose& pose) { return pose.gap; }
-[[nodiscard]] inline Vec2 prismatic_error(const JointPose& pose) { return {dot(perp(pose.axis), pose.gap), pose.angle}; }
-
+/// The rows of each kind of joint; place_rows selects among them.
 void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
-void revolute_holds(const JointPose& pose, JointRows& out); ///< the held rows only
-void prismatic_holds(const JointPose& pose, JointRows& out);
-void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
-void prismatic_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out);
+void revolute_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
+void prismatic_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
+
+/// All rows of a joint at a pose, with their errors and coordinates; a spring has none.
+[[nodiscard]] JointRows place_rows(const JointRecord& joint, const JointPose& pose);
 
 /// A row along the world direction d through both anchors.
-[[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error, JointSlot slot)
+[[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error)
 {
-    return {.d = d, .arm_a = cross(pose.ra, d), .arm_b = cross(pose.rb, d), .error = error, .slot = slot};
+    return {.d = d, .arm_a = cross(pose.ra, d), .arm_b = cross(pose.rb, d), .error = error};
+}
+
+/// A row along a direction that turns with body a, whose lever arm reaches to anchor b.
+[[nodiscard]] inline JointRow carried_row(Vec2 d, const JointPose& pose, float error)
+{
+    return {.d = d, .arm_a = cross(pose.ra + pose.gap, d), .arm_b = cross(pose.rb, d), .error = error};
 }
 
 /// A row of the relative angle.
-[[nodiscard]] inline JointRow angle_row(float error, JointSlot slot)
-{
-    return {.arm_a = 1, .arm_b = 1, .error = error, .slot = slot};
-}
+[[nodiscard]] inline JointRow angle_row(float error) { return {.arm_a = 1, .arm_b = 1, .error = error}; }
 
-/// Limits, motor and spring along a free coordinate, common to hinges and sliders.
-void act_along_axis(const JointRecord& joint, float coordinate, float h, AxisActs& out);
-
-/// The coordinate along the free axis: a length, an angle, or a translation.
-[[nodiscard]] float axis_coordinate(const JointRecord& joint, const JointPose& pose);
+/// The limits, motor and spring of a joint, on an axis that is at this coordinate.
+[[nodiscard]] AxisActs acts_of(const JointRecord& joint, float coordinate);
 
 } // namespace carom::internal

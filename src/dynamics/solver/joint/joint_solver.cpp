@@ -36,8 +36,8 @@ void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows&
         jx = (k22 * bx - k12 * by) / det;
         jy = (k11 * by - k12 * bx) / det;
     }
-    float& of_x = joint.impulses[x.slot];
-    float& of_y = joint.impulses[y.slot];
+    float& of_x = joint.impulses[slot_held];
+    float& of_y = joint.impulses[slot_held + 1];
     const float mass_scale = use_bias ? s.mass_scale : 1;
     const float impulse_scale = use_bias ? s.impulse_scale : 0;
     jx = -mass_scale * jx - impulse_scale * of_x;
@@ -56,31 +56,33 @@ struct Pass
     bool use_bias;
 };
 
-// Solves everything that acts along the axis as one law. The held rows, which were solved just before, keep their speeds.
-void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const Pass& pass)
+// Solves everything that acts along an axis as one law. The held rows, which were solved just before, keep their speeds.
+void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointWork& work, const JointAxis& axis,
+                     const Pass& pass)
 {
-    const JointRows& rows = work.rows;
+    const std::span<const JointRow> held_rows = work.rows.holds();
+    const AxisWork& own = work.axes[axis.number];
     const float held = pass.use_bias ? pass.softness.mass_scale : 1;
-    const float whole = bodies.couple(rows.axis, rows.axis);
-    const auto k = static_cast<double>(whole + held * (rows.axis_inverse_mass - whole));
+    const float whole = bodies.couple(axis.row, axis.row);
+    const auto k = static_cast<double>(whole + held * (axis.inverse_mass - whole));
     if (!(k > 0))
         return;
-    const AxisImpulses old = axis_impulses(joint);
-    const AxisLaw law = pass.use_bias ? rows.acts.law_ahead(work.spring, pass.h) : rows.acts.law_now(old, work.bounce, pass.h);
+    const AxisImpulses old = axis_impulses(joint, axis.number);
+    const AxisLaw law = pass.use_bias ? axis.acts.law_ahead(own.spring, pass.h) : axis.acts.law_now(old, own.bounce, pass.h);
     const double before = law.scope.sum(old);
-    const double free_rate = static_cast<double>(bodies.speed(rows.axis)) - k * before;
+    const double free_rate = static_cast<double>(bodies.speed(axis.row)) - k * before;
     const AxisPiece piece = law.solve(free_rate, k);
     const double after = piece.keeps_its_rate() ? (piece.rate - free_rate) / k : piece.impulse(piece.rate);
-    set_axis_impulses(joint, law.scope.merge(old, law.split(piece, after, piece.rate)));
+    set_axis_impulses(joint, axis.number, law.scope.merge(old, law.split(piece, after, piece.rate)));
     const auto change = static_cast<float>(after - before);
-    bodies.apply_along_axis(rows, change, held);
-    for (int i = 0; i < rows.held_count; ++i)
-        joint.impulses[rows.held[i].slot] += change * held * rows.reaction[i];
+    bodies.apply_along(axis, held_rows, change, held);
+    for (std::size_t i = 0; i < held_rows.size(); ++i)
+        joint.impulses[static_cast<std::size_t>(slot_held) + i] += change * held * axis.reaction[i];
 }
 
 void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
 {
-    float& accumulated = joint.impulses[row.slot];
+    float& accumulated = joint.impulses[slot_held];
     const Softness s = pass.use_bias ? pass.softness : Softness{};
     const float speed = bodies.speed(row) + s.bias_rate * row.error;
     const float updated = (1 - s.impulse_scale) * accumulated - bodies.mass(row) * s.mass_scale * speed;
@@ -125,14 +127,18 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Solv
     work.gap0 = arms.gap;
     work.axis0 = joint.body_a == none ? joint.axis_a
                                       : rotate(ctx.state.sims[static_cast<std::size_t>(joint.body_a)].rotation, joint.axis_a);
-    work.wraps = joint.kind == JointType::Prismatic;
-    if (has_angle(joint))
-        work.angle0 = hinge_angle(ctx.state, joint);
+    JointPose pose{.ra = work.ra0, .rb = work.rb0, .gap = work.gap0, .axis = work.axis0};
+    const JointRows rows = place_rows(joint, pose);
+    const auto is_angle = [](const JointRow& row) { return row.is_angle(); };
+    work.wraps = std::ranges::any_of(rows.holds(), is_angle);
+    work.needs_angle = work.wraps || std::ranges::any_of(rows.axes(), is_angle, &JointAxis::row);
+    if (work.needs_angle)
+        work.angle0 = work.wraps ? shortest_angle(ctx.state, joint) : hinge_angle(ctx.state, joint);
     const SolverView view{ctx.scratch.solver.states.data(), ctx.scratch.solver.constants.data(), ctx.h, 1 / ctx.h, 0};
     if (joint.kind == JointType::Spring)
         fit_spring(view, ctx.state, work);
     else if (joint.hertz > 0)
-        fit_axis_spring(view, joint, island.all_direct, island.drifts, work);
+        fit_axis_springs(view, joint, rows, island.all_direct, island.drifts, work);
     return work;
 }
 
@@ -145,15 +151,12 @@ void warm_start_joints(const SolverView& view, SceneState& state, std::span<Join
     }
     for (const JointWork& work : joints)
     {
-        const JointRows& rows = work.rows;
-        if ((!rows.has_axis() && rows.held_count == 0) || is_in_flight(view, work))
+        if (work.rows.count() == 0 || is_in_flight(view, work))
             continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointBodies bodies(view, work);
-        for (const JointRow& row : rows.holds())
-            bodies.apply(row, joint.impulses[row.slot]);
-        if (rows.has_axis())
-            bodies.apply(rows.axis, axis_impulse(joint));
+        for (int i = 0; i < work.rows.count(); ++i)
+            bodies.apply(work.rows.row(i), impulse_of(joint, work.rows, i));
     }
 }
 
@@ -177,8 +180,8 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
             solve_block(bodies, joint, work.rows, soft, use_bias);
         else if (work.rows.held_count == 1)
             solve_held(bodies, joint, work.rows.held[0], pass);
-        if (work.rows.has_axis())
-            solve_free_axis(bodies, joint, work, pass);
+        for (const JointAxis& axis : work.rows.axes())
+            solve_free_axis(bodies, joint, work, axis, pass);
     }
 }
 
@@ -189,11 +192,55 @@ void note_limit_approach(const SolverView& view, const SceneState& state, std::s
         const JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
-        const float speed = JointBodies(view, work).speed(work.rows.axis);
-        work.approach[0] = joint.impulses[slot_lower] > 0 ? 0 : -speed;
-        work.approach[1] = joint.impulses[slot_upper] > 0 ? 0 : speed;
+        for (const JointAxis& axis : work.rows.axes())
+        {
+            const float speed = JointBodies(view, work).speed(axis.row);
+            const AxisImpulses borne = axis_impulses(joint, axis.number);
+            AxisWork& own = work.axes[axis.number];
+            own.approach[0] = borne.lower > 0 ? 0 : -speed;
+            own.approach[1] = borne.upper > 0 ? 0 : speed;
+        }
     }
 }
+
+namespace {
+
+// Finds the speeds at which an axis is to leave its limits. True if there are any.
+bool find_bounces(const JointRecord& joint, const JointAxis& axis, float rest_speed, AxisWork& own)
+{
+    const AxisImpulses borne = axis_impulses(joint, axis.number);
+    const float stopped[] = {static_cast<float>(borne.lower), static_cast<float>(borne.upper)};
+    bool any = false;
+    for (int i = 0; i < 2; ++i)
+    {
+        const float approach = own.approach[i];
+        const float leave = joint.limit_restitution * approach;
+        // A load on the stop ends so small a bounce within half the sub-step.
+        const float pressed = axis.inverse_mass * stopped[i] - approach;
+        const bool bounces = stopped[i] > 0 && approach > rest_speed && leave > 0.5f * pressed;
+        own.bounce[i] = bounces ? leave : 0;
+        any |= bounces;
+    }
+    return any;
+}
+
+// Gives an axis the speeds at which it is to leave its limits; has_given: the direct solve has done it.
+void give_bounces(const JointBodies& bodies, JointRecord& joint, const JointRows& rows, const JointAxis& axis, AxisWork& own,
+                  bool has_given)
+{
+    for (int i = 0; i < 2; ++i)
+    {
+        const float leave = std::exchange(own.bounce[i], 0.0f);
+        if (leave == 0)
+            continue;
+        joint.impulses[slot_of_axis(axis.number, i == 0 ? slot_lower : slot_upper)] = 0;
+        const float wanted = i == 0 ? leave : -leave;
+        if (!has_given && axis.inverse_mass > 0)
+            bodies.apply_along(axis, rows.holds(), (wanted - bodies.speed(axis.row)) / axis.inverse_mass);
+    }
+}
+
+} // namespace
 
 void bounce_off_limits(const SolverView& view, SceneState& state, std::span<JointWork> joints, DirectSolve& direct,
                        float rest_speed)
@@ -204,17 +251,8 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
         const JointRecord& joint = state.joints[work.joint];
         if (joint.limit_restitution == 0 || is_in_flight(view, work))
             continue;
-        const float stopped[] = {joint.impulses[slot_lower], joint.impulses[slot_upper]};
-        for (int i = 0; i < 2; ++i)
-        {
-            const float approach = work.approach[i];
-            const float leave = joint.limit_restitution * approach;
-            // A load on the stop ends so small a bounce within half the sub-step.
-            const float pressed = work.rows.axis_inverse_mass * stopped[i] - approach;
-            const bool bounces = stopped[i] > 0 && approach > rest_speed && leave > 0.5f * pressed;
-            work.bounce[i] = bounces ? leave : 0;
-            any |= bounces;
-        }
+        for (const JointAxis& axis : work.rows.axes())
+            any |= find_bounces(joint, axis, rest_speed, work.axes[axis.number]);
     }
     if (!any)
         return;
@@ -222,24 +260,13 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
         direct.bounce();
     for (JointWork& work : joints)
     {
-        JointRecord& joint = state.joints[work.joint];
-        for (int i = 0; i < 2; ++i)
-        {
-            const float leave = std::exchange(work.bounce[i], 0.0f);
-            if (leave == 0)
-                continue;
-            joint.impulses[i == 0 ? slot_lower : slot_upper] = 0;
-            if (direct.is_ready())
-                continue;
-            const JointBodies bodies(view, work);
-            const float k = work.rows.axis_inverse_mass;
-            const float wanted = i == 0 ? leave : -leave;
-            bodies.apply_along_axis(work.rows, k > 0 ? (wanted - bodies.speed(work.rows.axis)) / k : 0);
-        }
+        for (const JointAxis& axis : work.rows.axes())
+            give_bounces(JointBodies(view, work), state.joints[work.joint], work.rows, axis, work.axes[axis.number],
+                         direct.is_ready());
     }
 }
 
-void note_stops(const SolverView& view, const SceneState& state, std::span<const JointWork> joints)
+void note_stops(const SolverView& view, std::span<const JointWork> joints)
 {
     constexpr float tiny = 1e-3f; // rad
     constexpr std::uint16_t stops = body_flag::at_lower | body_flag::at_upper;
@@ -250,16 +277,20 @@ void note_stops(const SolverView& view, const SceneState& state, std::span<const
     }
     for (const JointWork& work : joints)
     {
-        const JointRecord& joint = state.joints[work.joint];
         const bool a_stands = view.constants[work.a].inverse_inertia == 0;
         const bool b_stands = view.constants[work.b].inverse_inertia == 0;
-        if (joint.kind != JointType::Revolute || !joint.enable_limit || a_stands == b_stands || is_in_flight(view, work))
+        if (a_stands == b_stands || is_in_flight(view, work))
             continue;
         std::uint16_t& flags = view.states[a_stands ? work.b : work.a].flags;
-        if (work.pose.angle - joint.lower < tiny)
-            flags |= a_stands ? body_flag::at_lower : body_flag::at_upper;
-        if (joint.upper - work.pose.angle < tiny)
-            flags |= a_stands ? body_flag::at_upper : body_flag::at_lower;
+        for (const JointAxis& axis : work.rows.axes())
+        {
+            if (!axis.row.is_angle())
+                continue;
+            if (axis.acts.has_lower && axis.acts.lower_error < tiny)
+                flags |= a_stands ? body_flag::at_lower : body_flag::at_upper;
+            if (axis.acts.has_upper && axis.acts.upper_error < tiny)
+                flags |= a_stands ? body_flag::at_upper : body_flag::at_lower;
+        }
     }
 }
 
@@ -271,14 +302,12 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
             continue;
         const JointRecord& joint = state.joints[work.joint];
         const JointPose& pose = work.pose;
-        for (const JointRow& row : work.rows.holds())
-            work.add(row, joint.impulses[row.slot]);
-        if (work.rows.has_axis())
-            work.add(work.rows.axis, axis_impulse(joint));
+        for (int i = 0; i < work.rows.count(); ++i)
+            work.add(work.rows.row(i), impulse_of(joint, work.rows, i));
         if (joint.kind == JointType::Spring && length(pose.gap) > 0)
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
     }
-    note_stops(view, state, joints);
+    note_stops(view, joints);
 }
 
 } // namespace carom::internal

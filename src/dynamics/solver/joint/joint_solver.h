@@ -30,7 +30,7 @@ void bounce_off_limits(const SolverView& view, SceneState& state, std::span<Join
                        float rest_speed);
 
 /// Marks bodies that are at a stop whose other body cannot rotate: an impact finds them immovable in that direction of rotation, whatever other joints they have.
-void note_stops(const SolverView& view, const SceneState& state, std::span<const JointWork> joints);
+void note_stops(const SolverView& view, std::span<const JointWork> joints);
 
 /// Sums the impulses for the read-back, and notes stops.
 void finish_joint_substep(const SolverView& view, SceneState& state, std::span<JointWork> joints);

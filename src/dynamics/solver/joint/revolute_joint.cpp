@@ -4,18 +4,11 @@
 
 namespace carom::internal {
 
-void revolute_holds(const JointPose& pose, JointRows& out)
+void revolute_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
 {
-    const Vec2 error = revolute_error(pose);
-    out.hold(line_row({1, 0}, pose, error.x, slot_x));
-    out.hold(line_row({0, 1}, pose, error.y, slot_y));
-}
-
-void revolute_rows(const JointRecord& joint, const JointPose& pose, float h, JointRows& out)
-{
-    revolute_holds(pose, out);
-    out.axis = angle_row(0, slot_motor);
-    act_along_axis(joint, pose.angle, h, out.acts);
+    out.hold(line_row({1, 0}, pose, pose.gap.x));
+    out.hold(line_row({0, 1}, pose, pose.gap.y));
+    out.free(0, angle_row(pose.angle), acts_of(joint, pose.angle));
 }
 
 } // namespace carom::internal

@@ -77,7 +77,7 @@ SpringRow spring_row(const SolverView& view, const JointRecord& joint, const Joi
     const float l = length(pose.gap);
     if (!(l > 0))
         return {};
-    const JointRow row = line_row((1 / l) * pose.gap, pose, l - joint.upper, slot_spring);
+    const JointRow row = line_row((1 / l) * pose.gap, pose, l - joint.upper);
     return {row, JointBodies(view, work).mass(row)};
 }
 
@@ -139,27 +139,29 @@ float inverse_inertia_about(const StateConstants& c, Vec2 arm)
 }
 
 // Independent of the poses within the step, so that the spring has an energy.
-float inverse_spring_mass(const JointBodies& bodies, const JointRecord& joint, const JointWork& work)
+float inverse_spring_mass(const JointBodies& bodies, const JointRow& row, const JointWork& work)
 {
-    if (joint.kind == JointType::Revolute)
+    if (row.is_angle())
         return inverse_inertia_about(bodies.ca, work.ra0) + inverse_inertia_about(bodies.cb, work.rb0);
-    const Vec2 d = joint.kind == JointType::Prismatic ? work.axis0
-                   : length(work.gap0) > 0            ? (1 / length(work.gap0)) * work.gap0
-                                                      : Vec2{1, 0};
     const Vec2 k = bodies.ca.inverse_mass + bodies.cb.inverse_mass;
-    return k.x * d.x * d.x + k.y * d.y * d.y;
+    return k.x * row.d.x * row.d.x + k.y * row.d.y * row.d.y;
 }
 
-// Applies the rest of the impulse that the spring of a hinge or slider gives in the sub-step.
-void kick_along_axis(const SolverView& view, const JointRecord& joint, JointWork& work)
+// Applies the rest of the impulses that springs along axes give in the sub-step.
+void kick_along_axes(const SolverView& view, const JointRecord& joint, JointWork& work)
 {
-    JointRows rows;
     const JointBodies bodies(view, work);
-    place_rows(joint, present_pose(view, work), view.h, rows);
-    weigh_axis(bodies, rows);
-    const float impulse = work.spring.share_after() * joint.impulses[slot_spring];
-    bodies.apply_along_axis(rows, impulse);
-    work.add(rows.axis, impulse);
+    JointRows rows = place_rows(joint, present_pose(view, work));
+    weigh_axes(bodies, rows);
+    for (const JointAxis& axis : rows.axes())
+    {
+        const AxisSpring& spring = work.axes[axis.number].spring;
+        if (!spring.acts_after())
+            continue;
+        const float impulse = spring.share_after() * joint.impulses[slot_of_axis(axis.number, slot_spring)];
+        bodies.apply_along(axis, rows.holds(), impulse);
+        work.add(axis.row, impulse);
+    }
 }
 
 } // namespace
@@ -182,15 +184,19 @@ void fit_spring(const SolverView& view, const SceneState& state, JointWork& work
         fit_implicitly(stiffness, damping, mass, h, work);
 }
 
-void fit_axis_spring(const SolverView& view, const JointRecord& joint, bool direct, bool drifts, JointWork& work)
+void fit_axis_springs(const SolverView& view, const JointRecord& joint, const JointRows& rows, bool direct, bool drifts,
+                      JointWork& work)
 {
-    const float k = inverse_spring_mass(JointBodies(view, work), joint, work);
-    if (!(k > 0))
-        return;
-    work.spring = make_spring(joint.hertz, joint.damping_ratio, 1 / k, view.h, direct ? direct_spring_turn : soft_spring_turn);
-    const bool comes_and_goes = joint.kind == JointType::Distance && joint.lower != joint.upper;
-    if (comes_and_goes || !drifts)
-        work.spring.theta = 1;
+    for (const JointAxis& axis : rows.axes())
+    {
+        const float k = inverse_spring_mass(JointBodies(view, work), axis.row, work);
+        if (!(k > 0))
+            continue;
+        AxisSpring& spring = work.axes[axis.number].spring;
+        spring = make_spring(joint.hertz, joint.damping_ratio, 1 / k, view.h, direct ? direct_spring_turn : soft_spring_turn);
+        if (axis.acts.soft_limits || !drifts)
+            spring.theta = 1;
+    }
 }
 
 void kick_springs_before(const SolverView& view, SceneState& state, std::span<JointWork> joints)
@@ -210,8 +216,8 @@ void kick_springs_after(const SolverView& view, SceneState& state, std::span<Joi
         JointRecord& joint = state.joints[work.joint];
         if (joint.kind == JointType::Spring)
             joint.impulses[slot_spring] += kick(view, joint, work, work.after);
-        else if (work.spring.is_there() && work.spring.theta < 1)
-            kick_along_axis(view, joint, work);
+        else if (std::ranges::any_of(work.axes, [](const AxisWork& axis) { return axis.spring.acts_after(); }))
+            kick_along_axes(view, joint, work);
     }
 }
 

@@ -11,9 +11,11 @@ namespace carom::internal {
 /// Computes the coefficients of both kicks, once per step: the effective mass changes little within it.
 void fit_spring(const SolverView& view, const SceneState& state, JointWork& work);
 
-/// The same for the spring along the free axis of another joint, or for its soft limits. Where all bodies drift along parabolas, the spring acts before the
-/// bodies move and after. Elsewhere, and where the spring may engage or disengage within the sub-step, all of it acts before.
-void fit_axis_spring(const SolverView& view, const JointRecord& joint, bool direct, bool drifts, JointWork& work);
+/// The same for the springs along the free axes of another joint, or for its soft limits. Where all bodies drift along parabolas, a spring acts before the
+/// bodies move and after. Elsewhere, and where the spring may engage or disengage within the sub-step, all of it acts before. `rows` are those at the start
+/// of the step.
+void fit_axis_springs(const SolverView& view, const JointRecord& joint, const JointRows& rows, bool direct, bool drifts,
+                      JointWork& work);
 
 void kick_springs_before(const SolverView& view, SceneState& state, std::span<JointWork> joints);
 void kick_springs_after(const SolverView& view, SceneState& state, std::span<JointWork> joints);

@@ -125,7 +125,7 @@ CAROM_INLINE void fill_drive(WideJoint& j, const JointRecord* const (&joints)[la
 // Fills all but a, b, joint and turns, which select the source.
 void fill(WideJoint& j, const JointRecord* joints, const BodySim* sims, const std::int32_t* turns, const StateConstants* constants, float h)
 {
-    static_assert(offsetof(JointRecord, anchor_b) == offsetof(JointRecord, anchor_a) + 8 && slot_x == 0 && slot_y == 1);
+    static_assert(offsetof(JointRecord, anchor_b) == offsetof(JointRecord, anchor_a) + 8 && slot_held == 0);
     const JointRecord* of_lane[lane_count];
     const BodySim* a[lane_count];
     const BodySim* b[lane_count];
@@ -173,7 +173,7 @@ void follow(WideJoint& j, const BodySim* sims)
 // A hinge uses no other slots than these.
 void take_impulses(const WideJoint& j, JointRecord* joints, float dt)
 {
-    static_assert(offsetof(JointRecord, impulses) == offsetof(JointRecord, force) + 8 && slot_x == 0 && slot_y == 1);
+    static_assert(offsetof(JointRecord, impulses) == offsetof(JointRecord, force) + 8 && slot_held == 0);
     static_assert(slot_upper == slot_lower + 1 && slot_motor == slot_lower + 2 && slot_spring == slot_lower + 3);
     JointRecord unused;
     const auto record = [&](int i) { return j.joint.v[i] < 0 ? &unused : joints + j.joint.v[i]; };

@@ -47,29 +47,32 @@ void DirectSolve::begin_axes(Stage stage)
     m_axes.clear();
     for (std::size_t i = 0; i < m_items.size(); ++i)
     {
-        const Item& item = m_items[i];
-        const JointRows& rows = item.work->rows;
-        if (!rows.has_axis())
-            continue;
-        Axis& axis = m_axes.emplace_back();
-        axis.item = i;
-        axis.row = item.first_row + item.held;
-        axis.restore = axis_impulses(*item.record);
-        if (stage == Stage::Held)
-            continue;
-        if (stage == Stage::Now)
-            axis.law = rows.acts.law_now(axis.restore, item.work->bounce, m_view.h);
-        else
-            axis.law = acts_ahead(rows, stage).law_ahead(item.work->spring, m_view.h);
-        for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
-        { // the softness of the row counts as a part of the spring's own
-            const double own = m_spring_softening * spring->compliance;
-            spring->compliance = std::max(own - softness(axis), least_share * own);
-        }
-        axis.before = axis.law.scope.sum(axis.restore);
-        const double k = as_double(rows.axis_inverse_mass);
-        axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] + (softness(axis) - k) * axis.before, k);
+        for (const JointAxis& axis : m_items[i].work->rows.axes())
+            begin_axis(m_axes.emplace_back(Axis{.item = i, .joint_axis = &axis}), stage);
     }
+}
+
+void DirectSolve::begin_axis(Axis& axis, Stage stage)
+{
+    const Item& item = m_items[axis.item];
+    const JointAxis& own = *axis.joint_axis;
+    axis.row = item.first_row + item.row_of(own);
+    axis.restore = impulses_of(axis);
+    if (stage == Stage::Held)
+        return;
+    const AxisWork& work = item.work->axes[own.number];
+    if (stage == Stage::Now)
+        axis.law = own.acts.law_now(axis.restore, work.bounce, m_view.h);
+    else
+        axis.law = acts_ahead(own, stage).law_ahead(work.spring, m_view.h);
+    for (SpringLine* spring : {&axis.law.spring, &axis.law.soft_lower, &axis.law.soft_upper})
+    { // the softness of the row counts as a part of the spring's own
+        const double whole = m_spring_softening * spring->compliance;
+        spring->compliance = std::max(whole - softness(axis), least_share * whole);
+    }
+    axis.before = axis.law.scope.sum(axis.restore);
+    const double k = as_double(own.inverse_mass);
+    axis.piece = axis.law.solve(m_speeds[as_index(axis.row)] + (softness(axis) - k) * axis.before, k);
 }
 
 // Solves the system with every axis on its piece.
@@ -100,8 +103,7 @@ void DirectSolve::solve_pieces()
     }
     for (const Axis& axis : m_axes)
     {
-        const Item& item = m_items[axis.item];
-        const double speed = m_speeds[as_index(axis.row)] + change_along(item, item.held);
+        const double speed = m_speeds[as_index(axis.row)] + change_along(axis);
         const double leak = softness(axis) * axis.before;
         double& wanted = m_impulses[as_index(axis.row)];
         const SpringLine& spring = axis.piece.spring;
@@ -120,11 +122,10 @@ void DirectSolve::solve_pieces()
     }
     for (const Axis& axis : m_axes)
     {
-        const Item& item = m_items[axis.item];
         if (m_compliances[as_index(axis.row)] == JointMatrix::off)
             m_impulses[as_index(axis.row)] = axis.piece.constant - axis.before;
         else
-            push(item, item.held, m_impulses[as_index(axis.row)]);
+            push(axis, m_impulses[as_index(axis.row)]);
     }
 }
 
@@ -136,17 +137,16 @@ void DirectSolve::give_known_impulses()
     for (const Axis& axis : m_axes)
     {
         if (m_compliances[as_index(axis.row)] == JointMatrix::off)
-            push(m_items[axis.item], m_items[axis.item].held, axis.piece.constant - axis.before);
+            push(axis, axis.piece.constant - axis.before);
     }
 }
 
 // The rate at which an axis' law gives its impulse. It includes the rate at which the row itself yields in proportion to that impulse.
 double DirectSolve::rate_of_law(const Axis& axis) const
 {
-    const Item& item = m_items[axis.item];
     const double given_rate =
         m_matrix.weight(axis.row) * m_compliance * m_impulses[as_index(axis.row)] + softness(axis) * axis.before;
-    return m_speeds[as_index(axis.row)] + change_along(item, item.held) + given_rate;
+    return m_speeds[as_index(axis.row)] + change_along(axis) + given_rate;
 }
 
 // False if every axis is on the piece where it should be.
@@ -155,8 +155,7 @@ bool DirectSolve::take_next_pieces(bool all)
     bool changed = false;
     for (Axis& axis : m_axes)
     {
-        const Item& item = m_items[axis.item];
-        const double k = as_double(item.work->rows.axis_inverse_mass);
+        const double k = as_double(axis.joint_axis->inverse_mass);
         const double impulse = m_impulses[as_index(axis.row)];
         const double rate = rate_of_law(axis);
         const AxisPiece next = axis.law.solve(rate - k * (axis.before + impulse), k);
@@ -190,6 +189,18 @@ void DirectSolve::push(const Item& item, int row, double impulse)
         node(item.b).change += impulse * product(m_masses[as_index(item.b)], j.b[row]);
 }
 
+void DirectSolve::push(const Axis& axis, double impulse)
+{
+    const Item& item = m_items[axis.item];
+    push(item, axis.row - item.first_row, impulse);
+}
+
+double DirectSolve::change_along(const Axis& axis) const
+{
+    const Item& item = m_items[axis.item];
+    return change_along(item, axis.row - item.first_row);
+}
+
 double DirectSolve::change_along(const Item& item, int row) const
 {
     const JointJacobian& j = m_jacobians[static_cast<std::size_t>(&item - m_items.data())];
@@ -215,10 +226,8 @@ void DirectSolve::take_impulses()
     }
     for (const Axis& axis : m_axes)
     {
-        const Item& item = m_items[axis.item];
-        const double rate = rate_of_law(axis);
-        const AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate);
-        set_axis_impulses(*item.record, axis.law.scope.merge(axis.restore, now));
+        const AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate_of_law(axis));
+        set_impulses_of(axis, axis.law.scope.merge(axis.restore, now));
     }
 }
 
@@ -231,7 +240,7 @@ void DirectSolve::take_back()
             item.impulse(r) -= static_cast<float>(m_impulses[as_index(item.first_row + r)]);
     }
     for (const Axis& axis : m_axes)
-        set_axis_impulses(*m_items[axis.item].record, axis.restore);
+        set_impulses_of(axis, axis.restore);
 }
 
 // The speeds have just been recorded, and contain the impulses given so far.
@@ -242,7 +251,7 @@ void DirectSolve::go_on_from_here()
     std::ranges::fill(m_impulses, 0.0);
     for (Axis& axis : m_axes)
     {
-        axis.restore = axis_impulses(*m_items[axis.item].record);
+        axis.restore = impulses_of(axis);
         axis.before = axis.law.scope.sum(axis.restore);
     }
 }
@@ -262,10 +271,8 @@ void DirectSolve::warm_start()
         n.change = {};
     for (const Item& item : m_items)
     {
-        for (int r = 0; r < item.held; ++r)
-            push(item, r, as_double(item.impulse(r)));
-        if (item.work->rows.has_axis())
-            push(item, item.held, as_double(axis_impulse(*item.record)));
+        for (int r = 0; r < item.rows(); ++r)
+            push(item, r, as_double(impulse_of(*item.record, item.work->rows, r)));
     }
     take_velocities();
 }
@@ -276,13 +283,9 @@ void DirectSolve::start_anew()
         n.change = {};
     for (const Item& item : m_items)
     {
-        for (int r = 0; r < item.held; ++r)
-            push(item, r, -as_double(std::exchange(item.impulse(r), 0.0f)));
-        if (item.work->rows.has_axis())
-        {
-            push(item, item.held, -as_double(axis_impulse(*item.record)));
-            set_axis_impulses(*item.record, {});
-        }
+        for (int r = 0; r < item.rows(); ++r)
+            push(item, r, -as_double(impulse_of(*item.record, item.work->rows, r)));
+        forget_impulses(*item.record);
     }
     take_velocities();
 }

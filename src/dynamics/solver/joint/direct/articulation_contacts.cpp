@@ -66,7 +66,7 @@ void DirectSolve::find_articulations()
                 continue;
             articulation.items.push_back(static_cast<int>(i));
             const Edge& edge = m_edges[i];
-            for (int r = 0; r < edge.held + (edge.has_axis ? 1 : 0); ++r)
+            for (int r = 0; r < edge.rows(); ++r)
                 articulation.rows.push_back(item.first_row + r);
         }
         std::ranges::sort(articulation.rows);
@@ -353,7 +353,7 @@ void DirectSolve::take_answers()
             continue;
         AxisImpulses now = axis.law.split(axis.piece, axis.before + m_impulses[as_index(axis.row)], rate_of_law(axis));
         now.motor += axis.before + m_impulses[as_index(axis.row)] - now.sum();
-        set_axis_impulses(*m_items[axis.item].record, axis.law.scope.merge(axis.restore, now));
+        set_impulses_of(axis, axis.law.scope.merge(axis.restore, now));
     }
 }
 

@@ -33,14 +33,12 @@ bool DirectSolve::find_edges()
     for (std::size_t i = 0; i < m_joints.size(); ++i)
     {
         const JointWork& work = m_joints[i];
-        const int held = work.rows.held_count;
-        const bool has_axis = work.rows.has_axis();
-        if ((held == 0 && !has_axis) || is_in_flight(m_view, work))
+        if (work.rows.count() == 0 || is_in_flight(m_view, work))
             continue;
-        rows += held + (has_axis ? 1 : 0);
+        rows += work.rows.count();
         if (rows > m_most_rows)
             return false;
-        m_found.push_back({i, moving(work.a), moving(work.b), held, has_axis});
+        m_found.push_back({i, moving(work.a), moving(work.b), work.rows.held_count, work.rows.axis_count});
     }
     if (m_found != m_edges)
         lay_out();
@@ -63,7 +61,7 @@ void DirectSolve::lay_out()
 
     std::vector<JointMatrix::Edge> edges;
     for (const Edge& e : m_edges)
-        edges.push_back({node_of(e.a), node_of(e.b), e.held + (e.has_axis ? 1 : 0)});
+        edges.push_back({node_of(e.a), node_of(e.b), e.rows()});
     m_matrix.lay_out(edges, static_cast<int>(m_nodes.size()));
     m_items.clear();
     for (std::size_t i = 0; i < m_edges.size(); ++i)
@@ -178,10 +176,8 @@ void DirectSolve::note_stretch(const Item& item)
 {
     const JointWork& work = *item.work;
     Vec2 pull{}; // on b, over a sub-step
-    for (const JointRow& row : work.rows.holds())
-        pull += item.record->impulses[row.slot] * row.d;
-    if (work.rows.has_axis())
-        pull += axis_impulse(*item.record) * work.rows.axis.d;
+    for (int r = 0; r < item.rows(); ++r)
+        pull += impulse_of(*item.record, work.rows, r) * item.row(r).d;
     node(item.a).stretch -= m_view.h * m_view.constants[work.a].inverse_inertia * dot(pull, work.pose.ra);
     node(item.b).stretch += m_view.h * m_view.constants[work.b].inverse_inertia * dot(pull, work.pose.rb);
 }
@@ -212,26 +208,33 @@ void DirectSolve::fit_springs()
         n.sprung = 0;
         n.springs = 0;
     }
-    for (const Item& item : m_items)
+    const auto for_each_spring = [&](auto&& visit)
     {
-        if (!item.is_sprung())
-            continue;
-        const JointRow& axis = item.work->rows.axis;
-        const float stiffness = item.work->spring.stiffness;
-        add_spring(node(item.a), stiffness, axis.d, axis.arm_a);
-        add_spring(node(item.b), stiffness, axis.d, axis.arm_b);
-    }
-    for (const Item& item : m_items)
-    {
-        if (!item.is_sprung())
-            continue;
-        JointWork& work = m_joints[item.joint];
-        const Node& a = node(item.a);
-        const Node& b = node(item.b);
-        const float alone = work.spring.stiffness * work.rows.axis_inverse_mass;
-        const float rate = a.springs > 1 || b.springs > 1 ? std::max(alone, a.sprung + b.sprung) : alone;
-        work.spring.theta = std::max(work.spring.theta, least_theta(m_view.h * std::sqrt(rate)));
-    }
+        for (const Item& item : m_items)
+        {
+            for (const JointAxis& axis : item.work->rows.axes())
+            {
+                AxisSpring& spring = m_joints[item.joint].axes[axis.number].spring;
+                if (spring.is_there())
+                    visit(item, axis, spring);
+            }
+        }
+    };
+    for_each_spring(
+        [&](const Item& item, const JointAxis& axis, const AxisSpring& spring)
+        {
+            add_spring(node(item.a), spring.stiffness, axis.row.d, axis.row.arm_a);
+            add_spring(node(item.b), spring.stiffness, axis.row.d, axis.row.arm_b);
+        });
+    for_each_spring(
+        [&](const Item& item, const JointAxis& axis, AxisSpring& spring)
+        {
+            const Node& a = node(item.a);
+            const Node& b = node(item.b);
+            const float alone = spring.stiffness * axis.inverse_mass;
+            const float rate = a.springs > 1 || b.springs > 1 ? std::max(alone, a.sprung + b.sprung) : alone;
+            spring.theta = std::max(spring.theta, least_theta(m_view.h * std::sqrt(rate)));
+        });
 }
 
 void DirectSolve::add_spring(Node& node, float stiffness, Vec2 d, float arm) const

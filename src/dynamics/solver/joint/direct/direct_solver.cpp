@@ -192,14 +192,13 @@ void DirectSolve::note_errors_ahead()
         const JointWork& work = *item.work;
         const Placement a = ahead_of(item.a, work.a);
         const Placement b = ahead_of(item.b, work.b);
-        const Vec2 error = held_error(*item.record, work, a, b);
+        const JointRows rows = place_rows(*item.record, joint_pose(work, a, b));
         for (int r = 0; r < item.held; ++r)
-            m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(r == 0 ? error.x : error.y);
-        if (work.rows.has_axis())
+            m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(rows.held[r].error);
+        for (int r = item.held; r < item.rows(); ++r)
         {
-            const float displacement =
-                axis_coordinate(*item.record, joint_pose(work, a, b)) - axis_coordinate(*item.record, work.pose);
-            m_speeds[as_index(item.first_row + item.held)] = as_double(m_view.inverse_h) * as_double(displacement);
+            const float displacement = rows.row(r).error - item.row(r).error;
+            m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(displacement);
         }
     }
 }
@@ -219,14 +218,14 @@ double DirectSolve::largest_error() const
     {
         for (int r = 0; r < item.held; ++r)
         {
-            double& largest = item.row(r).slot == slot_lock ? angle : length;
+            double& largest = item.row(r).is_angle() ? angle : length;
             largest = std::max(largest, std::fabs(m_speeds[as_index(item.first_row + r)]));
         }
-        if (item.work->rows.has_axis())
+        for (const JointAxis& axis : item.work->rows.axes())
         {
-            double& largest = item.row(item.held).d == Vec2{} ? angle : length;
-            const double displacement = as_double(m_view.h) * m_speeds[as_index(item.first_row + item.held)];
-            largest = std::max(largest, as_double(m_view.inverse_h) * item.work->rows.acts.comes_beyond(displacement));
+            double& largest = axis.row.is_angle() ? angle : length;
+            const double displacement = as_double(m_view.h) * m_speeds[as_index(item.first_row + item.row_of(axis))];
+            largest = std::max(largest, as_double(m_view.inverse_h) * axis.acts.comes_beyond(displacement));
         }
     }
     const double in_arms = m_longest_arm > 0 ? length / as_double(m_longest_arm) : 0;
@@ -241,7 +240,7 @@ double DirectSolve::largest_gap() const
     {
         for (int r = 0; r < item.held; ++r)
         {
-            if (item.row(r).slot == slot_lock)
+            if (item.row(r).is_angle())
                 continue;
             const float open = std::min(std::fabs(item.work->moved[as_index(r)]), std::fabs(item.row(r).error));
             gap = std::max(gap, as_double(open));
@@ -256,9 +255,8 @@ double DirectSolve::largest_turn() const
     double turn = 0;
     for (const Axis& axis : m_axes)
     {
-        const Item& item = m_items[axis.item];
-        if (item.work->rows.axis.d == Vec2{})
-            turn = std::max(turn, as_double(m_view.h) * std::fabs(change_along(item, item.held)));
+        if (axis.joint_axis->row.is_angle())
+            turn = std::max(turn, as_double(m_view.h) * std::fabs(change_along(axis)));
     }
     return turn;
 }
@@ -278,7 +276,7 @@ void DirectSolve::note_speeds()
 // The greatest speed at which a row that may contradict others closes. It is never less than the speed at which overlap is pushed out.
 float DirectSolve::most_speed(const JointRow& row) const
 {
-    return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.d == Vec2{} ? 1 : m_longest_arm);
+    return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.is_angle() ? 1 : m_longest_arm);
 }
 
 void DirectSolve::limit_speeds()
@@ -305,12 +303,12 @@ void DirectSolve::close_slowly()
 }
 
 // Stops push back no faster than held rows close.
-AxisActs DirectSolve::acts_ahead(const JointRows& rows, Stage stage) const
+AxisActs DirectSolve::acts_ahead(const JointAxis& axis, Stage stage) const
 {
-    AxisActs acts = rows.acts;
+    AxisActs acts = axis.acts;
     if (stage == Stage::Ahead && !m_may_contradict)
         return acts;
-    const float speed = stage == Stage::Soft ? m_view.push_speed : most_speed(rows.axis);
+    const float speed = stage == Stage::Soft ? m_view.push_speed : most_speed(axis.row);
     const float most = m_view.h * speed / way_back;
     acts.lower_error = std::max(acts.lower_error, -most);
     acts.upper_error = std::max(acts.upper_error, -most);

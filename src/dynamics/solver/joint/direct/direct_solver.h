@@ -87,8 +87,9 @@ private:
         std::int32_t a = 0;    ///< states; none: immovable
         std::int32_t b = 0;
         int held = 0;
-        bool has_axis = false;
+        int axes = 0;
 
+        [[nodiscard]] int rows() const { return held + axes; }
         friend bool operator==(const Edge&, const Edge&) = default;
     };
 
@@ -104,20 +105,21 @@ private:
         const JointWork* work = nullptr;
         JointRecord* record = nullptr;
 
-        [[nodiscard]] int rows() const { return held + (work->rows.has_axis() ? 1 : 0); }
-        [[nodiscard]] const JointRow& row(int r) const { return r < held ? work->rows.held[r] : work->rows.axis; }
-        [[nodiscard]] bool is_sprung() const { return work->rows.has_axis() && work->spring.is_there(); }
+        [[nodiscard]] int rows() const { return work->rows.count(); }
+        [[nodiscard]] const JointRow& row(int r) const { return work->rows.row(r); }
+        [[nodiscard]] int row_of(const JointAxis& axis) const { return held + static_cast<int>(&axis - work->rows.axis); }
         [[nodiscard]] bool take_lines();
-        [[nodiscard]] float& impulse(int row) const { return record->impulses[work->rows.held[row].slot]; }
+        [[nodiscard]] float& impulse(int row) const { return record->impulses[slot_held + row]; } ///< of a held row
     };
 
     /// A free axis in the equations.
     struct Axis
     {
         std::size_t item = 0;
+        const JointAxis* joint_axis = nullptr;
         int row = 0;
-        AxisLaw law;
-        AxisPiece piece;
+        AxisLaw law{};
+        AxisPiece piece{};
         double before = 0;      ///< impulse that the law has given already
         AxisImpulses restore{}; ///< impulses before the solve
     };
@@ -238,18 +240,29 @@ private:
     {
         return m_yields ? m_leak * m_matrix.weight(axis.row) : 0;
     } // rate per impulse
-    [[nodiscard]] AxisActs acts_ahead(const JointRows& rows, Stage stage) const;
+    [[nodiscard]] AxisActs acts_ahead(const JointAxis& axis, Stage stage) const;
 
     void take_step(Stage stage);
     void give_blow(Stage stage);
     void find_impulses(Stage stage);
     void begin_axes(Stage stage);
+    void begin_axis(Axis& axis, Stage stage);
     void solve_pieces();
     void give_known_impulses();
     [[nodiscard]] bool take_next_pieces(bool all);
     void give_up_on_pieces();
     void push(const Item& item, int row, double impulse);
+    void push(const Axis& axis, double impulse);
     [[nodiscard]] double change_along(const Item& item, int row) const;
+    [[nodiscard]] double change_along(const Axis& axis) const;
+    [[nodiscard]] AxisImpulses impulses_of(const Axis& axis) const
+    {
+        return axis_impulses(*m_items[axis.item].record, axis.joint_axis->number);
+    }
+    void set_impulses_of(const Axis& axis, const AxisImpulses& to)
+    {
+        set_axis_impulses(*m_items[axis.item].record, axis.joint_axis->number, to);
+    }
     void take_velocities(double sign = 1);
     void take_impulses();
     void take_back();

@@ -3,6 +3,8 @@
 // The matrix of an island's joint equations: A = J M^-1 J^T + C, how the impulse of one row changes the speed along another. C is the compliance of the
 // rows. See joint_matrix.cpp.
 
+#include "dynamics/state/scene_state.h"
+
 #include <limits>
 #include <span>
 #include <vector>
@@ -37,8 +39,6 @@ struct Triple
 [[nodiscard]] constexpr double dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.turn * b.turn; }
 [[nodiscard]] constexpr Triple product(const Triple& a, const Triple& b) { return {a.x * b.x, a.y * b.y, a.turn * b.turn}; }
 [[nodiscard]] constexpr Triple operator*(double s, const Triple& a) { return {s * a.x, s * a.y, s * a.turn}; }
-
-constexpr int most_joint_rows = 3;
 
 /// The Jacobian of a joint, by row.
 struct JointJacobian

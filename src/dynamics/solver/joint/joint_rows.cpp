@@ -1,0 +1,67 @@
+// The rows of joints of all kinds, and the properties that follow from them.
+
+#include "dynamics/solver/joint/joint_bodies.h"
+
+#include <algorithm>
+
+namespace carom::internal {
+
+JointRows place_rows(const JointRecord& joint, const JointPose& pose)
+{
+    JointRows rows;
+    switch (joint.kind)
+    {
+    case JointType::Spring: break;
+    case JointType::Distance: distance_rows(joint, pose, rows); break;
+    case JointType::Revolute: revolute_rows(joint, pose, rows); break;
+    case JointType::Prismatic: prismatic_rows(joint, pose, rows); break;
+    }
+    return rows;
+}
+
+AxisActs acts_of(const JointRecord& joint, float coordinate)
+{
+    AxisActs acts;
+    acts.has_spring = joint.hertz > 0;
+    acts.stretch = coordinate - joint.spring_target;
+    acts.motor_speed = joint.motor_speed;
+    acts.most = joint.enable_motor ? joint.max_motor : 0;
+    acts.has_lower = acts.has_upper = joint.enable_limit;
+    acts.lower_error = coordinate - joint.lower;
+    acts.upper_error = joint.upper - coordinate;
+    return acts;
+}
+
+JointErrors JointWork::errors() const
+{
+    JointErrors found{};
+    for (std::size_t i = 0; i < rows.holds().size(); ++i)
+        found[i] = rows.held[i].error;
+    for (const JointAxis& axis : rows.axes())
+    {
+        if (axis.acts.has_lower)
+            found[error_of_limit(axis.number, slot_lower)] = std::min(axis.acts.lower_error, 0.0f);
+        if (axis.acts.has_upper)
+            found[error_of_limit(axis.number, slot_upper)] = std::min(axis.acts.upper_error, 0.0f);
+    }
+    return found;
+}
+
+bool only_holds(const JointRecord& joint)
+{
+    const JointRows rows = place_rows(joint, {});
+    return rows.held_count > 0 && rows.axis_count == 0;
+}
+
+bool loses_energy(const JointRecord& joint)
+{
+    const JointRows rows = place_rows(joint, {});
+    return std::ranges::any_of(rows.axes(),
+                               [&](const JointAxis& axis)
+                               {
+                                   const bool brakes = axis.acts.most > 0 && axis.acts.motor_speed == 0;
+                                   return brakes || (axis.acts.has_spring && joint.damping_ratio >= 0.1f);
+                               });
+}
+
+} // namespace carom::internal
