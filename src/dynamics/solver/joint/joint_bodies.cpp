@@ -68,44 +68,25 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
     {
         work.pose = present_pose(view, work);
         work.rows = place_rows(state.joints[work.joint], work.pose);
-        weigh_axes(JointBodies(view, work), work.rows);
+        weigh_rows(JointBodies(view, work), work.rows);
     }
 }
 
-// The Schur complement k - c^T K^-1 c, with K of the held rows and c their coupling with the axis.
-void weigh_axis(const JointBodies& bodies, std::span<const JointRow> held, JointAxis& axis)
+void weigh_rows(const JointBodies& bodies, JointRows& rows)
 {
-    axis.inverse_mass = bodies.couple(axis.row, axis.row);
-    if (held.empty())
-        return;
-    const JointRow& x = held[0];
-    const float cx = bodies.couple(x, axis.row);
-    const float k11 = bodies.couple(x, x);
-    if (held.size() == 1)
-    {
-        axis.reaction[0] = k11 > 0 ? -cx / k11 : 0;
-    }
-    else
-    {
-        const JointRow& y = held[1];
-        const float cy = bodies.couple(y, axis.row);
-        const float k12 = bodies.couple(x, y);
-        const float k22 = bodies.couple(y, y);
-        const float det = k11 * k22 - k12 * k12;
-        if (det > 1e-6f * k11 * k22)
-        {
-            axis.reaction[0] = (k12 * cy - k22 * cx) / det;
-            axis.reaction[1] = (k12 * cx - k11 * cy) / det;
-        }
-        axis.inverse_mass += axis.reaction[1] * cy;
-    }
-    axis.inverse_mass = std::max(axis.inverse_mass + axis.reaction[0] * cx, 0.0f);
-}
-
-void weigh_axes(const JointBodies& bodies, JointRows& rows)
-{
+    const std::span<const JointRow> held = rows.holds();
+    rows.block.factor(held.size(), [&](std::size_t i, std::size_t j) { return bodies.couple(held[i], held[j]); });
     for (JointAxis& axis : rows.axes())
-        weigh_axis(bodies, rows.holds(), axis);
+    { // the Schur complement k - c^T K^-1 c, with K of the held rows and c their coupling with the axis
+        float coupling[most_joint_rows];
+        for (std::size_t i = 0; i < held.size(); ++i)
+            axis.reaction[i] = coupling[i] = -bodies.couple(held[i], axis.row);
+        rows.block.solve(axis.reaction);
+        axis.inverse_mass = bodies.couple(axis.row, axis.row);
+        for (std::size_t i = 0; i < held.size(); ++i)
+            axis.inverse_mass -= axis.reaction[i] * coupling[i];
+        axis.inverse_mass = std::max(axis.inverse_mass, 0.0f);
+    }
 }
 
 } // namespace carom::internal

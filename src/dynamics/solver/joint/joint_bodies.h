@@ -110,8 +110,8 @@ struct Placement
 /// Computes the poses and rows at the present poses of the bodies; for springs, the poses only.
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
-/// Computes the inverse mass along each axis, and how the held rows react to an impulse along it.
-void weigh_axes(const JointBodies& bodies, JointRows& rows);
+/// Factors the block of the held rows. Computes the inverse mass along each axis, and how the held rows react to an impulse along it.
+void weigh_rows(const JointBodies& bodies, JointRows& rows);
 
 /// Whether the joint has held rows and nothing else.
 [[nodiscard]] bool only_holds(const JointRecord& joint);

@@ -3,6 +3,7 @@
 // A joint as the solver sees it: rows of a Jacobian with their error at the present poses of the bodies. The file of a joint kind contains only what is
 // specific to that kind. joint_solver.cpp iterates over the rows of all kinds alike, and the direct solve reads the same rows.
 
+#include "dynamics/solver/joint/held_block.h"
 #include "dynamics/solver/joint/joint_axis.h"
 #include "dynamics/solver/softness.h"
 #include "dynamics/state/scene_state.h"
@@ -41,6 +42,7 @@ struct JointRows
     JointAxis axis[most_joint_axes];
     int held_count = 0;
     int axis_count = 0;
+    HeldBlock block; ///< of the held rows; see weigh_rows
 
     void hold(const JointRow& row) { held[held_count++] = row; }
     void free(int number, const JointRow& row, const AxisActs& acts)

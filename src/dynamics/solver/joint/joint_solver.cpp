@@ -17,37 +17,6 @@ namespace {
 
 // --- solving -----------------------------------------------------------------------------------------------------------------------
 
-// Solves two held rows as one block, with an exact 2x2 K. A direction in which nothing can move gets no impulse.
-void solve_block(const JointBodies& bodies, JointRecord& joint, const JointRows& rows, const Softness& s, bool use_bias)
-{
-    const JointRow& x = rows.held[0];
-    const JointRow& y = rows.held[1];
-    const float bias = use_bias ? s.bias_rate : 0;
-    const float bx = bodies.speed(x) + bias * x.error;
-    const float by = bodies.speed(y) + bias * y.error;
-    const float k11 = bodies.couple(x, x);
-    const float k12 = bodies.couple(x, y);
-    const float k22 = bodies.couple(y, y);
-    const float det = k11 * k22 - k12 * k12;
-    float jx = k11 > 0 ? bx / k11 : 0;
-    float jy = k22 > 0 ? by / k22 : 0;
-    if (det > 1e-6f * k11 * k22)
-    {
-        jx = (k22 * bx - k12 * by) / det;
-        jy = (k11 * by - k12 * bx) / det;
-    }
-    float& of_x = joint.impulses[slot_held];
-    float& of_y = joint.impulses[slot_held + 1];
-    const float mass_scale = use_bias ? s.mass_scale : 1;
-    const float impulse_scale = use_bias ? s.impulse_scale : 0;
-    jx = -mass_scale * jx - impulse_scale * of_x;
-    jy = -mass_scale * jy - impulse_scale * of_y;
-    of_x += jx;
-    of_y += jy;
-    bodies.apply(x, jx);
-    bodies.apply(y, jy);
-}
-
 /// Parameters with which the rows are solved.
 struct Pass
 {
@@ -80,14 +49,22 @@ void solve_free_axis(const JointBodies& bodies, JointRecord& joint, const JointW
         joint.impulses[static_cast<std::size_t>(slot_held) + i] += change * held * axis.reaction[i];
 }
 
-void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRow& row, const Pass& pass)
+// Solves the held rows as one block. A direction in which nothing can move gets no impulse.
+void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRows& rows, const Pass& pass)
 {
-    float& accumulated = joint.impulses[slot_held];
     const Softness s = pass.use_bias ? pass.softness : Softness{};
-    const float speed = bodies.speed(row) + s.bias_rate * row.error;
-    const float updated = (1 - s.impulse_scale) * accumulated - bodies.mass(row) * s.mass_scale * speed;
-    bodies.apply(row, updated - accumulated);
-    accumulated = updated;
+    const std::span<const JointRow> held = rows.holds();
+    float change[most_joint_rows];
+    for (std::size_t i = 0; i < held.size(); ++i)
+        change[i] = bodies.speed(held[i]) + s.bias_rate * held[i].error;
+    rows.block.solve(change);
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+        float& impulse = joint.impulses[static_cast<std::size_t>(slot_held) + i];
+        change[i] = -s.mass_scale * change[i] - s.impulse_scale * impulse;
+        impulse += change[i];
+        bodies.apply(held[i], change[i]);
+    }
 }
 
 } // namespace
@@ -176,10 +153,7 @@ void solve_joints(const SolverView& view, SceneState& state, std::span<JointWork
             continue;
         JointRecord& joint = state.joints[work.joint];
         const JointBodies bodies(view, work);
-        if (work.rows.held_count == 2)
-            solve_block(bodies, joint, work.rows, soft, use_bias);
-        else if (work.rows.held_count == 1)
-            solve_held(bodies, joint, work.rows.held[0], pass);
+        solve_held(bodies, joint, work.rows, pass);
         for (const JointAxis& axis : work.rows.axes())
             solve_free_axis(bodies, joint, work, axis, pass);
     }

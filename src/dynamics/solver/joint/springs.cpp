@@ -152,7 +152,7 @@ void kick_along_axes(const SolverView& view, const JointRecord& joint, JointWork
 {
     const JointBodies bodies(view, work);
     JointRows rows = place_rows(joint, present_pose(view, work));
-    weigh_axes(bodies, rows);
+    weigh_rows(bodies, rows);
     for (const JointAxis& axis : rows.axes())
     {
         const AxisSpring& spring = work.axes[axis.number].spring;
