@@ -182,6 +182,13 @@ struct JointTeller
         story.push_back({Kind::Formula, say("slider bears", {{"force", number(length(joint.force()))}})});
     }
 
+    void operator()(const WeldDef&) const
+    {
+        story.push_back({Kind::Text, say("weld")});
+        story.push_back(
+            {Kind::Formula, say("weld bears", {{"force", number(length(joint.force()))}, {"torque", number(joint.torque())}})});
+    }
+
     static std::string signed_number(float value) { return value < 0 ? "(" + number(value) + ")" : number(value); }
 };
 

@@ -105,7 +105,20 @@ struct PrismaticDef
     std::uint64_t user_data = 0;
 };
 
-using JointDef = std::variant<SpringDef, DistanceDef, RevoluteDef, PrismaticDef>;
+/// Holds two bodies together as if they were one: neither the anchors nor the angle between the bodies move. Bodies welded to each other keep their own
+/// shapes, sensors and contacts; `Joint::force` and `Joint::torque` tell the load of the seam.
+struct WeldDef
+{
+    BodyId body_a{};
+    BodyId body_b{};
+    Vec2 anchor_a{};
+    Vec2 anchor_b{};
+    float reference_angle = 0; ///< angle_b - angle_a that is held, radians
+    bool collide_connected = false;
+    std::uint64_t user_data = 0;
+};
+
+using JointDef = std::variant<SpringDef, DistanceDef, RevoluteDef, PrismaticDef, WeldDef>;
 
 /// Reads a joint. A short-lived reference; every call checks the id.
 class CAROM_API ConstJoint
@@ -117,13 +130,13 @@ public:
     [[nodiscard]] BodyId body_b() const;
     [[nodiscard]] Position anchor_a() const; ///< in the world
     [[nodiscard]] Position anchor_b() const;
-    /// Length (spring, distance) in m, angle (revolute, with all turns) in radians, translation (prismatic) in m.
+    /// Length (spring, distance) in m, angle (revolute, with all turns) in radians, translation (prismatic) in m; 0 for a weld.
     [[nodiscard]] float coordinate() const;
     /// Rate of change of the coordinate, m/s or rad/s.
     [[nodiscard]] float speed() const;
     /// Force on body b at its anchor over the last step, N, without what a motor or limit gives as a torque.
     [[nodiscard]] Vec2 force() const;
-    /// Torque on body b over the last step, N m (limits, motors and springs of a hinge; the angle lock of a slider).
+    /// Torque on body b over the last step, N m (limits, motors and springs of a hinge; the angle held by a slider or a weld).
     [[nodiscard]] float torque() const;
     [[nodiscard]] std::uint64_t user_data() const;
 

@@ -68,6 +68,11 @@ bool check_def(const Checker& check, const PrismaticDef& d)
            check.finite("PrismaticDef::spring_translation", d.spring_translation);
 }
 
+bool check_def(const Checker& check, const WeldDef& d)
+{
+    return check_common(check, d.anchor_a, d.anchor_b) && check.finite("WeldDef::reference_angle", d.reference_angle);
+}
+
 void write(JointRecord& r, const SpringDef& d, float measured)
 {
     r.kind = JointType::Spring;
@@ -117,6 +122,12 @@ void write(JointRecord& r, const PrismaticDef& d, float)
     r.hertz = d.spring_hertz;
     r.damping_ratio = d.spring_damping_ratio;
     r.spring_target = d.spring_translation;
+}
+
+void write(JointRecord& r, const WeldDef& d, float)
+{
+    r.kind = JointType::Weld;
+    r.reference_angle = d.reference_angle;
 }
 
 // --- from the record to the public parameters ----------------------------------------------------------------------------------------
@@ -186,6 +197,13 @@ PrismaticDef read_prismatic(const JointRecord& r)
     return d;
 }
 
+WeldDef read_weld(const JointRecord& r)
+{
+    WeldDef d;
+    d.reference_angle = r.reference_angle;
+    return d;
+}
+
 JointDef read_joint(const SceneData& data, const JointRecord& r, std::uint64_t user_data)
 {
     const auto with_common = [&](auto d) -> JointDef
@@ -198,9 +216,10 @@ JointDef read_joint(const SceneData& data, const JointRecord& r, std::uint64_t u
     case JointType::Spring: return with_common(read_spring(r));
     case JointType::Distance: return with_common(read_distance(r));
     case JointType::Revolute: return with_common(read_revolute(r));
-    case JointType::Prismatic: break;
+    case JointType::Prismatic: return with_common(read_prismatic(r));
+    case JointType::Weld: break;
     }
-    return with_common(read_prismatic(r));
+    return with_common(read_weld(r));
 }
 
 // --- lists ---------------------------------------------------------------------------------------------------------------------------
@@ -405,9 +424,10 @@ float ConstJoint::coordinate() const
     case JointType::Spring:
     case JointType::Distance: return length(b.point - a.point);
     case JointType::Revolute: return hinge_angle(m_data->state, r);
-    case JointType::Prismatic: break;
+    case JointType::Prismatic: return dot(rotate(a.rotation, r.axis_a), b.point - a.point);
+    case JointType::Weld: break;
     }
-    return dot(rotate(a.rotation, r.axis_a), b.point - a.point);
+    return 0;
 }
 
 float ConstJoint::speed() const
@@ -415,6 +435,8 @@ float ConstJoint::speed() const
     const JointRecord& r = record_of(m_data, m_id, "Joint::speed");
     const AnchorMotion a = motion_at(m_data->state, r.body_a, r.anchor_a);
     const AnchorMotion b = motion_at(m_data->state, r.body_b, r.anchor_b);
+    if (r.kind == JointType::Weld)
+        return 0;
     if (r.kind == JointType::Revolute)
         return b.angular_velocity - a.angular_velocity;
     const Vec2 gap = b.point - a.point;

@@ -25,6 +25,8 @@ TEST_F(Contract, NumbersOfJoints)
         joint_refused(PrismaticDef{.body_a = ball.body, .upper_translation = bad}, "upper_translation");
         joint_refused(PrismaticDef{.body_a = ball.body, .motor_speed = bad}, "motor_speed");
         joint_refused(PrismaticDef{.body_a = ball.body, .spring_translation = bad}, "spring_translation");
+        joint_refused(WeldDef{.body_a = ball.body, .anchor_b = {0, bad}}, "anchor_b");
+        joint_refused(WeldDef{.body_a = ball.body, .reference_angle = bad}, "reference_angle");
     }
     for (const float bad : {not_a_number, infinite, -infinite, -1.0f})
     {

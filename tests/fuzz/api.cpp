@@ -258,7 +258,7 @@ void limits_and_motor(Def& def, const Session& s, Choices& c)
 
 JointDef joint_def(Session& s, Choices& c)
 {
-    switch (c.below(4))
+    switch (c.below(5))
     {
     case 0:
     {
@@ -283,6 +283,12 @@ JointDef joint_def(Session& s, Choices& c)
         def.lower_angle = c.number();
         def.upper_angle = c.number();
         def.max_motor_torque = 10 * c.amount();
+        return def;
+    }
+    case 3:
+    {
+        auto def = ends<WeldDef>(s, c);
+        def.reference_angle = c.flag() ? 0 : c.number();
         return def;
     }
     default:

@@ -89,6 +89,10 @@ struct JointText
     {
         return "PrismaticDef{" + ends(d) + ", .axis_a = " + text(d.axis_a) + "}";
     }
+    std::string operator()(const WeldDef& d) const
+    {
+        return "WeldDef{" + ends(d) + ", .reference_angle = " + number(d.reference_angle) + "}";
+    }
 };
 
 void print_shape(std::ostream& out, BodyId body, const ConstShape& shape)

@@ -267,6 +267,7 @@ enum class JointType : std::uint8_t
     Distance,
     Revolute,
     Prismatic,
+    Weld,
 };
 
 inline constexpr int most_joint_rows =

@@ -1,6 +1,9 @@
 // The rows of joints of all kinds, and the properties that follow from them.
 
+#include "dynamics/solver/joint/joint_rows.h"
+
 #include "dynamics/solver/joint/joint_bodies.h"
+#include "dynamics/solver/joint/kinds/joint_kinds.h"
 
 #include <algorithm>
 
@@ -15,6 +18,7 @@ JointRows place_rows(const JointRecord& joint, const JointPose& pose)
     case JointType::Distance: distance_rows(joint, pose, rows); break;
     case JointType::Revolute: revolute_rows(joint, pose, rows); break;
     case JointType::Prismatic: prismatic_rows(joint, pose, rows); break;
+    case JointType::Weld: weld_rows(pose, rows); break;
     }
     return rows;
 }

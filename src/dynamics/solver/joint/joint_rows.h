@@ -1,7 +1,7 @@
 #pragma once
 
-// A joint as the solver sees it: rows of a Jacobian with their error at the present poses of the bodies. The file of a joint kind contains only what is
-// specific to that kind. joint_solver.cpp iterates over the rows of all kinds alike, and the direct solve reads the same rows.
+// A joint as the solver sees it: rows of a Jacobian with their error at the present poses of the bodies. The file of a kind of joint (kinds/) contains only
+// what is specific to it. joint_solver.cpp iterates over the rows of all kinds alike, and the direct solve reads the same rows.
 
 #include "dynamics/solver/joint/held_block.h"
 #include "dynamics/solver/joint/joint_axis.h"
@@ -122,11 +122,6 @@ struct JointWork
             torque_sum += impulse * row.arm_b;
     }
 };
-
-/// The rows of each kind of joint; place_rows selects among them.
-void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
-void revolute_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
-void prismatic_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
 
 /// All rows of a joint at a pose, with their errors and coordinates; a spring has none.
 [[nodiscard]] JointRows place_rows(const JointRecord& joint, const JointPose& pose);

@@ -1,6 +1,6 @@
 // Distance joint: C = |gap| - length along the line between the anchors. Equal limits hold it, or spring it where it is soft; different limits bound it.
 
-#include "dynamics/solver/joint/joint_rows.h"
+#include "dynamics/solver/joint/kinds/joint_kinds.h"
 
 namespace carom::internal {
 

@@ -1,6 +1,6 @@
 // Revolute: the anchors coincide, C = gap (two rows, solved as one block). The angle may be limited, driven or sprung.
 
-#include "dynamics/solver/joint/joint_rows.h"
+#include "dynamics/solver/joint/kinds/joint_kinds.h"
 
 namespace carom::internal {
 

@@ -1,7 +1,7 @@
 // Prismatic: with u the axis (turning with body a) and n = perp(u), C1 = n · gap and C2 = the relative angle are held; the translation u · gap is free.
 // Because u turns with a, the lever arm of a reaches to anchor b: dC1 = n · (vb - va) + (rb x n) wb - ((ra + gap) x n) wa.
 
-#include "dynamics/solver/joint/joint_rows.h"
+#include "dynamics/solver/joint/kinds/joint_kinds.h"
 
 namespace carom::internal {
 
