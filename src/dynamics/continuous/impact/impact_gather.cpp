@@ -153,7 +153,7 @@ void ImpactSet::add_joints(int body)
         const JointRecord& joint = m_state.joints[index];
         const int a = member_of(joint.body_a);
         const int b = member_of(joint.body_b);
-        const JointRows rows = place_rows(joint, pose_of_joint(joint, a, b));
+        const JointRows rows = rows_at(joint, pose_of_joint(joint, a, b));
         for (const JointRow& r : rows.holds())
         {
             ImpactRow row;

@@ -334,7 +334,7 @@ private:
         const auto places =
             std::span(m_scratch.layout.joints_outside_lanes).subspan(as_index(island.first_joint), as_index(island.joint_count));
         const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const SolvedJoint& place)
-                                         { return sum + place_rows(m_state.joints[place.joint], {}).count(); });
+                                         { return sum + rows_at(m_state.joints[place.joint], {}).count(); });
         island.all_direct =
             island.joint_count > 0 && solves_all_joints_directly(island.policy, rows, island.wide_joint_count > 0);
         island.drifts = island.all_direct && island.constraint_count == 0 && island.wide_count == 0;

@@ -19,17 +19,14 @@ double inverse(float x) { return x > 0 ? 1 / as_double(x) : 0; }
 // Motors and soft joints do work that is not counted.
 bool is_passive(const JointRecord& joint) { return joint.hertz == 0 && !joint.enable_motor; }
 
-bool may_lose(const JointRecord& joint)
+bool may_lose(const JointRecord& joint, const JointWork& work)
 {
-    if (joint.damping > 0)
-        return true;
-    for (int axis = 0; axis < most_joint_axes; ++axis)
-    {
-        const AxisImpulses impulses = axis_impulses(joint, axis);
-        if (impulses.lower != 0 || impulses.upper != 0)
-            return true;
-    }
-    return false;
+    return joint.damping > 0 || std::ranges::any_of(work.rows.axes(),
+                                                    [&](const JointAxis& axis)
+                                                    {
+                                                        const AxisImpulses impulses = axis_impulses(joint, axis.number);
+                                                        return impulses.lower != 0 || impulses.upper != 0;
+                                                    });
 }
 
 // False for a slack rope and for a distant limit.
@@ -355,10 +352,10 @@ double IslandEnergy::take_work(JointWork& work) const
         return as_double(joint.impulses[slot]) * as_double(made_good);
     };
     double sum = 0;
-    for (int axis = 0; axis < most_joint_axes; ++axis)
+    for (const JointAxis& axis : work.rows.axes())
     {
         for (const JointSlot limit : {slot_lower, slot_upper})
-            sum += make_good(error_of_limit(axis, limit), slot_of_axis(axis, limit));
+            sum += make_good(error_of_limit(axis.number, limit), slot_of_axis(axis.number, limit));
     }
     for (int i = 0; i < work.rows.held_count; ++i)
         sum += make_good(as_index(i), slot_held + i);
@@ -369,7 +366,7 @@ void IslandEnergy::note_joint(JointWork& work)
 {
     const JointRecord& joint = m_state->joints[work.joint];
     Group& first = group_of(is_ours(work.a) ? work.a : work.b);
-    for (int i = 0; i < most_joint_rows; ++i)
+    for (int i = 0; i < work.rows.held_count; ++i)
         first.is_passive &= std::fabs(work.moved[as_index(i)]) <= m_slop; // beyond it, an impact
     first.constraint_work += take_work(work);
     for (const auto& [own, other] : {std::pair{work.a, work.b}, std::pair{work.b, work.a}})
@@ -379,7 +376,7 @@ void IslandEnergy::note_joint(JointWork& work)
         if (is_at_work(joint, work))
             join(own, other);
         group_of(own).is_passive &= is_passive(joint);
-        group_of(own).may_lose |= may_lose(joint);
+        group_of(own).may_lose |= may_lose(joint, work);
     }
 }
 

@@ -13,22 +13,21 @@ class HeldBlock
 public:
     /// `couple(i, j)` is the entry of K, for j <= i.
     template <class Couple>
-    void factor(std::size_t count, Couple&& couple);
+    HeldBlock(std::size_t count, Couple&& couple);
     /// x = K^-1 x. A row that earlier rows imply gets 0.
     void solve(float (&x)[most_joint_rows]) const;
 
 private:
     static constexpr float least_rest = 1e-6f; ///< of a diagonal entry, once the earlier rows are eliminated
 
-    std::size_t m_count = 0;
+    std::size_t m_count;
     float m_lower[most_joint_rows][most_joint_rows] = {}; ///< L D below the diagonal
     float m_inverse_d[most_joint_rows] = {};
 };
 
 template <class Couple>
-void HeldBlock::factor(std::size_t count, Couple&& couple)
+HeldBlock::HeldBlock(std::size_t count, Couple&& couple) : m_count(count)
 {
-    m_count = count;
     for (std::size_t i = 0; i < count; ++i)
     {
         const float diagonal = couple(i, i);

@@ -67,21 +67,23 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
     for (JointWork& work : joints)
     {
         work.pose = present_pose(view, work);
-        work.rows = place_rows(state.joints[work.joint], work.pose);
+        place_rows(state.joints[work.joint], work.pose, work.rows);
         weigh_rows(JointBodies(view, work), work.rows);
     }
 }
 
 void weigh_rows(const JointBodies& bodies, JointRows& rows)
 {
+    if (rows.axis_count == 0)
+        return;
     const std::span<const JointRow> held = rows.holds();
-    rows.block.factor(held.size(), [&](std::size_t i, std::size_t j) { return bodies.couple(held[i], held[j]); });
+    const HeldBlock block = bodies.block(held);
     for (JointAxis& axis : rows.axes())
     { // the Schur complement k - c^T K^-1 c, with K of the held rows and c their coupling with the axis
         float coupling[most_joint_rows];
         for (std::size_t i = 0; i < held.size(); ++i)
             axis.reaction[i] = coupling[i] = -bodies.couple(held[i], axis.row);
-        rows.block.solve(axis.reaction);
+        block.solve(axis.reaction);
         axis.inverse_mass = bodies.couple(axis.row, axis.row);
         for (std::size_t i = 0; i < held.size(); ++i)
             axis.inverse_mass -= axis.reaction[i] * coupling[i];

@@ -4,6 +4,7 @@
 
 #include "dynamics/solver/body_state.h"
 #include "dynamics/solver/contact/contact_solver.h"
+#include "dynamics/solver/joint/held_block.h"
 #include "dynamics/solver/joint/joint_rows.h"
 #include "dynamics/state/scene_data.h"
 
@@ -41,6 +42,11 @@ struct JointBodies
     {
         const float k = couple(r, r);
         return k > 0 ? 1 / k : 0;
+    }
+
+    [[nodiscard]] HeldBlock block(std::span<const JointRow> held) const
+    {
+        return {held.size(), [&](std::size_t i, std::size_t j) { return couple(held[i], held[j]); }};
     }
 
     /// Applies an impulse along an axis together with the reaction of the held rows. Soft held rows give only a share of that reaction.
@@ -110,7 +116,7 @@ struct Placement
 /// Computes the poses and rows at the present poses of the bodies; for springs, the poses only.
 void place_joints(const SolverView& view, const SceneState& state, std::span<JointWork> joints);
 
-/// Factors the block of the held rows. Computes the inverse mass along each axis, and how the held rows react to an impulse along it.
+/// Computes the inverse mass along each axis, and how the held rows react to an impulse along it.
 void weigh_rows(const JointBodies& bodies, JointRows& rows);
 
 /// Whether the joint has held rows and nothing else.

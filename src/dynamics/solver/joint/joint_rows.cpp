@@ -9,31 +9,17 @@
 
 namespace carom::internal {
 
-JointRows place_rows(const JointRecord& joint, const JointPose& pose)
+void place_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
 {
-    JointRows rows;
+    out.clear();
     switch (joint.kind)
     {
     case JointType::Spring: break;
-    case JointType::Distance: distance_rows(joint, pose, rows); break;
-    case JointType::Revolute: revolute_rows(joint, pose, rows); break;
-    case JointType::Prismatic: prismatic_rows(joint, pose, rows); break;
-    case JointType::Weld: weld_rows(pose, rows); break;
+    case JointType::Distance: distance_rows(joint, pose, out); break;
+    case JointType::Revolute: revolute_rows(joint, pose, out); break;
+    case JointType::Prismatic: prismatic_rows(joint, pose, out); break;
+    case JointType::Weld: weld_rows(pose, out); break;
     }
-    return rows;
-}
-
-AxisActs acts_of(const JointRecord& joint, float coordinate)
-{
-    AxisActs acts;
-    acts.has_spring = joint.hertz > 0;
-    acts.stretch = coordinate - joint.spring_target;
-    acts.motor_speed = joint.motor_speed;
-    acts.most = joint.enable_motor ? joint.max_motor : 0;
-    acts.has_lower = acts.has_upper = joint.enable_limit;
-    acts.lower_error = coordinate - joint.lower;
-    acts.upper_error = joint.upper - coordinate;
-    return acts;
 }
 
 JointErrors JointWork::errors() const
@@ -53,13 +39,13 @@ JointErrors JointWork::errors() const
 
 bool only_holds(const JointRecord& joint)
 {
-    const JointRows rows = place_rows(joint, {});
+    const JointRows rows = rows_at(joint, {});
     return rows.held_count > 0 && rows.axis_count == 0;
 }
 
 bool loses_energy(const JointRecord& joint)
 {
-    const JointRows rows = place_rows(joint, {});
+    const JointRows rows = rows_at(joint, {});
     return std::ranges::any_of(rows.axes(),
                                [&](const JointAxis& axis)
                                {

@@ -3,7 +3,6 @@
 // A joint as the solver sees it: rows of a Jacobian with their error at the present poses of the bodies. The file of a kind of joint (kinds/) contains only
 // what is specific to it. joint_solver.cpp iterates over the rows of all kinds alike, and the direct solve reads the same rows.
 
-#include "dynamics/solver/joint/held_block.h"
 #include "dynamics/solver/joint/joint_axis.h"
 #include "dynamics/solver/softness.h"
 #include "dynamics/state/scene_state.h"
@@ -19,9 +18,8 @@ struct JointRow
     Vec2 d{};
     float arm_a = 0;
     float arm_b = 0;
-    float error = 0; ///< C
-
-    [[nodiscard]] bool is_angle() const { return d == Vec2{}; }
+    float error = 0;       ///< C
+    bool is_angle = false; ///< d is 0 and both arms are 1
 };
 
 /// A line or angle along which the bodies may move relative to each other, and on which a spring, a motor or limits act.
@@ -42,8 +40,8 @@ struct JointRows
     JointAxis axis[most_joint_axes];
     int held_count = 0;
     int axis_count = 0;
-    HeldBlock block; ///< of the held rows; see weigh_rows
 
+    void clear() { held_count = axis_count = 0; }
     void hold(const JointRow& row) { held[held_count++] = row; }
     void free(int number, const JointRow& row, const AxisActs& acts)
     {
@@ -118,18 +116,34 @@ struct JointWork
     void add(const JointRow& row, float impulse)
     {
         force_sum += impulse * row.d;
-        if (row.is_angle())
+        if (row.is_angle)
             torque_sum += impulse * row.arm_b;
     }
 };
 
 /// All rows of a joint at a pose, with their errors and coordinates; a spring has none.
-[[nodiscard]] JointRows place_rows(const JointRecord& joint, const JointPose& pose);
+void place_rows(const JointRecord& joint, const JointPose& pose, JointRows& out);
+[[nodiscard]] inline JointRows rows_at(const JointRecord& joint, const JointPose& pose)
+{
+    JointRows rows;
+    place_rows(joint, pose, rows);
+    return rows;
+}
 
 /// A row along the world direction d through both anchors.
 [[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error)
 {
     return {.d = d, .arm_a = cross(pose.ra, d), .arm_b = cross(pose.rb, d), .error = error};
+}
+
+/// Rows along the axes of the world.
+[[nodiscard]] inline JointRow x_row(const JointPose& pose, float error)
+{
+    return {.d = {1, 0}, .arm_a = -pose.ra.y, .arm_b = -pose.rb.y, .error = error};
+}
+[[nodiscard]] inline JointRow y_row(const JointPose& pose, float error)
+{
+    return {.d = {0, 1}, .arm_a = pose.ra.x, .arm_b = pose.rb.x, .error = error};
 }
 
 /// A row along a direction that turns with body a, whose lever arm reaches to anchor b.
@@ -139,9 +153,20 @@ struct JointWork
 }
 
 /// A row of the relative angle.
-[[nodiscard]] inline JointRow angle_row(float error) { return {.arm_a = 1, .arm_b = 1, .error = error}; }
+[[nodiscard]] inline JointRow angle_row(float error) { return {.arm_a = 1, .arm_b = 1, .error = error, .is_angle = true}; }
 
 /// The limits, motor and spring of a joint, on an axis that is at this coordinate.
-[[nodiscard]] AxisActs acts_of(const JointRecord& joint, float coordinate);
+[[nodiscard]] inline AxisActs acts_of(const JointRecord& joint, float coordinate)
+{
+    AxisActs acts;
+    acts.has_spring = joint.hertz > 0;
+    acts.stretch = coordinate - joint.spring_target;
+    acts.motor_speed = joint.motor_speed;
+    acts.most = joint.enable_motor ? joint.max_motor : 0;
+    acts.has_lower = acts.has_upper = joint.enable_limit;
+    acts.lower_error = coordinate - joint.lower;
+    acts.upper_error = joint.upper - coordinate;
+    return acts;
+}
 
 } // namespace carom::internal

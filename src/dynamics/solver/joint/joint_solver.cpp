@@ -57,7 +57,7 @@ void solve_held(const JointBodies& bodies, JointRecord& joint, const JointRows& 
     float change[most_joint_rows];
     for (std::size_t i = 0; i < held.size(); ++i)
         change[i] = bodies.speed(held[i]) + s.bias_rate * held[i].error;
-    rows.block.solve(change);
+    bodies.block(held).solve(change);
     for (std::size_t i = 0; i < held.size(); ++i)
     {
         float& impulse = joint.impulses[static_cast<std::size_t>(slot_held) + i];
@@ -105,8 +105,8 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Solv
     work.axis0 = joint.body_a == none ? joint.axis_a
                                       : rotate(ctx.state.sims[static_cast<std::size_t>(joint.body_a)].rotation, joint.axis_a);
     JointPose pose{.ra = work.ra0, .rb = work.rb0, .gap = work.gap0, .axis = work.axis0};
-    const JointRows rows = place_rows(joint, pose);
-    const auto is_angle = [](const JointRow& row) { return row.is_angle(); };
+    const JointRows rows = rows_at(joint, pose);
+    const auto is_angle = [](const JointRow& row) { return row.is_angle; };
     work.wraps = std::ranges::any_of(rows.holds(), is_angle);
     work.needs_angle = work.wraps || std::ranges::any_of(rows.axes(), is_angle, &JointAxis::row);
     if (work.needs_angle)
@@ -258,7 +258,7 @@ void note_stops(const SolverView& view, std::span<const JointWork> joints)
         std::uint16_t& flags = view.states[a_stands ? work.b : work.a].flags;
         for (const JointAxis& axis : work.rows.axes())
         {
-            if (!axis.row.is_angle())
+            if (!axis.row.is_angle)
                 continue;
             if (axis.acts.has_lower && axis.acts.lower_error < tiny)
                 flags |= a_stands ? body_flag::at_lower : body_flag::at_upper;

@@ -141,7 +141,7 @@ float inverse_inertia_about(const StateConstants& c, Vec2 arm)
 // Independent of the poses within the step, so that the spring has an energy.
 float inverse_spring_mass(const JointBodies& bodies, const JointRow& row, const JointWork& work)
 {
-    if (row.is_angle())
+    if (row.is_angle)
         return inverse_inertia_about(bodies.ca, work.ra0) + inverse_inertia_about(bodies.cb, work.rb0);
     const Vec2 k = bodies.ca.inverse_mass + bodies.cb.inverse_mass;
     return k.x * row.d.x * row.d.x + k.y * row.d.y * row.d.y;
@@ -151,7 +151,7 @@ float inverse_spring_mass(const JointBodies& bodies, const JointRow& row, const 
 void kick_along_axes(const SolverView& view, const JointRecord& joint, JointWork& work)
 {
     const JointBodies bodies(view, work);
-    JointRows rows = place_rows(joint, present_pose(view, work));
+    JointRows rows = rows_at(joint, present_pose(view, work));
     weigh_rows(bodies, rows);
     for (const JointAxis& axis : rows.axes())
     {

@@ -69,6 +69,7 @@ void DirectSolve::lay_out()
         Item& item = m_items.emplace_back();
         item.joint = m_edges[i].joint;
         item.held = m_edges[i].held;
+        item.axes = m_edges[i].axes;
         item.first_row = m_matrix.first_row(i);
         item.a = edges[i].a;
         item.b = edges[i].b;
@@ -154,7 +155,7 @@ bool DirectSolve::Item::take_lines()
         Line& line = lines[r];
         changed |= !is_same(now.d.x, line.d.x) || !is_same(now.d.y, line.d.y) || !is_same(now.arm_a, line.arm_a) ||
                    !is_same(now.arm_b, line.arm_b);
-        line = {now.d, now.arm_a, now.arm_b};
+        line = {now.d, now.arm_a, now.arm_b, now.is_angle};
     }
     return changed;
 }

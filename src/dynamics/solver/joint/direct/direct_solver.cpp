@@ -187,12 +187,13 @@ void DirectSolve::note_errors_ahead()
 {
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
         m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
+    JointRows rows;
     for (const Item& item : m_items)
     {
         const JointWork& work = *item.work;
         const Placement a = ahead_of(item.a, work.a);
         const Placement b = ahead_of(item.b, work.b);
-        const JointRows rows = place_rows(*item.record, joint_pose(work, a, b));
+        place_rows(*item.record, joint_pose(work, a, b), rows);
         for (int r = 0; r < item.held; ++r)
             m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(rows.held[r].error);
         for (int r = item.held; r < item.rows(); ++r)
@@ -216,16 +217,14 @@ double DirectSolve::largest_error() const
     double angle = 0;
     for (const Item& item : m_items)
     {
-        for (int r = 0; r < item.held; ++r)
+        const double* speed = &m_speeds[as_index(item.first_row)];
+        for (int r = 0; r < item.rows(); ++r)
         {
-            double& largest = item.row(r).is_angle() ? angle : length;
-            largest = std::max(largest, std::fabs(m_speeds[as_index(item.first_row + r)]));
-        }
-        for (const JointAxis& axis : item.work->rows.axes())
-        {
-            double& largest = axis.row.is_angle() ? angle : length;
-            const double displacement = as_double(m_view.h) * m_speeds[as_index(item.first_row + item.row_of(axis))];
-            largest = std::max(largest, as_double(m_view.inverse_h) * axis.acts.comes_beyond(displacement));
+            const double beyond =
+                r < item.held ? std::fabs(speed[r])
+                              : as_double(m_view.inverse_h) * item.axis(r).acts.comes_beyond(as_double(m_view.h) * speed[r]);
+            double& largest = item.lines[r].is_angle ? angle : length;
+            largest = std::max(largest, beyond);
         }
     }
     const double in_arms = m_longest_arm > 0 ? length / as_double(m_longest_arm) : 0;
@@ -240,7 +239,7 @@ double DirectSolve::largest_gap() const
     {
         for (int r = 0; r < item.held; ++r)
         {
-            if (item.row(r).is_angle())
+            if (item.row(r).is_angle)
                 continue;
             const float open = std::min(std::fabs(item.work->moved[as_index(r)]), std::fabs(item.row(r).error));
             gap = std::max(gap, as_double(open));
@@ -255,7 +254,7 @@ double DirectSolve::largest_turn() const
     double turn = 0;
     for (const Axis& axis : m_axes)
     {
-        if (axis.joint_axis->row.is_angle())
+        if (axis.joint_axis->row.is_angle)
             turn = std::max(turn, as_double(m_view.h) * std::fabs(change_along(axis)));
     }
     return turn;
@@ -276,7 +275,7 @@ void DirectSolve::note_speeds()
 // The greatest speed at which a row that may contradict others closes. It is never less than the speed at which overlap is pushed out.
 float DirectSolve::most_speed(const JointRow& row) const
 {
-    return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.is_angle() ? 1 : m_longest_arm);
+    return m_view.push_speed + static_cast<float>(most_pull) * m_view.inverse_h * (row.is_angle ? 1 : m_longest_arm);
 }
 
 void DirectSolve::limit_speeds()

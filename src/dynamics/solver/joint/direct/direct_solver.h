@@ -79,6 +79,7 @@ private:
         Vec2 d{};
         float arm_a = 0;
         float arm_b = 0;
+        bool is_angle = false;
     };
 
     struct Edge
@@ -98,6 +99,7 @@ private:
     {
         std::size_t joint = 0;
         int held = 0;
+        int axes = 0;
         int first_row = 0;
         int a = JointMatrix::ground; ///< nodes
         int b = JointMatrix::ground;
@@ -105,8 +107,9 @@ private:
         const JointWork* work = nullptr;
         JointRecord* record = nullptr;
 
-        [[nodiscard]] int rows() const { return work->rows.count(); }
+        [[nodiscard]] int rows() const { return held + axes; }
         [[nodiscard]] const JointRow& row(int r) const { return work->rows.row(r); }
+        [[nodiscard]] const JointAxis& axis(int r) const { return work->rows.axis[r - held]; }
         [[nodiscard]] int row_of(const JointAxis& axis) const { return held + static_cast<int>(&axis - work->rows.axis); }
         [[nodiscard]] bool take_lines();
         [[nodiscard]] float& impulse(int row) const { return record->impulses[slot_held + row]; } ///< of a held row

@@ -6,8 +6,8 @@ namespace carom::internal {
 
 void revolute_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
 {
-    out.hold(line_row({1, 0}, pose, pose.gap.x));
-    out.hold(line_row({0, 1}, pose, pose.gap.y));
+    out.hold(x_row(pose, pose.gap.x));
+    out.hold(y_row(pose, pose.gap.y));
     out.free(0, angle_row(pose.angle), acts_of(joint, pose.angle));
 }
 

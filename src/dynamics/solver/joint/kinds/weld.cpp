@@ -6,8 +6,8 @@ namespace carom::internal {
 
 void weld_rows(const JointPose& pose, JointRows& out)
 {
-    out.hold(line_row({1, 0}, pose, pose.gap.x));
-    out.hold(line_row({0, 1}, pose, pose.gap.y));
+    out.hold(x_row(pose, pose.gap.x));
+    out.hold(y_row(pose, pose.gap.y));
     out.hold(angle_row(pose.angle));
 }
 
