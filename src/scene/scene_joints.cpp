@@ -4,6 +4,7 @@
 #include "core/rounding.h"
 #include "core/trigonometry.h"
 #include "dynamics/sleep/wake.h"
+#include "dynamics/solver/joint/joint_rows.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/turns.h"
 #include "scene/access.h"
@@ -329,6 +330,7 @@ JointId Scene::create_joint(const JointDef& def)
             const Vec2 gap =
                 anchor_in_world(state, record.body_b, d.anchor_b) - anchor_in_world(state, record.body_a, d.anchor_a);
             write(record, d, length(gap));
+            derive_traits(record);
             return true;
         },
         def);
@@ -479,6 +481,7 @@ void Joint::set_def(const JointDef& def)
             const Vec2 gap = anchor_in_world(m_data->state, record.body_b, d.anchor_b) -
                              anchor_in_world(m_data->state, record.body_a, d.anchor_a);
             write(record, d, length(gap));
+            derive_traits(record);
             m_data->joint_user_data[static_cast<std::size_t>(slot_of(m_id))] = d.user_data;
             m_data->state.graph_dirty = true;
             if (forbids_now)

@@ -193,8 +193,8 @@ private:
         edge.a = a;
         edge.b = b;
         edge.hinge = fits_joint_lane(joint);
-        edge.holds = only_holds(joint);
-        edge.damped = loses_energy(joint);
+        edge.holds = joint.only_holds;
+        edge.damped = joint.loses_energy;
         edge.binds = !edge.holds && joint.kind != JointType::Spring;
         edge.flies = may_fly(a) || may_fly(b);
     }

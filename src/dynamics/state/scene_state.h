@@ -315,6 +315,8 @@ struct JointRecord
     bool enable_motor = false;
     bool yields = false;        ///< held open by a wall or by other bodies, see DirectSolve::yield
     bool knows_errors = true;   ///< left_errors are valid for the current poses
+    bool only_holds = false;    ///< it has held rows and nothing else; derived, like the next one, when the definition is written
+    bool loses_energy = false;  ///< it dissipates energy in motion: by a brake, or by a spring that is damped within a few swings
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;
     float torque = 0; ///< over the last step, for reading; force likewise

@@ -119,9 +119,4 @@ void place_joints(const SolverView& view, const SceneState& state, std::span<Joi
 /// Computes the inverse mass along each axis, and how the held rows react to an impulse along it.
 void weigh_rows(const JointBodies& bodies, JointRows& rows);
 
-/// Whether the joint has held rows and nothing else.
-[[nodiscard]] bool only_holds(const JointRecord& joint);
-/// Whether the joint dissipates energy in motion: by a brake, or by a spring that is damped within a few swings.
-[[nodiscard]] bool loses_energy(const JointRecord& joint);
-
 } // namespace carom::internal

@@ -37,21 +37,16 @@ JointErrors JointWork::errors() const
     return found;
 }
 
-bool only_holds(const JointRecord& joint)
+void derive_traits(JointRecord& joint)
 {
     const JointRows rows = rows_at(joint, {});
-    return rows.held_count > 0 && rows.axis_count == 0;
-}
-
-bool loses_energy(const JointRecord& joint)
-{
-    const JointRows rows = rows_at(joint, {});
-    return std::ranges::any_of(rows.axes(),
-                               [&](const JointAxis& axis)
-                               {
-                                   const bool brakes = axis.acts.most > 0 && axis.acts.motor_speed == 0;
-                                   return brakes || (axis.acts.has_spring && joint.damping_ratio >= 0.1f);
-                               });
+    joint.only_holds = rows.held_count > 0 && rows.axis_count == 0;
+    joint.loses_energy = std::ranges::any_of(rows.axes(),
+                                             [&](const JointAxis& axis)
+                                             {
+                                                 const bool brakes = axis.acts.most > 0 && axis.acts.motor_speed == 0;
+                                                 return brakes || (axis.acts.has_spring && joint.damping_ratio >= 0.1f);
+                                             });
 }
 
 } // namespace carom::internal

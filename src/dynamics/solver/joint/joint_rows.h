@@ -130,6 +130,9 @@ void place_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
     return rows;
 }
 
+/// Sets what follows from the definition of a joint, once that is written.
+void derive_traits(JointRecord& joint);
+
 /// A row along the world direction d through both anchors.
 [[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error)
 {
