@@ -90,7 +90,7 @@ private:
         l.a = a;
         l.b = b;
         l.flags = flags;
-        l.bucket = 0;
+        l.partition = 0;
         ++m_next;
     }
 

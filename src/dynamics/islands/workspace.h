@@ -32,8 +32,8 @@ struct ContactEdge
     std::int32_t a = none; ///< index in awake_bodies if the body is dynamic; none: it rests; -2 - index: kinematic
     std::int32_t b = none;
     // Not bytes: a store through a byte type may alias anything, and the compiler would reload everything after it.
-    std::uint16_t flags = 0;  ///< see packed_flags
-    std::uint16_t bucket = 0; ///< in a lane: bucket by partition, color and number of points; otherwise the color
+    std::uint16_t flags = 0;     ///< see packed_flags
+    std::uint16_t partition = 0; ///< in a lane
 
     [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
     [[nodiscard]] int points() const { return flags >> 6 & 3; }

@@ -158,8 +158,7 @@ void cache_constraints(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     CachedConstraints& cached = scratch.cached_constraints;
-    const auto may_stay = [&](const ContactEdge& l)
-    { return !l.has(edge_flag::solved) || (l.has(edge_flag::plain) && leans_on_statics(ctx.state, l)); };
+    const auto may_stay = [&](const ContactEdge& l) { return !l.has(edge_flag::solved) || leans_on_statics(ctx.state, l); };
     cached.are_valid = ctx.state.joints.count() == 0 && !scratch.graph.has_kinematic && !scratch.solver.islands.empty() &&
                        std::ranges::all_of(scratch.graph.edges, may_stay);
     if (!cached.are_valid)

@@ -51,7 +51,8 @@ void fill_block(const StepContext& ctx, const Island& island, std::int32_t g)
     const std::int32_t first_lane = (island.first_wide + g) * lane_count;
     WideContact& constraint = ctx.scratch.solver.wide_contacts[as_index(island.wide_store + g)];
     WideContactNotes& notes = ctx.scratch.solver.wide_notes[as_index(island.wide_store + g)];
-    notes.count = 0;
+    WideFeatures& features = ctx.scratch.solver.wide_features[as_index(island.wide_store + g)];
+    notes.count = notes.featured = 0;
     for (int i = 0; i < lane_count; ++i)
     {
         prefetch_lane(ctx, as_index(first_lane + i) + 2 * prefetch_distance);
@@ -66,12 +67,24 @@ void fill_block(const StepContext& ctx, const Island& island, std::int32_t g)
         constraint.a.v[i] = l.a;
         constraint.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
-        notes.count = l.points(); // the same in all lanes
+        notes.count = static_cast<std::int16_t>(l.points()); // the same in all lanes
+        notes.featured = l.has(edge_flag::plain) ? 0 : 1;
         Contact& contact = ctx.state.contacts[l.contact];
         contact.wide = (island.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InLane;
     }
     wide_kernels().fill(constraint, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.solver.constants.data());
+    for (int i = 0; notes.featured != 0 && i < lane_count; ++i)
+        fill_features(ctx.state, notes.contact.v[i], features, i);
+}
+
+void take_rolling_impulses(SceneState& state, const WideContactNotes& notes, const WideFeatures& features)
+{
+    for (int i = 0; i < lane_count; ++i)
+    {
+        if (notes.contact.v[i] != none)
+            state.contacts[notes.contact.v[i]].manifold.rolling_impulse = features.rolling_impulse.v[i];
+    }
 }
 
 void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t i)
@@ -184,6 +197,7 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
     Scratch& scratch = ctx.scratch;
     WideContact* const constraints = scratch.solver.wide_contacts.data() + island.wide_store;
     WideContactNotes* const notes = scratch.solver.wide_notes.data() + island.wide_store;
+    const WideFeatures* const features = scratch.solver.wide_features.data() + island.wide_store;
     contact_buckets(scratch, island)
         .for_each(team,
                   [&](int g)
@@ -194,6 +208,8 @@ void commit_island(const StepContext& ctx, const Island& island, WorkerTeam& tea
                           prefetch(notes[as_index(g) + prefetch_distance]);
                       }
                       wide_kernels().take_impulses(constraints[g], notes[g], &ctx.state.contacts[0], ctx.state.impulses.data());
+                      if (notes[g].featured != 0)
+                          take_rolling_impulses(ctx.state, notes[g], features[g]);
                   });
     for_each_place(team, island.first_constraint, island.constraint_count,
                    [&](std::int32_t i) { commit_constraint(ctx.state, scratch.solver.constraints[as_index(i)]); });

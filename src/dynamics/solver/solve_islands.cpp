@@ -108,6 +108,7 @@ void form_batches(Scratch& scratch)
     }
     scratch.solver.wide_contacts.make_room(static_cast<std::size_t>(blocks));
     scratch.solver.wide_notes.make_room(static_cast<std::size_t>(blocks));
+    scratch.solver.wide_features.make_room(static_cast<std::size_t>(blocks));
     set_size(scratch.solver.struck, scratch.solver.wide_contacts.size());
 }
 

@@ -58,8 +58,9 @@ struct Island
     std::int32_t colors = 0;
     /// Buckets of its wide contact constraints, partition by partition, in bucket_starts; one more start marks the end.
     std::int32_t first_bucket = 0;
-    std::int32_t bucket_count = 0; ///< in each partition, and of boundary constraints: two to a color
-    std::int32_t partitions = 0;   ///< of the plane; threads solve them side by side
+    std::int32_t bucket_count =
+        0; ///< in each partition, and of boundary constraints: two to a color, twice where some contact has features
+    std::int32_t partitions = 0; ///< of the plane; threads solve them side by side
     std::int32_t first_joint_lane = 0;
     std::int32_t joint_lane_count = 0;
     std::int32_t first_joint_bucket = 0;
@@ -78,7 +79,8 @@ struct WideCore
     float depth;         ///< the greatest depth allowed
 };
 
-inline constexpr int buckets_to_a_partition = 2 * color_limit;
+inline constexpr int plain_buckets = 2 * color_limit;            ///< at most, in a partition
+inline constexpr int buckets_to_a_partition = 2 * plain_buckets; ///< those of contacts with features come behind
 
 /// An impulse on a body of another island, or on a sleeping one: it takes effect at the end of the step.
 struct DeferredImpulse
@@ -177,6 +179,7 @@ struct SolverWorkspace
     std::vector<std::int32_t> impact_constraints;
     BlankArray<WideContact> wide_contacts;
     BlankArray<WideContactNotes> wide_notes; ///< one for each block
+    BlankArray<WideFeatures> wide_features;  ///< likewise
     std::vector<std::uint8_t> struck;        ///< bits of lanes, one byte for each block, as the kernels find them
     std::vector<std::int32_t> bucket_starts; ///< block indices, counted from the island's first block
     std::vector<std::int32_t> joint_bucket_starts;

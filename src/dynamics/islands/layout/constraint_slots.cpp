@@ -173,6 +173,7 @@ private:
                 some.uncolored.clear();
                 some.cores.clear();
                 some.colors = 0;
+                some.has_features = false;
                 for (std::size_t i = first; i < std::min(last, edges().size()); ++i)
                 {
                     ContactEdge& l = edges()[i];
@@ -220,32 +221,30 @@ private:
     void count(ContactEdge& l, SlotsOfTask& some) const
     {
         const int color = l.color();
-        const bool in_lane = m_island.policy.wide_contacts && color != color_limit && l.has(edge_flag::plain) &&
-                             (m_is_uniform || give_evenly(m_ctx, l));
+        const bool in_lane = m_island.policy.wide_contacts && color != color_limit && (m_is_uniform || give_evenly(m_ctx, l));
         l.flags = static_cast<std::uint16_t>(l.flags | (in_lane ? edge_flag::in_lane : 0));
-        l.bucket = static_cast<std::uint16_t>(in_lane ? bucket_of(l) : color);
+        l.partition = static_cast<std::uint16_t>(in_lane ? partition_of(l) : 0);
         ++some.place_for(l);
         some.colors |= color != color_limit ? std::uint64_t{1} << color : 0;
-    }
-
-    // Bucket of a lane, by partition, color and number of points.
-    [[nodiscard]] int bucket_of(const ContactEdge& l) const
-    {
-        return partition_of(l) * buckets_to_a_partition + 2 * l.color() + (l.points() == 2 ? 0 : 1);
+        some.has_features |= in_lane && !l.has(edge_flag::plain);
     }
 
     // --- slots ------------------------------------------------------------------------------------------------------------------------
 
-    // Each wide constraint has eight lanes of one partition, one color and one number of points.
+    // Each wide constraint has eight lanes of one partition, one color and one number of points, all with features or all without.
     void give_out_places(std::span<SlotsOfTask> tasks)
     {
         std::uint64_t colors = 0;
+        bool has_features = false;
         for (const SlotsOfTask& some : tasks)
+        {
             colors |= some.colors;
+            has_features |= some.has_features;
+        }
         m_island.colors = static_cast<std::int32_t>(std::bit_width(colors));
         auto lane = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size());
         m_island.first_bucket = static_cast<std::int32_t>(m_scratch.solver.bucket_starts.size());
-        m_island.bucket_count = 2 * m_island.colors;
+        m_island.bucket_count = (has_features ? 4 : 2) * m_island.colors;
         for (std::int32_t partition = 0; partition <= m_island.partitions; ++partition)
         {
             for (std::int32_t bucket = 0; bucket < m_island.bucket_count; ++bucket)
@@ -253,7 +252,7 @@ private:
                 m_scratch.solver.bucket_starts.push_back(lane / lane_count - m_island.first_wide);
                 give_out(
                     tasks, [&](SlotsOfTask& some) -> std::int32_t&
-                    { return some.lanes[as_index(partition * buckets_to_a_partition + bucket)]; }, lane);
+                    { return some.lanes[as_index(partition * buckets_to_a_partition + place_of(bucket))]; }, lane);
                 lane = (lane + lane_count - 1) / lane_count * lane_count;
             }
         }
@@ -267,6 +266,13 @@ private:
         make_room(m_scratch.layout.lane_edges, as_index(lane));
         m_scratch.layout.lane_edges.resize(as_index(lane), none);
         set_size(m_scratch.layout.constraint_edges, as_index(constraint));
+    }
+
+    // Place of a bucket in SlotsOfTask::lanes.
+    [[nodiscard]] int place_of(int bucket) const
+    {
+        const int plain = 2 * m_island.colors;
+        return bucket < plain ? bucket : plain_buckets + bucket - plain;
     }
 
     // Replaces each task's count of a bucket by the slot of the task's first edge.
@@ -297,7 +303,10 @@ private:
                 add_core(l, at, some);
         }
         for (std::int32_t partition = 0; partition <= m_island.partitions; ++partition)
-            std::fill_n(some.lanes.begin() + partition * buckets_to_a_partition, m_island.bucket_count, 0);
+        {
+            for (std::int32_t bucket = 0; bucket < m_island.bucket_count; ++bucket)
+                some.lanes[as_index(partition * buckets_to_a_partition + place_of(bucket))] = 0;
+        }
         for_each_constraint_bucket([&](int color) { some.constraints[color] = 0; });
     }
 

@@ -16,8 +16,7 @@ void refill_islands(StepContext& ctx);
 [[nodiscard]] bool is_uniform(const StepContext& ctx, const Island& island);
 [[nodiscard]] bool has_even_mass(const StepContext& ctx, std::int32_t state);
 
-/// Does each body have the same inverse mass along both axes? Otherwise the constraint is solved outside of lanes, as are contacts with rolling resistance or
-/// surface speed.
+/// Does each body have the same inverse mass along both axes? Otherwise the constraint is solved outside of lanes.
 template <class AnyEdge>
 [[nodiscard]] bool give_evenly(const StepContext& ctx, const AnyEdge& l)
 {

@@ -16,15 +16,23 @@ namespace carom::internal {
 /// Slots of a task's contact edges: first the number of edges in each bucket, then the slot of the next one. All 0 between steps.
 struct SlotsOfTask
 {
-    std::vector<std::int32_t> lanes; ///< by bucket, which includes the partition
+    std::vector<std::int32_t> lanes; ///< by partition and bucket
     std::int32_t constraints[color_limit + 1] = {};
     std::uint64_t colors = 0;            ///< colors of its edges, one bit each
+    bool has_features = false;           ///< whether some edge in a lane is not plain
     std::vector<std::int32_t> uncolored; ///< indices among the island's edges
     std::vector<WideCore> cores;
 
     [[nodiscard]] std::int32_t& place_for(const ContactEdge& l)
     {
-        return l.has(edge_flag::in_lane) ? lanes[l.bucket] : constraints[l.bucket];
+        return l.has(edge_flag::in_lane) ? lanes[static_cast<std::size_t>(place_of(l))] : constraints[l.color()];
+    }
+
+private:
+    [[nodiscard]] static int place_of(const ContactEdge& l)
+    {
+        const int kind = l.has(edge_flag::plain) ? 0 : plain_buckets;
+        return l.partition * buckets_to_a_partition + kind + 2 * l.color() + (l.points() == 2 ? 0 : 1);
     }
 };
 

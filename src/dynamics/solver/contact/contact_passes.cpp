@@ -21,6 +21,7 @@ constexpr int passes_of_deep_overlaps = 7;
 ContactPasses::ContactPasses(SolvedIsland& work)
     : m_work(work), m_wide(work.scratch.solver.wide_contacts.data() + work.island.wide_store),
       m_notes(work.scratch.solver.wide_notes.data() + work.island.wide_store),
+      m_features(work.scratch.solver.wide_features.data() + work.island.wide_store),
       m_struck(work.scratch.solver.struck.data() + work.island.wide_store),
       m_softness{
           work.ctx.h,         work.view.inverse_h, work.view.push_speed, work.ctx.contact_softness, work.ctx.static_softness,
@@ -126,7 +127,7 @@ void ContactPasses::take_from_sums(int first, int last) const
 // Blocks of one bucket.
 WideBucket ContactPasses::lanes(int first, int last) const
 {
-    return {m_wide + first, m_notes + first, last - first, are_constraints_far(m_work.island)};
+    return {m_wide + first, m_notes + first, m_features + first, last - first, are_constraints_far(m_work.island)};
 }
 
 void ContactPasses::solve_lanes(int first, int last) const

@@ -51,6 +51,7 @@ private:
     SolvedIsland& m_work;
     WideContact* m_wide;
     WideContactNotes* m_notes;
+    WideFeatures* m_features;
     std::uint8_t* m_struck; ///< bits of lanes, for each block
     WideSoftness m_softness;
     Partitions m_partitions;

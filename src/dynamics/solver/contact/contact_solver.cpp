@@ -188,13 +188,13 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
     for (ContactConstraint& constraint : constraints)
     {
         const Pair pair(view, constraint);
-        if (constraint.rolling > 0)
-            solve_rolling(pair, constraint);
         if (constraint.count == 2 && constraint.coupling != 0)
             solve_both_normals(view, pair, constraint, use_bias);
         else
             for (int i = 0; i < constraint.count; ++i)
                 solve_normal(view, pair, constraint, constraint.points[i], use_bias);
+        if (constraint.rolling > 0)
+            solve_rolling(pair, constraint);
         for (int i = 0; i < constraint.count; ++i)
             solve_friction(pair, constraint, constraint.points[i]);
     }

@@ -30,7 +30,7 @@ struct SolverView
 
 void warm_start(const SolverView& view, std::span<ContactConstraint> constraints);
 
-/// One pass of sequential impulses: rolling, then the normal direction, then friction. With bias the soft constraint also
+/// One pass of sequential impulses: the normal direction, then rolling and friction within the load just found. With bias the soft constraint also
 /// removes overlap; without it ("relax") the pass only stops approach, which takes out the speed that the bias put in.
 void solve_contact_constraints(const SolverView& view, std::span<ContactConstraint> constraints, bool use_bias);
 

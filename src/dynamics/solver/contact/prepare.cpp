@@ -133,6 +133,13 @@ float core_depth(const SceneState& state, const Contact& contact, const Manifold
     return depth;
 }
 
+float rolling_length(const SceneState& state, const Contact& contact)
+{
+    const Leaf& a = state.shapes[contact.shape_a].leaf;
+    const Leaf& b = state.shapes[contact.shape_b].leaf;
+    return contact.rolling_resistance * std::fmax(traits_of(a).is_bounded ? a.r0 : 0, b.r0);
+}
+
 void scale_constraint(ContactConstraint& constraint, float by)
 {
     constraint.rolling_impulse *= by;
@@ -188,12 +195,8 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         scale_constraint(constraint, 1 / static_cast<float>(ctx.subdivisions));
     if (contact.rolling_resistance > 0)
     {
-        // The limit is a length: coefficient times the radius of the rolling shape.
-        const Leaf& leaf_a = ctx.state.shapes[contact.shape_a].leaf;
-        const Leaf& leaf_b = ctx.state.shapes[contact.shape_b].leaf;
-        const float radius = std::fmax(traits_of(leaf_a).is_bounded ? leaf_a.r0 : 0, leaf_b.r0);
         const float k = ca.inverse_inertia + cb.inverse_inertia;
-        constraint.rolling = contact.rolling_resistance * radius;
+        constraint.rolling = rolling_length(ctx.state, contact);
         constraint.rolling_impulse = manifold.rolling_impulse / static_cast<float>(ctx.subdivisions);
         constraint.rolling_mass = k > 0 ? 1 / k : 0;
     }

@@ -51,6 +51,9 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
 /// The depth that a contact with an immovable body may reach: half of the inner radius of the other side. Boxes that were put deeper come out by themselves.
 [[nodiscard]] float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives);
 
+/// The rolling resistance of a contact as a length: coefficient times the radius of the rolling shape, m.
+[[nodiscard]] float rolling_length(const SceneState& state, const Contact& contact);
+
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the constraint.
 void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& manifold);
 

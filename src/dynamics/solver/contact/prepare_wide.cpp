@@ -5,6 +5,7 @@
 #include "collision/edge_rules.h"
 #include "core/index.h"
 #include "dynamics/narrowphase/manifold_cache.h"
+#include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/joint/joint_bodies.h"
 #include "dynamics/solver/joint/joint_solver.h"
 #include "dynamics/state/scene_data.h"
@@ -20,11 +21,13 @@ struct Lane
 {
     WideContact& constraint;
     WideContactNotes& notes;
+    WideFeatures& features;
     int i;
 
     Lane(Scratch& scratch, std::int32_t lane)
         : constraint(scratch.solver.wide_contacts[as_index(lane / lane_count)]),
-          notes(scratch.solver.wide_notes[as_index(lane / lane_count)]), i(lane % lane_count)
+          notes(scratch.solver.wide_notes[as_index(lane / lane_count)]),
+          features(scratch.solver.wide_features[as_index(lane / lane_count)]), i(lane % lane_count)
     {}
 
     // J M^-1 J^T of the normal, as in the kernels.
@@ -49,6 +52,15 @@ bool are_distinct(const Lane& lane)
 }
 
 } // namespace
+
+void fill_features(const SceneState& state, std::int32_t contact, WideFeatures& features, int i)
+{
+    static constexpr Contact nobody{};
+    const Contact& of = contact == none ? nobody : state.contacts[contact];
+    features.surface_speed.v[i] = of.surface_speed;
+    features.rolling.v[i] = of.rolling_resistance > 0 ? rolling_length(state, of) : 0;
+    features.rolling_impulse.v[i] = of.rolling_resistance > 0 ? of.manifold.rolling_impulse : 0;
+}
 
 void clear_sums(WideContact& constraint, WideContactNotes& notes)
 {
@@ -82,7 +94,7 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact&
     constraint.inverse_mass_b.v[i] = b.inverse_mass.x;
     constraint.inverse_inertia_a.v[i] = a.inverse_inertia;
     constraint.inverse_inertia_b.v[i] = b.inverse_inertia;
-    notes.count = m.count;
+    notes.count = static_cast<std::int16_t>(m.count);
     if (caches_edge_of_b(contact))
         notes.edge_of_b |= 1u << i;
     if (caches_nearest(contact))
@@ -99,6 +111,9 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact&
         p.normal_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].normal;
         p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
     }
+    if (notes.featured != 0)
+        fill_features(ctx.state, states.contact,
+                      *(ctx.scratch.solver.wide_features.data() + (&notes - ctx.scratch.solver.wide_notes.data())), i);
     ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
     if (!touches(contact))
         notes.unreported |= 1u << i;
@@ -117,6 +132,14 @@ ContactConstraint constraint_of_lane(Scratch& scratch, std::int32_t index)
     constraint.count = lane.notes.count;
     constraint.n = {lane.constraint.nx.v[i], lane.constraint.ny.v[i]};
     constraint.friction = lane.constraint.friction.v[i];
+    if (lane.notes.featured != 0)
+    {
+        const float k = lane.constraint.inverse_inertia_a.v[i] + lane.constraint.inverse_inertia_b.v[i];
+        constraint.surface_speed = lane.features.surface_speed.v[i];
+        constraint.rolling = lane.features.rolling.v[i];
+        constraint.rolling_impulse = lane.features.rolling_impulse.v[i];
+        constraint.rolling_mass = k > 0 ? 1 / k : 0;
+    }
     if (constraint.count == 2 && are_distinct(lane))
         constraint.coupling = lane.constraint.coupling.v[i];
     const auto arm = [&](float along, float across) { return along * constraint.n - across * perp(constraint.n); };
@@ -170,6 +193,7 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     constraint.inverse_mass_a.v[i] = constraint.inverse_mass_b.v[i] = constraint.inverse_inertia_a.v[i] =
         constraint.inverse_inertia_b.v[i] = 0;
     constraint.coupling.v[i] = 0;
+    fill_features(ctx.state, none, lane.features, i);
     for (WidePoint& p : constraint.points)
         p.base.v[i] = p.separation.v[i] = p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
     notes.loaded &= ~(1u << i);

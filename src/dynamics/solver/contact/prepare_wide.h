@@ -7,6 +7,8 @@
 namespace carom::internal {
 
 /// Clears what a constraint sums up over a step.
+/// Fills the features of one lane from its contact; for an empty lane they are 0.
+void fill_features(const SceneState& state, std::int32_t contact, WideFeatures& features, int i);
 void clear_sums(WideContact& constraint, WideContactNotes& notes);
 
 /// Writes the contact of an edge between states into a lane that it has occupied before, as

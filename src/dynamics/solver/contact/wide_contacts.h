@@ -46,6 +46,14 @@ struct alignas(64) WideContact
 };
 static_assert(sizeof(WideContact) == 1024);
 
+/// Rolling resistance and conveyors, beside the constraints of the buckets that have them; other buckets neither read nor write theirs.
+struct alignas(64) WideFeatures
+{
+    LaneFloats surface_speed;
+    LaneFloats rolling; ///< torque limit over normal impulse, m
+    LaneFloats rolling_impulse;
+};
+
 /// The contacts in the lanes of a constraint and what is known of them; masks have a bit for each lane.
 struct alignas(64) WideContactNotes
 {
@@ -53,7 +61,8 @@ struct alignas(64) WideContactNotes
     LaneInts body_a;
     LaneInts body_b;
     LaneFloats approach[2];   ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
-    std::int32_t count;       ///< number of points, the same in all lanes
+    std::int16_t count;       ///< number of points, the same in all lanes
+    std::int16_t featured;    ///< whether WideFeatures count; the same in a bucket
     std::uint32_t may_hit;    ///< bore no load when the step began and have not been struck
     std::uint32_t loaded;     ///< the contact has contact_flag::loaded
     std::uint32_t unreported; ///< did not touch when the step began, and the touch is not reported yet
@@ -68,6 +77,7 @@ struct WideBucket
 {
     WideContact* constraints;
     WideContactNotes* notes;
+    WideFeatures* features;
     std::int32_t count;
     bool are_far; ///< they come from memory: later ones are prefetched
 };

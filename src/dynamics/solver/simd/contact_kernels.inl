@@ -82,18 +82,80 @@ CAROM_INLINE void fetch(const WideContact* constraints, const WideContactNotes* 
     }
 }
 
-// Calls pass(constraint, F()) for the blocks of a bucket, two at a time as long as there are two.
-template <class Pass>
+// Rolling resistance and a surface that moves: for the buckets that have them, and for those that have not.
+struct NoFeatures
+{
+    static constexpr bool in_pairs = true;
+
+    CAROM_INLINE explicit NoFeatures(WideFeatures&) {}
+
+    template <class F>
+    CAROM_INLINE F surface_speed() const
+    {
+        return F(0);
+    }
+    template <class Group>
+    CAROM_INLINE void start(Group&) const
+    {}
+    template <class Group>
+    CAROM_INLINE void roll(Group&, const WideContact&, int) const
+    {}
+};
+
+struct Featured
+{
+    static constexpr bool in_pairs = false;
+    WideFeatures& of;
+
+    CAROM_INLINE explicit Featured(WideFeatures& features) : of(features) {}
+
+    template <class F>
+    CAROM_INLINE F surface_speed() const
+    {
+        return load(of.surface_speed);
+    }
+    template <class Group>
+    CAROM_INLINE void start(Group& g) const
+    {
+        g.twist(load(of.rolling_impulse));
+    }
+    // A torque that stops rolling, at most the limit length times the load.
+    template <class Group>
+    CAROM_INLINE void roll(Group& g, const WideContact& constraint, int points) const
+    {
+        F8 loads = load(constraint.points[0].normal_impulse);
+        if (points == 2)
+            loads = loads + load(constraint.points[1].normal_impulse);
+        const F8 limit = load(of.rolling) * loads;
+        const F8 k = g.inertia_a + g.inertia_b;
+        const F8 old = load(of.rolling_impulse);
+        const F8 wanted = old + select(k > all(0), (g.a.w - g.b.w) / k, all(0));
+        const F8 updated = clamp(wanted, -limit, limit);
+        store(of.rolling_impulse, updated);
+        g.twist(updated - old);
+    }
+};
+
+// Calls pass(constraint, features, F()) for the blocks of a bucket, two at a time as long as there are two and they have no features.
+template <class Features, class Pass>
 CAROM_INLINE void for_each_block(const WideBucket& bucket, const Pass& pass)
 {
     for (std::int32_t i = 0; i < bucket.count; i += 2)
     {
         if (bucket.are_far)
             fetch(bucket.constraints + i, bucket.notes + i);
-        if (i + 1 < bucket.count)
-            pass(bucket.constraints[i], F16());
-        else
-            pass(bucket.constraints[i], F8());
+        const bool is_pair = i + 1 < bucket.count;
+        if constexpr (Features::in_pairs)
+        {
+            if (is_pair)
+            {
+                pass(bucket.constraints[i], Features(bucket.features[i]), F16());
+                continue;
+            }
+        }
+        pass(bucket.constraints[i], Features(bucket.features[i]), F8());
+        if (is_pair)
+            pass(bucket.constraints[i + 1], Features(bucket.features[i + 1]), F8());
     }
 }
 
@@ -153,6 +215,12 @@ struct Group
         a.w -= inertia_a * read<F>(p.along_a) * impulse;
         b.w += inertia_b * read<F>(p.along_b) * impulse;
         pt += impulse;
+    }
+
+    CAROM_INLINE void twist(F impulse)
+    {
+        a.w -= inertia_a * impulse;
+        b.w += inertia_b * impulse;
     }
 
     CAROM_INLINE void finish(const WideContact& constraint, BodyState* states)
@@ -275,18 +343,18 @@ CAROM_INLINE void solve_normals(Group<F>& g, WideContact& constraint, const Targ
 }
 
 template <class F>
-CAROM_INLINE F solve_friction(Group<F>& g, WidePoint& p, F friction)
+CAROM_INLINE F solve_friction(Group<F>& g, WidePoint& p, F friction, F surface_speed)
 {
     const F limit = friction * read<F>(p.normal_impulse);
     const F old = read<F>(p.tangent_impulse);
-    const F updated = clamp(old - read<F>(p.tangent_mass) * g.tangent_speed(p), -limit, limit);
+    const F updated = clamp(old - read<F>(p.tangent_mass) * (g.tangent_speed(p) - surface_speed), -limit, limit);
     write(p.tangent_impulse, updated);
     g.rub(p, updated - old);
     return updated;
 }
 
-template <class F, int points>
-CAROM_INLINE void solve_block(WideContact& constraint, BodyState* states, const WideSoftness& s)
+template <class F, int points, class Features>
+CAROM_INLINE void solve_block(WideContact& constraint, const Features& features, BodyState* states, const WideSoftness& s)
 {
     Group<F> g(constraint, states);
     const Soft<F> soft(g, s);
@@ -295,9 +363,10 @@ CAROM_INLINE void solve_block(WideContact& constraint, BodyState* states, const 
         solve_normals(g, constraint, t, target_of(g, constraint.points[1], soft, s));
     else
         solve_normal(g, constraint.points[0], t);
+    features.roll(g, constraint, points);
     const F friction = read<F>(constraint.friction);
     for (int i = 0; i < points; ++i)
-        solve_friction(g, constraint.points[i], friction);
+        solve_friction(g, constraint.points[i], friction, features.template surface_speed<F>());
     g.finish(constraint, states);
 }
 
@@ -305,8 +374,8 @@ CAROM_INLINE void solve_block(WideContact& constraint, BodyState* states, const 
 CAROM_INLINE F8 of_both(F8 x) { return x; }
 CAROM_INLINE F8 of_both(F16 x) { return least(first_eight(x), second_eight(x)); }
 
-template <class F, int points>
-CAROM_INLINE F8 relax_block(WideContact& constraint, BodyState* states, const WideSoftness& s)
+template <class F, int points, class Features>
+CAROM_INLINE F8 relax_block(WideContact& constraint, const Features& features, BodyState* states, const WideSoftness& s)
 {
     Group<F> g(constraint, states);
     const Displacement<F> d(constraint, g, states);
@@ -317,10 +386,11 @@ CAROM_INLINE F8 relax_block(WideContact& constraint, BodyState* states, const Wi
         solve_normal(g, constraint.points[0], t);
     for (int i = 0; i < points; ++i)
         write(constraint.points[i].total_impulse, read<F>(constraint.points[i].total_impulse) + s.share * read<F>(constraint.points[i].normal_impulse));
+    features.roll(g, constraint, points);
     const F friction = read<F>(constraint.friction);
     for (int i = 0; i < points; ++i)
     {
-        const F tangent = solve_friction(g, constraint.points[i], friction);
+        const F tangent = solve_friction(g, constraint.points[i], friction, features.template surface_speed<F>());
         write(constraint.points[i].total_tangent, read<F>(constraint.points[i].total_tangent) + s.share * tangent);
     }
     g.finish(constraint, states);
@@ -360,10 +430,11 @@ CAROM_INLINE std::uint8_t struck_lanes(const WideContact& constraint, WideContac
     return static_cast<std::uint8_t>((loaded & notes.unreported) | (bits(struck) & notes.may_hit));
 }
 
-template <class F, int points>
-CAROM_INLINE void warm_start_block(WideContact& constraint, BodyState* states)
+template <class F, int points, class Features>
+CAROM_INLINE void warm_start_block(WideContact& constraint, const Features& features, BodyState* states)
 {
     Group<F> g(constraint, states);
+    features.start(g);
     for (int i = 0; i < points; ++i)
     {
         g.push(constraint.points[i], read<F>(constraint.points[i].normal_impulse));
@@ -372,18 +443,19 @@ CAROM_INLINE void warm_start_block(WideContact& constraint, BodyState* states)
     g.finish(constraint, states);
 }
 
-template <int points>
+template <int points, class Features>
 void solve_bucket(WideBucket bucket, BodyState* states, WideSoftness s)
 {
-    for_each_block(bucket, [&](WideContact& constraint, auto lanes) { solve_block<decltype(lanes), points>(constraint, states, s); });
+    for_each_block<Features>(bucket, [&](WideContact& constraint, const Features& features, auto lanes)
+                             { solve_block<decltype(lanes), points>(constraint, features, states, s); });
 }
 
-template <int points>
+template <int points, class Features>
 float relax_bucket(WideBucket bucket, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
 {
     F8 deepest = all(0);
-    for_each_block(bucket, [&](WideContact& constraint, auto lanes)
-                   { deepest = least(deepest, relax_block<decltype(lanes), points>(constraint, states, s)); });
+    for_each_block<Features>(bucket, [&](WideContact& constraint, const Features& features, auto lanes)
+                             { deepest = least(deepest, relax_block<decltype(lanes), points>(constraint, features, states, s)); });
     for (int i = 0; i < bucket.count; ++i)
         struck[i] = struck_lanes<points>(bucket.constraints[i], bucket.notes[i], before, s.rest_speed);
     LaneFloats of_lanes;
@@ -391,29 +463,38 @@ float relax_bucket(WideBucket bucket, BodyState* states, WideSoftness s, const B
     return *std::min_element(std::begin(of_lanes.v), std::end(of_lanes.v));
 }
 
-template <int points>
+template <int points, class Features>
 void warm_start_bucket(WideBucket bucket, BodyState* states)
 {
     bucket.are_far = true; // the first pass over constraints that no near cache holds
-    for_each_block(bucket, [&](WideContact& constraint, auto lanes) { warm_start_block<decltype(lanes), points>(constraint, states); });
+    for_each_block<Features>(bucket, [&](WideContact& constraint, const Features& features, auto lanes)
+                             { warm_start_block<decltype(lanes), points>(constraint, features, states); });
+}
+
+// The function for the number of points and the features of a bucket.
+template <class Function>
+CAROM_INLINE Function* of_bucket(const WideBucket& bucket, Function* one, Function* two, Function* featured_one, Function* featured_two)
+{
+    const bool has_two = bucket.notes->count == 2;
+    return bucket.notes->featured != 0 ? (has_two ? featured_two : featured_one) : (has_two ? two : one);
 }
 
 void warm_start(const WideBucket& bucket, BodyState* states)
 {
-    const auto start_points = bucket.notes->count == 2 ? warm_start_bucket<2> : warm_start_bucket<1>;
-    start_points(bucket, states);
+    of_bucket(bucket, warm_start_bucket<1, NoFeatures>, warm_start_bucket<2, NoFeatures>, warm_start_bucket<1, Featured>,
+              warm_start_bucket<2, Featured>)(bucket, states);
 }
 
 void solve(const WideBucket& bucket, BodyState* states, const WideSoftness& s)
 {
-    const auto solve_points = bucket.notes->count == 2 ? solve_bucket<2> : solve_bucket<1>;
-    solve_points(bucket, states, s);
+    of_bucket(bucket, solve_bucket<1, NoFeatures>, solve_bucket<2, NoFeatures>, solve_bucket<1, Featured>, solve_bucket<2, Featured>)(
+        bucket, states, s);
 }
 
 float relax(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
 {
-    const auto relax_points = bucket.notes->count == 2 ? relax_bucket<2> : relax_bucket<1>;
-    return relax_points(bucket, states, s, before, struck);
+    return of_bucket(bucket, relax_bucket<1, NoFeatures>, relax_bucket<2, NoFeatures>, relax_bucket<1, Featured>, relax_bucket<2, Featured>)(
+        bucket, states, s, before, struck);
 }
 
 } // namespace contacts

@@ -264,18 +264,8 @@ void DirectSolve::begin_pushes()
 void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
 {
     ContactConstraint& constraint = *contact.constraint;
-    float load = 0;
-    for (int i = 0; i < constraint.count; ++i)
-        load += constraint.points[i].normal_impulse;
     const auto line = [&](Vec2 d, const ConstraintPoint& p)
     { return pushed_line(contact, as_triple(-d, -cross(p.ra, d)), as_triple(d, cross(p.rb, d))); };
-    if (constraint.rolling > 0 && (load > 0 || constraint.rolling_impulse != 0))
-    {
-        const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
-        const float slip = m_view.states[constraint.b].angular_velocity - m_view.states[constraint.a].angular_velocity;
-        push_whole(turn, clamped_change(constraint.rolling_impulse, -turn.mass * slip, -constraint.rolling * load,
-                                        constraint.rolling * load));
-    }
     for (int i = 0; i < constraint.count; ++i)
     {
         ConstraintPoint& p = constraint.points[i];
@@ -286,6 +276,16 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
         const PushedLine normal = line(constraint.n, p);
         const float change = -normal.mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
         push_whole(normal, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
+    }
+    float load = 0;
+    for (int i = 0; i < constraint.count; ++i)
+        load += constraint.points[i].normal_impulse;
+    if (constraint.rolling > 0 && (load > 0 || constraint.rolling_impulse != 0))
+    {
+        const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
+        const float slip = m_view.states[constraint.b].angular_velocity - m_view.states[constraint.a].angular_velocity;
+        push_whole(turn, clamped_change(constraint.rolling_impulse, -turn.mass * slip, -constraint.rolling * load,
+                                        constraint.rolling * load));
     }
     for (int i = 0; i < constraint.count; ++i)
     {
