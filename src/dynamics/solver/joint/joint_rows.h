@@ -41,13 +41,6 @@ struct JointRows
     int held_count = 0;
     int axis_count = 0;
 
-    void clear() { held_count = axis_count = 0; }
-    void hold(const JointRow& row) { held[held_count++] = row; }
-    void free(int number, const JointRow& row, const AxisActs& acts)
-    {
-        if (acts.any())
-            axis[axis_count++] = {.row = row, .acts = acts, .number = number};
-    }
     [[nodiscard]] std::span<const JointRow> holds() const { return {held, static_cast<std::size_t>(held_count)}; }
     [[nodiscard]] std::span<const JointAxis> axes() const { return {axis, static_cast<std::size_t>(axis_count)}; }
     [[nodiscard]] std::span<JointAxis> axes() { return {axis, static_cast<std::size_t>(axis_count)}; }
@@ -130,6 +123,10 @@ void place_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
     return rows;
 }
 
+/// The errors and coordinates of these rows alone, for a pose at which the Jacobian does not matter.
+using RowErrors = std::array<float, most_joint_rows>;
+[[nodiscard]] RowErrors row_errors(const JointRecord& joint, const JointPose& pose);
+
 /// Sets what follows from the definition of a joint, once that is written.
 void derive_traits(JointRecord& joint);
 
@@ -138,25 +135,6 @@ void derive_traits(JointRecord& joint);
 {
     return {.d = d, .arm_a = cross(pose.ra, d), .arm_b = cross(pose.rb, d), .error = error};
 }
-
-/// Rows along the axes of the world.
-[[nodiscard]] inline JointRow x_row(const JointPose& pose, float error)
-{
-    return {.d = {1, 0}, .arm_a = -pose.ra.y, .arm_b = -pose.rb.y, .error = error};
-}
-[[nodiscard]] inline JointRow y_row(const JointPose& pose, float error)
-{
-    return {.d = {0, 1}, .arm_a = pose.ra.x, .arm_b = pose.rb.x, .error = error};
-}
-
-/// A row along a direction that turns with body a, whose lever arm reaches to anchor b.
-[[nodiscard]] inline JointRow carried_row(Vec2 d, const JointPose& pose, float error)
-{
-    return {.d = d, .arm_a = cross(pose.ra + pose.gap, d), .arm_b = cross(pose.rb, d), .error = error};
-}
-
-/// A row of the relative angle.
-[[nodiscard]] inline JointRow angle_row(float error) { return {.arm_a = 1, .arm_b = 1, .error = error, .is_angle = true}; }
 
 /// The limits, motor and spring of a joint, on an axis that is at this coordinate.
 [[nodiscard]] inline AxisActs acts_of(const JointRecord& joint, float coordinate)

@@ -187,18 +187,17 @@ void DirectSolve::note_errors_ahead()
 {
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
         m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
-    JointRows rows;
     for (const Item& item : m_items)
     {
         const JointWork& work = *item.work;
         const Placement a = ahead_of(item.a, work.a);
         const Placement b = ahead_of(item.b, work.b);
-        place_rows(*item.record, joint_pose(work, a, b), rows);
+        const RowErrors errors = row_errors(*item.record, joint_pose(work, a, b));
         for (int r = 0; r < item.held; ++r)
-            m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(rows.held[r].error);
+            m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(errors[as_index(r)]);
         for (int r = item.held; r < item.rows(); ++r)
         {
-            const float displacement = rows.row(r).error - item.row(r).error;
+            const float displacement = errors[as_index(r)] - item.row(r).error;
             m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(displacement);
         }
     }

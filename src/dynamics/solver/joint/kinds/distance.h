@@ -1,10 +1,13 @@
+#pragma once
+
 // Distance joint: C = |gap| - length along the line between the anchors. Equal limits hold it, or spring it where it is soft; different limits bound it.
 
-#include "dynamics/solver/joint/kinds/joint_kinds.h"
+#include "dynamics/solver/joint/joint_rows.h"
 
 namespace carom::internal {
 
-void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
+template <class Equations>
+void distance(const JointRecord& joint, const JointPose& pose, Equations& out)
 {
     const float l = length(pose.gap);
     const Vec2 d = l > 0 ? (1 / l) * pose.gap : Vec2{1, 0};
@@ -12,7 +15,7 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
     const bool is_bounded = joint.lower != joint.upper;
     if (!is_bounded && !is_soft)
     {
-        out.hold(line_row(d, pose, l - joint.lower));
+        out.hold_line(d, l - joint.lower);
         return;
     }
     AxisActs acts;
@@ -22,7 +25,7 @@ void distance_rows(const JointRecord& joint, const JointPose& pose, JointRows& o
     acts.has_upper = is_bounded;
     acts.stretch = acts.lower_error = l - joint.lower;
     acts.upper_error = joint.upper - l;
-    out.free(0, line_row(d, pose, l), acts);
+    out.free_line(0, acts, d, l);
 }
 
 } // namespace carom::internal
