@@ -3,6 +3,7 @@
 #include "dynamics/continuous/impact/reflect.h"
 
 #include "dynamics/continuous/impact/impact_rows.h"
+#include "dynamics/solver/contact/contact_equations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -302,7 +303,7 @@ void rub(Bodies& bodies, std::vector<ImpactRow>& rows)
                 continue;
             const double slip = rate_along(bodies, row, t);
             const double limit = row.friction * row.normal;
-            const double wanted = std::clamp(row.tangent - (slip - row.surface_speed) / k, -limit, limit);
+            const double wanted = friction_impulse(row.tangent, 1 / k, slip - row.surface_speed, limit);
             const double change = wanted - row.tangent;
             row.energy_lost -= change * (slip + 0.5 * k * change);
             row.tangent = wanted;

@@ -14,6 +14,7 @@
 #include "dynamics/solver/contact/contact_solver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::internal {
 
@@ -55,12 +56,9 @@ void solve_rolling(const Pair& pair, ContactConstraint& constraint)
     float load = 0;
     for (int i = 0; i < constraint.count; ++i)
         load += constraint.points[i].normal_impulse;
-    const float limit = constraint.rolling * load;
-    const float wanted =
-        constraint.rolling_impulse + constraint.rolling_mass * (pair.sa.angular_velocity - pair.sb.angular_velocity);
-    const float clamped = std::clamp(wanted, -limit, limit);
-    const float change = clamped - constraint.rolling_impulse;
-    constraint.rolling_impulse = clamped;
+    const float updated = friction_impulse(constraint.rolling_impulse, constraint.rolling_mass,
+                                           pair.sb.angular_velocity - pair.sa.angular_velocity, constraint.rolling * load);
+    const float change = updated - std::exchange(constraint.rolling_impulse, updated);
     pair.sa.angular_velocity -= pair.ca.inverse_inertia * change;
     pair.sb.angular_velocity += pair.cb.inverse_inertia * change;
 }
@@ -69,28 +67,26 @@ void solve_friction(const Pair& pair, const ContactConstraint& constraint, Const
 {
     const Vec2 t = perp(constraint.n);
     const float slip = dot(pair.relative_velocity(p), t) - constraint.surface_speed;
-    const float limit = constraint.friction * p.normal_impulse;
-    const float clamped = std::clamp(p.tangent_impulse - p.tangent_mass * slip, -limit, limit);
-    const float change = clamped - p.tangent_impulse;
-    p.tangent_impulse = clamped;
-    pair.apply(p, change * t);
+    const float updated = friction_impulse(p.tangent_impulse, p.tangent_mass, slip, constraint.friction * p.normal_impulse);
+    pair.apply(p, (updated - std::exchange(p.tangent_impulse, updated)) * t);
 }
 
 // Always inlined: three numbers are otherwise returned through memory, and the load stalls.
-[[gnu::always_inline]] inline NormalTarget target_of_normal(const SolverView& view, const ContactConstraint& constraint,
-                                                            const ConstraintPoint& p, bool use_bias)
+[[gnu::always_inline]] inline NormalTarget<float> target_of_normal(const SolverView& view, const ContactConstraint& constraint,
+                                                                   const ConstraintPoint& p, bool use_bias)
 {
+    const float speed = dot(Pair(view, constraint).relative_velocity(p), constraint.n);
     const float separation = constraint_separation(view, constraint, p);
     if (!use_bias)
-        return {std::max(separation, 0.0f) * view.inverse_h, 1, 0};
+        return {speed, std::max(separation, 0.0f) * view.inverse_h, 1, 1};
     const float ahead = separation + p.predicted_curvature;
     if (ahead > 0)
-        return {ahead * view.inverse_h, 1, 0};
+        return {speed, ahead * view.inverse_h, 1, 1};
     const float soft = std::max(constraint.softness.bias_rate * std::min(separation, 0.0f), -view.push_speed);
     const float bent = soft + (separation > 0 ? ahead : p.predicted_curvature) * view.inverse_h;
-    if (constraint.refreshed)
-        return {bent, 1, 0};
-    return {bent, constraint.softness.mass_scale, constraint.softness.impulse_scale};
+    if (constraint.refreshed != 0)
+        return {speed, bent, 1, 1};
+    return {speed, bent, constraint.softness.mass_scale, 1 / constraint.softness.mass_scale};
 }
 
 void set_normal_impulse(const Pair& pair, const ContactConstraint& constraint, ConstraintPoint& p, float impulse)
@@ -103,44 +99,19 @@ void set_normal_impulse(const Pair& pair, const ContactConstraint& constraint, C
 void solve_normal(const SolverView& view, const Pair& pair, const ContactConstraint& constraint, ConstraintPoint& p,
                   bool use_bias)
 {
-    const NormalTarget target = target_of_normal(view, constraint, p, use_bias);
-    const float speed = dot(pair.relative_velocity(p), constraint.n);
-    const float change = -p.normal_mass * target.mass_scale * (speed + target.bias) - target.impulse_scale * p.normal_impulse;
-    set_normal_impulse(pair, constraint, p, std::max(p.normal_impulse + change, 0.0f)); // contacts push and never pull
+    set_normal_impulse(pair, constraint, p,
+                       normal_impulse(p.normal_mass, p.normal_impulse, target_of_normal(view, constraint, p, use_bias)));
 }
 
-// Solves two points at once. One after the other, they never agree within a pass: each turns the body a little at the
-// expense of the other, boxes that overlap are shot apart and stacks lean. With x the accumulated impulses, it is a
-// linear complementarity problem with four cases: A x + b >= 0, x >= 0, and one of each pair is 0.
 void solve_both_normals(const SolverView& view, const Pair& pair, ContactConstraint& constraint, bool use_bias)
 {
     ConstraintPoint& p = constraint.points[0];
     ConstraintPoint& q = constraint.points[1];
-    const NormalTarget tp = target_of_normal(view, constraint, p, use_bias);
-    const NormalTarget tq = target_of_normal(view, constraint, q, use_bias);
-    const float k11 = 1 / p.normal_mass;
-    const float k22 = 1 / q.normal_mass;
-    const float k12 = constraint.coupling;
-    // Softness is compliance on the diagonal: mass_scale = k / (k + c), impulse_scale = c / (k + c).
-    const float a11 = k11 / tp.mass_scale;
-    const float a22 = k22 / tq.mass_scale;
-    const float b1 = dot(pair.relative_velocity(p), constraint.n) + tp.bias - (k11 * p.normal_impulse + k12 * q.normal_impulse);
-    const float b2 = dot(pair.relative_velocity(q), constraint.n) + tq.bias - (k12 * p.normal_impulse + k22 * q.normal_impulse);
-    const float inverse_det = 1 / (a11 * a22 - k12 * k12);
-    float x = inverse_det * (k12 * b2 - a22 * b1);
-    float y = inverse_det * (k12 * b1 - a11 * b2);
-    if (x < 0 || y < 0)
-    {
-        x = std::max(-b1 / a11, 0.0f);
-        y = 0;
-        if (k12 * x + b2 < 0)
-        { // the second point would sink: it bears the load alone
-            y = std::max(-b2 / a22, 0.0f);
-            x = 0;
-        }
-    }
-    set_normal_impulse(pair, constraint, p, x);
-    set_normal_impulse(pair, constraint, q, y);
+    const NormalImpulses<float> now =
+        normal_impulses(1 / p.normal_mass, 1 / q.normal_mass, constraint.coupling, p.normal_impulse, q.normal_impulse,
+                        target_of_normal(view, constraint, p, use_bias), target_of_normal(view, constraint, q, use_bias));
+    set_normal_impulse(pair, constraint, p, now.first);
+    set_normal_impulse(pair, constraint, q, now.second);
 }
 
 } // namespace
@@ -153,7 +124,8 @@ float constraint_separation(const SolverView& view, const ContactConstraint& con
     return p.base + dot(d, constraint.n);
 }
 
-NormalTarget normal_target(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p, bool use_bias)
+NormalTarget<float> normal_target(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p,
+                                  bool use_bias)
 {
     return target_of_normal(view, constraint, p, use_bias);
 }

@@ -2,6 +2,7 @@
 
 // The passes over contact constraints. Each takes the constraints of one island; h is the sub-step.
 
+#include "dynamics/solver/contact/contact_equations.h"
 #include "dynamics/step_context.h"
 
 #include <span>
@@ -34,16 +35,8 @@ void warm_start(const SolverView& view, std::span<ContactConstraint> constraints
 /// removes overlap; without it ("relax") the pass only stops approach, which takes out the speed that the bias put in.
 void solve_contact_constraints(const SolverView& view, std::span<ContactConstraint> constraints, bool use_bias);
 
-/// The target of a point's normal impulse: a speed of -bias, softened by the scales.
-struct NormalTarget
-{
-    float bias;
-    float mass_scale;
-    float impulse_scale;
-};
-
-[[nodiscard]] NormalTarget normal_target(const SolverView& view, const ContactConstraint& constraint,
-                                         const ConstraintPoint& point, bool use_bias);
+[[nodiscard]] NormalTarget<float> normal_target(const SolverView& view, const ContactConstraint& constraint,
+                                                const ConstraintPoint& point, bool use_bias);
 /// The speed of b's surface relative to a's along perp(n), less the surface speed, m/s.
 [[nodiscard]] float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 

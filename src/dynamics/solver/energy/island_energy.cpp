@@ -3,6 +3,7 @@
 #include "dynamics/solver/energy/island_energy.h"
 
 #include "core/as_double.h"
+#include "core/index.h"
 #include "dynamics/state/turns.h"
 
 #include <algorithm>

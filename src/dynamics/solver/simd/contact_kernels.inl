@@ -1,4 +1,4 @@
-// The contact passes for eight or sixteen lanes; contact_solver.cpp has the equations, and the same for one constraint at a time. Part of kernels.inl.
+// The contact passes for eight or sixteen lanes; contact_solver.cpp has them for one constraint at a time. Part of kernels.inl.
 
 namespace contacts {
 
@@ -126,11 +126,9 @@ struct Featured
         F8 loads = load(constraint.points[0].normal_impulse);
         if (points == 2)
             loads = loads + load(constraint.points[1].normal_impulse);
-        const F8 limit = load(of.rolling) * loads;
         const F8 k = g.inertia_a + g.inertia_b;
         const F8 old = load(of.rolling_impulse);
-        const F8 wanted = old + select(k > all(0), (g.a.w - g.b.w) / k, all(0));
-        const F8 updated = clamp(wanted, -limit, limit);
+        const F8 updated = friction_impulse(old, select(k > all(0), all(1) / k, all(0)), g.b.w - g.a.w, load(of.rolling) * loads);
         store(of.rolling_impulse, updated);
         g.twist(updated - old);
     }
@@ -263,40 +261,34 @@ struct Displacement
 template <class F>
 struct Soft
 {
-    F bias_rate, give;
+    F bias_rate, mass_scale, give;
 
     // Stiff against bodies of infinite mass.
     CAROM_INLINE Soft(const Group<F>& g, const WideSoftness& s)
     {
         const auto stiff = (g.mass_a == F(0)) | (g.mass_b == F(0));
         bias_rate = select(stiff, F(s.stiff.bias_rate), F(s.contact.bias_rate));
+        mass_scale = select(stiff, F(s.stiff.mass_scale), F(s.contact.mass_scale));
         give = select(stiff, F(1 / s.stiff.mass_scale), F(1 / s.contact.mass_scale));
     }
 };
 
-// The target of a normal: its speed should become -bias; give = 1 / mass_scale is the softness.
 template <class F>
-struct Target
-{
-    F speed, bias, give;
-};
-
-template <class F>
-CAROM_INLINE Target<F> target_of(const Group<F>& g, const WidePoint& p, const Soft<F>& soft, const WideSoftness& s)
+CAROM_INLINE NormalTarget<F> target_of(const Group<F>& g, const WidePoint& p, const Soft<F>& soft, const WideSoftness& s)
 {
     const F separation = read<F>(p.separation);
     const auto apart = separation > F(0);
     return {g.normal_speed(p), select(apart, separation * s.inverse_h, greatest(soft.bias_rate * separation, F(-s.push_speed))),
-            select(apart, F(1), soft.give)};
+            select(apart, F(1), soft.mass_scale), select(apart, F(1), soft.give)};
 }
 
 // The target at the new poses, which stay valid until the next sub-step is solved.
 template <class F>
-CAROM_INLINE Target<F> relaxed(const Group<F>& g, WidePoint& p, const Displacement<F>& d, const WideSoftness& s)
+CAROM_INLINE NormalTarget<F> relaxed(const Group<F>& g, WidePoint& p, const Displacement<F>& d, const WideSoftness& s)
 {
     const F separation = d.separation(p);
     write(p.separation, separation);
-    return {g.normal_speed(p), greatest(separation, F(0)) * s.inverse_h, F(1)};
+    return {g.normal_speed(p), greatest(separation, F(0)) * s.inverse_h, F(1), F(1)};
 }
 
 template <class F>
@@ -307,47 +299,30 @@ CAROM_INLINE void set_normal(Group<F>& g, WidePoint& p, F old, F impulse)
 }
 
 template <class F>
-CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const Target<F>& t)
+CAROM_INLINE void solve_normal(Group<F>& g, WidePoint& p, const NormalTarget<F>& t)
 {
-    // k give x + (speed + bias - k old) = 0, x >= 0: softness is compliance beside k.
-    const F k = g.k(p);
     const F old = read<F>(p.normal_impulse);
-    set_normal(g, p, old, greatest((k * old - (t.speed + t.bias)) / (k * t.give), F(0)));
+    set_normal(g, p, old, normal_impulse(F(1) / g.k(p), old, t));
 }
 
-// Solves two points at once. One after the other, they never agree within a pass: each turns the body a little at the expense of the
-// other, and stacks lean. A linear complementarity problem with four cases: A x + b >= 0, x >= 0, and one of each pair is 0.
 template <class F>
-CAROM_INLINE void solve_normals(Group<F>& g, WideContact& constraint, const Target<F>& t1, const Target<F>& t2)
+CAROM_INLINE void solve_normals(Group<F>& g, WideContact& constraint, const NormalTarget<F>& t1, const NormalTarget<F>& t2)
 {
     WidePoint& p = constraint.points[0];
     WidePoint& q = constraint.points[1];
-    const F k11 = g.k(p);
-    const F k22 = g.k(q);
-    const F k12 = read<F>(constraint.coupling);
     const F old1 = read<F>(p.normal_impulse);
     const F old2 = read<F>(q.normal_impulse);
-    const F a11 = k11 * t1.give;
-    const F a22 = k22 * t2.give;
-    const F b1 = t1.speed + t1.bias - (k11 * old1 + k12 * old2);
-    const F b2 = t2.speed + t2.bias - (k12 * old1 + k22 * old2);
-    const F inverse_det = F(1) / (a11 * a22 - k12 * k12);
-    const F both1 = inverse_det * (k12 * b2 - a22 * b1);
-    const F both2 = inverse_det * (k12 * b1 - a11 * b2);
-    const F only1 = greatest(-b1 / a11, F(0));
-    const F only2 = greatest(-b2 / a22, F(0));
-    const auto second_sinks = k12 * only1 + b2 < F(0);
-    const auto both = (both1 >= F(0)) & (both2 >= F(0));
-    set_normal(g, p, old1, select(both, both1, select(second_sinks, F(0), only1)));
-    set_normal(g, q, old2, select(both, both2, select(second_sinks, only2, F(0))));
+    const NormalImpulses<F> now = normal_impulses(g.k(p), g.k(q), read<F>(constraint.coupling), old1, old2, t1, t2);
+    set_normal(g, p, old1, now.first);
+    set_normal(g, q, old2, now.second);
 }
 
 template <class F>
 CAROM_INLINE F solve_friction(Group<F>& g, WidePoint& p, F friction, F surface_speed)
 {
-    const F limit = friction * read<F>(p.normal_impulse);
     const F old = read<F>(p.tangent_impulse);
-    const F updated = clamp(old - read<F>(p.tangent_mass) * (g.tangent_speed(p) - surface_speed), -limit, limit);
+    const F updated =
+        friction_impulse(old, read<F>(p.tangent_mass), g.tangent_speed(p) - surface_speed, friction * read<F>(p.normal_impulse));
     write(p.tangent_impulse, updated);
     g.rub(p, updated - old);
     return updated;
@@ -358,7 +333,7 @@ CAROM_INLINE void solve_block(WideContact& constraint, const Features& features,
 {
     Group<F> g(constraint, states);
     const Soft<F> soft(g, s);
-    const Target<F> t = target_of(g, constraint.points[0], soft, s);
+    const NormalTarget<F> t = target_of(g, constraint.points[0], soft, s);
     if (points == 2)
         solve_normals(g, constraint, t, target_of(g, constraint.points[1], soft, s));
     else
@@ -379,7 +354,7 @@ CAROM_INLINE F8 relax_block(WideContact& constraint, const Features& features, B
 {
     Group<F> g(constraint, states);
     const Displacement<F> d(constraint, g, states);
-    const Target<F> t = relaxed(g, constraint.points[0], d, s);
+    const NormalTarget<F> t = relaxed(g, constraint.points[0], d, s);
     if (points == 2)
         solve_normals(g, constraint, t, relaxed(g, constraint.points[1], d, s));
     else

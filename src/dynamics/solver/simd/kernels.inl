@@ -3,6 +3,7 @@
 #include "collision/broad_phase.h"
 #include "core/lane_math.h"
 #include "core/prefetch.h"
+#include "dynamics/solver/contact/contact_equations.h"
 #include "dynamics/solver/joint/joint_axis.h"
 #include "dynamics/state/scene_state.h"
 #include "dynamics/solver/joint/wide_joints.h"

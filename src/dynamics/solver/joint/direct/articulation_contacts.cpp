@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -22,12 +23,6 @@ namespace {
 
 // The least share of a body's own response that counts. Below it, joints leave only rounding, as for a rotation that another body's lock forbids.
 constexpr double least_answer = 1e-9;
-
-float clamped_change(float& impulse, float change, float least, float most)
-{
-    const float now = std::clamp(impulse + change, least, most);
-    return now - std::exchange(impulse, now);
-}
 
 } // namespace
 
@@ -269,13 +264,12 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
     for (int i = 0; i < constraint.count; ++i)
     {
         ConstraintPoint& p = constraint.points[i];
-        const NormalTarget target = normal_target(m_view, constraint, p, use_bias);
-        const float lacking = constraint_speed(m_view, constraint, p) + target.bias;
-        if (p.normal_impulse == 0 && lacking >= 0)
+        const NormalTarget<float> target = normal_target(m_view, constraint, p, use_bias);
+        if (p.normal_impulse == 0 && target.speed + target.bias >= 0)
             continue;
         const PushedLine normal = line(constraint.n, p);
-        const float change = -normal.mass * target.mass_scale * lacking - target.impulse_scale * p.normal_impulse;
-        push_whole(normal, clamped_change(p.normal_impulse, change, 0, 3e38f)); // contacts push and never pull
+        const float updated = normal_impulse(normal.mass, p.normal_impulse, target);
+        push_whole(normal, updated - std::exchange(p.normal_impulse, updated));
     }
     float load = 0;
     for (int i = 0; i < constraint.count; ++i)
@@ -284,8 +278,8 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
     {
         const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
         const float slip = m_view.states[constraint.b].angular_velocity - m_view.states[constraint.a].angular_velocity;
-        push_whole(turn, clamped_change(constraint.rolling_impulse, -turn.mass * slip, -constraint.rolling * load,
-                                        constraint.rolling * load));
+        const float updated = friction_impulse(constraint.rolling_impulse, turn.mass, slip, constraint.rolling * load);
+        push_whole(turn, updated - std::exchange(constraint.rolling_impulse, updated));
     }
     for (int i = 0; i < constraint.count; ++i)
     {
@@ -294,7 +288,8 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
         if (limit == 0 && p.tangent_impulse == 0)
             continue;
         const PushedLine along = line(perp(constraint.n), p);
-        push_whole(along, clamped_change(p.tangent_impulse, -along.mass * constraint_slip(m_view, constraint, p), -limit, limit));
+        const float updated = friction_impulse(p.tangent_impulse, along.mass, constraint_slip(m_view, constraint, p), limit);
+        push_whole(along, updated - std::exchange(p.tangent_impulse, updated));
     }
 }
 
