@@ -7,7 +7,7 @@
 #include "core/index.h"
 #include "core/prefetch.h"
 #include "core/task_pool.h"
-#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/state/contact_store.h"
 
 #include <span>

@@ -2,7 +2,7 @@
 
 // The island graph: which bodies are solved together and what each does in this step. This is the first half of the islands stage.
 
-#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/step_context.h"
 
 namespace carom::internal {

@@ -2,7 +2,7 @@
 
 // Bodies that take part in a step, and the joint edges between them.
 
-#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/step_context.h"
 

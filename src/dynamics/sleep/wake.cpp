@@ -3,8 +3,8 @@
 #include "dynamics/sleep/wake.h"
 
 #include "dynamics/narrowphase/manifold_cache.h"
-#include "dynamics/solver/contact/coloring.h"
 #include "dynamics/state/body_store.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/state/contact_store.h"
 
 namespace carom::internal {

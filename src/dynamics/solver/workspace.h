@@ -9,11 +9,11 @@
 #include "dynamics/continuous/path/body_path_piece.h"
 #include "dynamics/islands/policy.h"
 #include "dynamics/solver/body_state.h"
-#include "dynamics/solver/contact/coloring.h"
 #include "dynamics/solver/contact/contact_constraint.h"
 #include "dynamics/solver/contact/wide_contacts.h"
 #include "dynamics/solver/joint/joint_rows.h"
 #include "dynamics/solver/joint/wide_joints.h"
+#include "dynamics/state/coloring.h"
 
 #include <cstddef>
 #include <cstdint>

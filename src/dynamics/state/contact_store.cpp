@@ -6,7 +6,7 @@
 #include "dynamics/narrowphase/material.h"
 #include "dynamics/narrowphase/touch_tracker.h"
 #include "dynamics/sleep/wake.h"
-#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/state/coloring.h"
 #include "geometry/leaf_traits.h"
 
 namespace carom::internal {

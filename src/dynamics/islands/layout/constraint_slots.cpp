@@ -10,8 +10,8 @@
 #include "core/task_pool.h"
 #include "dynamics/islands/layout/island_layout.h"
 #include "dynamics/islands/layout/sort_by_island.h"
-#include "dynamics/solver/contact/coloring.h"
 #include "dynamics/solver/contact/prepare.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/state/scene_data.h"
 #include "dynamics/task_sizes.h"
 

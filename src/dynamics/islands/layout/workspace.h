@@ -3,8 +3,8 @@
 // Slots of all that islands contain, and memory for finding them.
 
 #include "dynamics/islands/workspace.h"
-#include "dynamics/solver/contact/coloring.h"
 #include "dynamics/solver/workspace.h"
+#include "dynamics/state/coloring.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,9 +3,9 @@
 #include "dynamics/solver/contact/recomputed_contacts.h"
 
 #include "dynamics/narrowphase/contact_update.h"
-#include "dynamics/solver/contact/coloring.h"
 #include "dynamics/solver/contact/contact_solver.h"
 #include "dynamics/solver/contact/prepare.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/state/contact_store.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // What bodies know of the colours of their contacts is what the contacts say, whatever a user does between steps.
 
-#include "dynamics/solver/contact/coloring.h"
+#include "dynamics/state/coloring.h"
 #include "dynamics/state/scene_data.h"
 #include "support/test_scene.h"
 
