@@ -200,22 +200,6 @@ void apply_deferred(StepContext& ctx, const DeferredImpulse& d)
     sim.angular_velocity += sim.inverse_inertia * cross(d.arm, d.impulse);
 }
 
-constexpr std::size_t worth_lending = 1024;
-
-// Impacts are sorted later. If there are many, one island has nearly all of them and lends its array until the next step.
-void take_impacts(StepContext& ctx, std::size_t u)
-{
-    std::vector<ImpactEvent>& all = ctx.scene.events.impacts;
-    std::vector<ImpactEvent>& own = ctx.scratch.solver.outputs[u].impacts;
-    if (own.size() > std::max(all.size(), worth_lending))
-    {
-        std::swap(own, all);
-        ctx.scratch.solver.impacts_lender = u;
-    }
-    append_all(all, own);
-    own.clear();
-}
-
 void merge_output(StepContext& ctx, const IslandOutput& output)
 {
     const SceneState& state = ctx.state;
@@ -274,7 +258,7 @@ void commit(StepContext& ctx)
     note_pending_impacts(ctx);
     for (std::size_t u = 0; u < scratch.solver.islands.size(); ++u)
     {
-        take_impacts(ctx, u);
+        append_all(ctx.scene.events.impacts, scratch.solver.outputs[u].impacts);
         merge_output(ctx, scratch.solver.outputs[u]);
     }
     update_triggers(ctx);

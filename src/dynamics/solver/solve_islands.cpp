@@ -146,8 +146,6 @@ void solve_islands(StepContext& ctx)
     Scratch& scratch = ctx.scratch;
     if (scratch.solver.outputs.size() < scratch.solver.islands.size())
         set_size(scratch.solver.outputs, scratch.solver.islands.size());
-    if (scratch.solver.impacts_lender < scratch.solver.outputs.size())
-        std::swap(scratch.solver.outputs[scratch.solver.impacts_lender].impacts, ctx.scene.events.impacts); // see take_impacts()
     for (std::size_t i = 0; i < scratch.solver.islands.size(); ++i)
         scratch.solver.outputs[i].clear();
     mark_traced(ctx);

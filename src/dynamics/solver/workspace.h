@@ -191,7 +191,6 @@ struct SolverWorkspace
     std::vector<BodySpeeds>
         unpushed; ///< by state, of islands that may warm start by body: speeds without the constraints' impulses in the sub-step
     std::vector<IslandOutput> outputs;
-    std::size_t impacts_lender = 0; ///< index of the output whose array of impacts the events hold
 };
 
 } // namespace carom::internal
