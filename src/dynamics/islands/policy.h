@@ -14,9 +14,7 @@ inline constexpr int few_bodies = 16;
 inline constexpr int most_watched_bodies = 64;    ///< island size up to which energy is monitored: the capacity of IslandEnergy
 inline constexpr int most_converging_bodies = 32; ///< number of bodies whose speeds IslandSolver can store
 inline constexpr int most_direct_rows = 128;      ///< beyond it, DirectSolve takes longer than soft rows
-inline constexpr int most_subdivisions = 32;      ///< limit where a kinematic body or a joint's arm turns
-/// Limit where a body on a hinge turns a contact: the integration error would become kinetic energy of the mechanism.
-inline constexpr int most_hinge_subdivisions = 64;
+inline constexpr int most_subdivisions = 32;      ///< limit where a driven body or a joint's arm turns
 
 /// Data by which the policy of an island is chosen.
 struct IslandTally

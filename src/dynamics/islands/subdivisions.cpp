@@ -48,13 +48,13 @@ public:
             t.swing = std::max(t.swing, scratch.graph.swings[i]);
         }
         for (IslandTally& t : scratch.graph.tallies)
-            t.subdivisions = std::max(t.subdivisions, subdivisions_for(t.swing, most_swing, most_subdivisions));
+            t.subdivisions = std::max(t.subdivisions, subdivisions_for(t.swing, most_swing));
     }
 
 private:
-    [[nodiscard]] std::int32_t subdivisions_for(float rate, float most_turn, int limit) const
+    [[nodiscard]] std::int32_t subdivisions_for(float rate, float most_turn) const
     {
-        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(limit))));
+        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(most_subdivisions))));
     }
 
     // Follows contacts of bodies in small islands.
@@ -74,9 +74,7 @@ private:
     // Atomic maximum: several threads may raise it.
     void follow_contact(const Contact& contact, std::int32_t island)
     {
-        const bool both_move = place_of(scratch, contact.body_a) >= 0 && place_of(scratch, contact.body_b) >= 0;
-        const std::int32_t wanted =
-            subdivisions_for(turn_rate(contact), most_turn_of_normal, both_move ? most_hinge_subdivisions : most_subdivisions);
+        const std::int32_t wanted = subdivisions_for(turn_rate(contact), most_turn_of_normal);
         const std::atomic_ref most(tally(scratch, island).subdivisions);
         std::int32_t before = most.load(std::memory_order_relaxed);
         while (before < wanted && !most.compare_exchange_weak(before, wanted, std::memory_order_relaxed))
