@@ -1,4 +1,4 @@
-// What happened in a step: spans of events to read after it, and callbacks on a shape, which may change the scene freely.
+// The events of a step: spans of events to read after it, and callbacks on a shape, which may change the scene freely.
 // A ball rolls through a gate that counts it, falls off an edge onto a pad, and the pad replaces it by a new one.
 #include <carom/carom.h>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What stands beside the picture: scenes, control, x-ray, numbers, sub-steps, the last impact.
+/// The panels beside the picture: scenes, control, x-ray, numbers, sub-steps, the last impact.
 
 #include "lab/run.h"
 #include "view/window.h"
@@ -11,7 +11,7 @@
 
 namespace carom::lab {
 
-/// What the panels read and change.
+/// The state that the panels read and change.
 struct LabState
 {
     const scenes::SceneEntry* wanted = nullptr; ///< a scene to load before the next frame; also the present one, to restart it

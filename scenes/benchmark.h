@@ -8,7 +8,7 @@
 
 namespace carom::scenes {
 
-/// What all ten have in common: Box2D's gravity, and the greater restitution of a pair.
+/// Common to all ten: Box2D's gravity, and the greater restitution of a pair.
 inline SceneDef benchmark_def(const SceneDef& base)
 {
     SceneDef def = base;

@@ -1,4 +1,4 @@
-// What turns and keeps thousands of bodies moving.
+// Scenes that turn and keep thousands of bodies moving.
 
 #include "scenes/benchmark.h"
 #include "scenes/families.h"

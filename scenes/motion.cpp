@@ -54,7 +54,7 @@ BuiltScene bullet(const SceneDef& base)
     return built;
 }
 
-/// What flies through a booster, meets a bumper, falls through triggers.
+/// A ball flies through a booster, meets a bumper, falls through triggers.
 BuiltScene triggers(const SceneDef& base)
 {
     BuiltScene built{Scene(base)};

@@ -29,7 +29,7 @@ struct Control
     bool logarithmic = false;
 };
 
-/// What the machine shows where the chapter sends the reader to it.
+/// The state of the machine to which the chapter sends the reader.
 struct TableView
 {
     bool contacts = false;
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] Scene& scene() { return *m_scene; }
     [[nodiscard]] const Scene& scene() const { return *m_scene; }
 
-    /// What is worth seeing.
+    /// The part worth seeing.
     [[nodiscard]] virtual Box view() const = 0;
     /// Nothing moves by itself: no buttons for time.
     [[nodiscard]] virtual bool is_still() const { return false; }
@@ -87,7 +87,7 @@ public:
     virtual void draw(view::Canvas& canvas, float alpha) const;
     /// For the text's placeholders.
     [[nodiscard]] virtual Values values() const { return {}; }
-    /// What stands in the place of a paragraph "{story}".
+    /// The text in place of a paragraph "{story}".
     [[nodiscard]] virtual std::vector<view::StoryLine> story() const { return {}; }
     /// Something worth stopping at happened in the last step.
     [[nodiscard]] virtual bool has_struck() const { return !scene().impacts().empty(); }

@@ -51,7 +51,7 @@ private:
         Vec2 anchor{}; ///< in the body's frame
         Position at{};
     };
-    /// What the reader did in a step.
+    /// The actions of the reader in a step.
     struct Moment
     {
         std::vector<float> controls;

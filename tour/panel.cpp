@@ -46,7 +46,7 @@ Block as_block(const view::StoryLine& line)
     return {Block::Kind::Paragraph, line.text};
 }
 
-// What is read now: numbers filled in, the story in its place.
+// The text that is read now: numbers filled in, the story in its place.
 std::vector<Block> blocks_of(const Lesson& lesson, const Panel& panel)
 {
     const Values values = lesson.chapter().values();

@@ -22,7 +22,7 @@ struct TourLayout
 };
 [[nodiscard]] TourLayout lay_out(Vec2 window);
 
-/// What the reader asks for.
+/// The wishes of the reader.
 struct PanelWish
 {
     int turn_page = 0;    ///< -1 and 1

@@ -62,7 +62,7 @@ struct ChapterText
 /// Throws std::runtime_error, with the line, where the text has no title or a list entry has no name.
 [[nodiscard]] ChapterText parse_text(std::string_view markdown, const std::string& file);
 
-/// Of the folder that comes with the program. Throws std::runtime_error where there is no such file.
+/// The text of the folder that comes with the program. Throws std::runtime_error where there is no such file.
 [[nodiscard]] ChapterText load_text(const std::string& name, const std::string& language = "en");
 
 } // namespace carom::tour

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What holds a body where it is, or moves it: who pushes it and how hard, from the last step.
+/// The causes that hold a body where it is, or move it: who pushes it and how hard, from the last step.
 
 #include "view/impact_story.h"
 

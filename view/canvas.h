@@ -82,7 +82,7 @@ public:
     void glow(Position center, float inner_radius, float radius, Color color);
     void glow_line(Position a, Position b, float radius, Color color);
     void glow_path(std::span<const Position> path, float radius, Color color, bool closed = false);
-    /// What a moving thing leaves behind: the path from its newest point to its oldest, ever thinner and fainter.
+    /// The trail of a moving thing: the path from its newest point to its oldest, ever thinner and fainter.
     void trail(std::span<const Position> newest_first, float radius, Color color);
     /// Everything drawn between the two calls is added as light.
     void begin_additive();

@@ -217,7 +217,7 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
                                                        {"change", number(impulse / p.mass)}})});
 }
 
-// What acts along the surface, and whether it has stopped the sliding: by the speeds that they have afterwards.
+// The impulse along the surface, and whether it has stopped the sliding: by the speeds that they have afterwards.
 void tell_friction(std::vector<StoryLine>& story, const ImpactEvent& e)
 {
     const float rubbed = std::abs(e.friction_impulse);

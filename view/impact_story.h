@@ -15,7 +15,7 @@
 
 namespace carom::view {
 
-/// What must be known of one party, kept so that the story can be told after the body is gone.
+/// The data of one party, kept so that the story can be told after the body is gone.
 struct ImpactParty
 {
     std::string name;

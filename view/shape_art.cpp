@@ -189,7 +189,7 @@ void draw_shape(Canvas& canvas, const Geometry& geometry, const Pose& pose, cons
 void draw_scene(Canvas& canvas, const Scene& scene, float alpha, const ScenePalette& palette)
 {
     const std::vector<BodyId> bodies = scene.bodies();
-    // What stands still first, so that moving things lie on top.
+    // Still shapes first, so that moving ones lie on top.
     for (const bool still : {true, false})
         for (const BodyId id : bodies)
             if ((scene.body(id).type() == BodyType::Static) == still)

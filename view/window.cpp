@@ -86,7 +86,7 @@ double now_ms()
     return 1000 * static_cast<double>(SDL_GetPerformanceCounter()) / static_cast<double>(SDL_GetPerformanceFrequency());
 }
 
-// Of the display that the window is on.
+// The time of a frame on the display that the window is on.
 double frame_ms(SDL_Window* window)
 {
     SDL_DisplayMode mode{};

@@ -52,7 +52,7 @@ public:
     /// Draws what was given since begin_frame and shows it. With a capture, also reads the pixels back.
     void end_frame(Image* capture = nullptr);
 
-    /// What came in with this frame, in order. Widgets have seen them too: ask wants_keyboard and wants_mouse first.
+    /// The events of this frame, in order. Widgets have seen them too: ask wants_keyboard and wants_mouse first.
     [[nodiscard]] std::span<const SDL_Event> events() const { return m_events; }
     [[nodiscard]] bool wants_keyboard() const; ///< a widget is taking text
     [[nodiscard]] bool wants_mouse() const;    ///< the mouse is over a widget

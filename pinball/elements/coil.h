@@ -43,7 +43,7 @@ private:
 
     /// Moves the torque on; gives its integral over that time.
     double follow(double time);
-    /// What a torque that rises by r N m/s gives is not only r h²/2 of speed but r h³/6 of way; the even torque of that mean gives
+    /// A torque that rises by r N m/s gives not only r h²/2 of speed but r h³/6 of way; the even torque of that mean gives
     /// r h³/12 more. A speed that stays behind by r h²/12 while the torque rises makes up for it.
     double ramp_error(double h);
 

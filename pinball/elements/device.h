@@ -53,7 +53,7 @@ public:
     virtual void on_exit(Playfield&, BodyId, Ball*) {}
     virtual void after_step(Playfield&) {}
     virtual void command(Playfield&, Command) {}
-    /// What `state` does not hold.
+    /// Adds the state that `state` does not hold.
     virtual void add_to(Hash&) const {}
 
     [[nodiscard]] Index index() const { return m_index; }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What the elements report: the only thing that the rules, the sound and the lights learn about a step.
+/// Reports of the elements: the only thing that the rules, the sound and the lights learn about a step.
 
 #include "carom/math.h"
 #include "pinball/table/table.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What kicks the ball that strikes it: bumper and slingshot differ in shape only. The kick itself is data of the shape.
+/// Elements that kick the ball that strikes them: bumper and slingshot differ in shape only. The kick itself is data of the shape.
 
 #include "pinball/elements/device.h"
 

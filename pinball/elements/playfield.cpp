@@ -181,7 +181,7 @@ void Playfield::step_through(std::span<const ButtonChange> changes)
 
 namespace {
 
-// What the sideways friction left of the greatest friction impulse, over the ball's mass.
+// The rest of the greatest friction impulse that sideways friction has left, over the ball's mass.
 float room_to_rub(const ImpactEvent& impact, float mass)
 {
     const float greatest = impact.friction * impact.impulse;

@@ -110,7 +110,7 @@ public:
     void emit(const GameEvent& event) { m_events.push_back(event); }
     /// A fixed body at the origin that holds the element's shapes.
     BodyId add_fixed(bool enabled = true);
-    /// What the element's surface is like, tagged with the element.
+    /// The material of the element's surface, tagged with the element.
     [[nodiscard]] ShapeDef surface(Index element) const;
     /// The same for something that moves by itself.
     [[nodiscard]] ShapeDef moving_surface(Index element) const;

@@ -14,7 +14,7 @@
 
 namespace carom::pinball {
 
-/// What a ball rolls on.
+/// The surface on which a ball rolls.
 struct Floor
 {
     Vec2 slope{};       ///< acceleration down the table, m/s²

@@ -1,4 +1,4 @@
-// What stands still and only gets in the way: walls, solids, posts, planes. Lights do not even do that.
+// Elements that stand still and only get in the way: walls, solids, posts, planes. Lights do not even do that.
 
 #include "pinball/elements/make.h"
 #include "pinball/elements/playfield.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What an element and a ball show of themselves: all that drawing needs.
+/// The visible state of an element and of a ball: all that drawing needs.
 
 #include "carom/id.h"
 #include "carom/math.h"

@@ -88,7 +88,7 @@ public:
     [[nodiscard]] int ball_save_steps() const; ///< left, 0 when the light is out
     [[nodiscard]] bool tilted() const;         ///< until the bonus of that ball would have been counted
 
-    /// Of any element: a Light shows its state; every other one what a light on it would show.
+    /// The state of any element: that of a Light itself; for every other one, the state that a light on it would show.
     [[nodiscard]] LampState lamp(Index element) const;
     /// The message that shows now; empty when there is none.
     [[nodiscard]] std::string_view message() const;
@@ -97,7 +97,7 @@ public:
     [[nodiscard]] const ElementState& element(Index element) const;
     /// In serial order: captive ones first.
     [[nodiscard]] const std::vector<BallState>& balls() const;
-    /// What happened in the last step, in order.
+    /// The events of the last step, in order.
     [[nodiscard]] std::span<const GameEvent> events() const;
 
     /// How it stands, and the tilt bob in it.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What a headless run counts.
+/// The counts of a headless run.
 
 #include "pinball/elements/hash.h"
 #include "pinball/game/game.h"

@@ -18,7 +18,7 @@
 
 namespace carom::pinball {
 
-/// What the user wants of the program rather than of the machine.
+/// Wishes of the user that concern the program rather than the machine.
 enum class Wish : std::uint8_t
 {
     Pause,

@@ -1,4 +1,4 @@
-// What is printed on the playfield, drawn from where the table's own parts are: rings around bumpers, arrows to the
+// The print on the playfield, drawn from where the table's own parts are: rings around bumpers, arrows to the
 // shots, the name between the slingshots.
 
 #include "pinball/player/palette.h"

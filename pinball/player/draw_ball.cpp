@@ -35,7 +35,7 @@ void draw_sphere(Canvas& canvas, Position center, float radius, const Orientatio
 {
     canvas.fill_circle(center, radius, view::rgb(0x10141e));
     canvas.fill_radial(center, radius * 0.965f, view::rgb(0xe8eef8), view::rgb(0x3b4454), {-0.42f, 0.46f});
-    // What it mirrors: the dark table from below, the bright room from above.
+    // Its reflections: the dark table from below, the bright room from above.
     canvas.fill_radial(center + Vec2{0.12f, -0.42f} * radius, radius * 0.50f, view::rgb(0x1c2b55, 0.55f),
                        view::rgb(0x1c2b55, 0.0f));
     canvas.arc(center, radius * 0.80f, -1.35f, 1.0f, {view::rgb(0xbfd4ff, 0.5f), canvas.points(radius * 0.10f)});

@@ -1,4 +1,4 @@
-// What lies in the playfield: rollovers, boosters, kickers, saucers.
+// Elements that lie in the playfield: rollovers, boosters, kickers, saucers.
 
 #include "pinball/player/palette.h"
 #include "pinball/player/parts.h"

@@ -16,7 +16,7 @@ void draw_plate(Canvas& canvas, Vec2 a, Vec2 b, float radius, view::Color color,
     canvas.fill_capsule(a, b, slot, slot, view::rgb(0x05070f, 0.9f));
     if (up <= 0.01f)
         return;
-    // What stands is nearer to the eye: it looks a little bigger and lies a little up the table.
+    // A standing target is nearer to the eye: it looks a little bigger and lies a little up the table.
     const Vec2 lift{-0.0010f * up, 0.0013f * up};
     canvas.fill_capsule(a, b, radius, radius, view::mix(color, palette::shadow, 0.6f));
     canvas.fill_capsule(a + lift, b + lift, radius * 1.15f, radius * 1.15f,

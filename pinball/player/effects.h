@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What drawing remembers from step to step: trails, how the balls have rolled, targets half way down.
+/// Memory of drawing from step to step: trails, how the balls have rolled, targets half way down.
 
 #include "pinball/game/game.h"
 

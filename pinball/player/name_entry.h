@@ -28,7 +28,7 @@ public:
     void erase();
     /// True in the step in which the last letter was taken.
     [[nodiscard]] bool step(const Input& input);
-    /// What the game may have of the buttons.
+    /// The buttons that are left to the game.
     [[nodiscard]] Input leaves_over(const Input& input) const;
 
 private:

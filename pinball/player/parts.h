@@ -8,9 +8,9 @@
 namespace carom::pinball {
 
 void draw_cabinet(view::Canvas& canvas, const Picture& picture);
-/// What is printed on the playfield.
+/// Draws the print on the playfield.
 void draw_art(view::Canvas& canvas, const Picture& picture);
-/// Of everything that stands on the playfield.
+/// Draws the shadows of everything that stands on the playfield.
 void draw_shadows(view::Canvas& canvas, const Picture& picture);
 /// free: those that roll; else those that a saucer holds.
 void draw_balls(view::Canvas& canvas, const Picture& picture, bool free);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What drawing the table needs to know, and its parts in the order in which they lie on top of each other.
+/// The input for drawing the table, and its parts in the order in which they lie on top of each other.
 
 #include "pinball/game/game.h"
 #include "pinball/player/effects.h"

@@ -11,7 +11,7 @@
 
 namespace carom::pinball {
 
-/// What the program shows of itself.
+/// The state of the program itself.
 struct Status
 {
     double time = 0; ///< s since the program began

@@ -26,7 +26,7 @@ void draw_card(view::Canvas& screen, const Layout& layout, const Machine& machin
 void draw_strip(view::Canvas& screen, const Layout& layout, const std::vector<std::string>& sentences);
 /// Sentences under a heading, as many as there is room for.
 void draw_notes(view::Canvas& screen, const Area& area, const char* title, const std::vector<std::string>& sentences, float unit);
-/// What is wrong with the table file that just changed.
+/// The error in the table file that just changed.
 void draw_table_errors(view::Canvas& screen, const Layout& layout, const Machine& machine);
 /// A word across the table, and what to do about it.
 void draw_banner(view::Canvas& screen, const Layout& layout, const char* word, const char* hint);

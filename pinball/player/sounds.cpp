@@ -21,7 +21,7 @@ float pan_of(const Table& table, Position point)
 
 bool named(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
 
-// What is struck decides the sound of a blow.
+// The struck element decides the sound of a blow.
 Strike voice_of(const Table& table, Index element)
 {
     if (element == none) // ball against ball

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What the machine sounds like: from events to struck voices, from rolling balls to a drone.
+/// The sounds of the machine: from events to struck voices, from rolling balls to a drone.
 
 #include "pinball/game/game.h"
 #include "view/sound_sink.h"

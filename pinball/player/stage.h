@@ -20,7 +20,7 @@ struct Frame
     Status status{};
 };
 
-/// What drawing keeps from frame to frame.
+/// State that drawing keeps from frame to frame.
 struct Stage
 {
     TableCamera camera{};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What of the table is seen: all of it, or, where the x-ray leaves little room, the part where the ball is.
+/// The part of the table that is seen: all of it, or, where the x-ray leaves little room, the part where the ball is.
 
 #include "pinball/game/game.h"
 #include "pinball/player/layout.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What the rules share: the score, the state of the ball, lamps and messages, and the tray of orders to the table.
+/// State that the rules share: the score, the state of the ball, lamps and messages, and the tray of orders to the table.
 
 #include "pinball/elements/device.h"
 #include "pinball/elements/random.h"

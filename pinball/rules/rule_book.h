@@ -39,10 +39,10 @@ public:
 
     [[nodiscard]] Desk& desk() { return m_desk; }
     [[nodiscard]] const Desk& desk() const { return m_desk; }
-    /// What the rules themselves reported in the last step.
+    /// The rules' own reports of the last step.
     [[nodiscard]] const std::vector<GameEvent>& announced() const { return m_announced; }
     static constexpr int most_players = 4;
-    /// Of a player of this game, from 0.
+    /// The score of a player of this game, from 0.
     [[nodiscard]] std::int64_t score(int player) const;
     [[nodiscard]] int ball_save_steps() const;
     void add_to(Hash& hash) const;

@@ -1,4 +1,4 @@
-// What each element pays: its own score, bumpers by their level, the spinner more for a while after its trigger, the bash
+// The pay of each element: its own score, bumpers by their level, the spinner more for a while after its trigger, the bash
 // target by how hard it was hit. Every paying switch also counts towards the end-of-ball bonus.
 
 #include "pinball/rules/rule.h"

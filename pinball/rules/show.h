@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What the rules show: the phase of the game, lamps and messages.
+/// The visible state of the rules: the phase of the game, lamps and messages.
 
 #include <cstdint>
 #include <string>

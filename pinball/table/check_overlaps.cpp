@@ -1,5 +1,5 @@
 /// @file
-/// What overlaps before anything has moved.
+/// Finds elements that overlap before anything has moved.
 
 #include "pinball/table/check_context.h"
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double margin = 0.05; ///< m of grid around the table, so that a leak is seen
 
-/// What stands in a ball's way for good: gates open, drop targets fall, the plunger moves back.
+/// Shapes that stand in a ball's way for good: gates open, drop targets fall, the plunger moves back.
 bool blocks(const Element& element)
 {
     return !std::holds_alternative<Gate>(element.part) && !std::holds_alternative<DropTarget>(element.part);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What a loaded table file gives: plain data, SI units, radians. docs/table-format.md describes the file itself.
+/// The content of a loaded table file: plain data, SI units, radians. docs/table-format.md describes the file itself.
 ///
 /// The playfield lies in the plane of the scene: x to the right, y up the table, the origin at the lower left corner.
 /// Every shape is given where it stands in the world. References between parts are indices, `none` where there is none.
@@ -232,7 +232,7 @@ struct CaptiveBall
     Vec2 pos{};
 };
 
-/// What a light shows: the state of an element (rollover made, target down, kicker lit), or of the game.
+/// The source of a light: the state of an element (rollover made, target down, kicker lit), or of the game.
 enum class Lamp : std::uint8_t
 {
     Element,

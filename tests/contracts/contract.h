@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What every test of refusals starts from: a scene with one of everything, and calls that must be refused.
+/// The fixture of all tests of refusals: a scene with one of everything, and calls that must be refused.
 
 #include "support/test_scene.h"
 

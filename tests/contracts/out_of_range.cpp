@@ -1,4 +1,4 @@
-// What is out of range: enumerations, times, masses, points, ids that were never given, a scene that was moved from.
+// Values out of range: enumerations, times, masses, points, ids that were never given, a scene that was moved from.
 
 #include "contracts/contract.h"
 
@@ -78,7 +78,7 @@ TEST_F(Contract, AMovedFromSceneIsEmpty)
     scene.step(0.1f);
 }
 
-// Of the thread that calls, and of the workers.
+// The rounding modes of the calling thread and of the workers.
 TEST_F(Contract, TheRoundingModeOfTheProgramChangesNothing)
 {
     std::vector<BodyDef> defs;

@@ -93,7 +93,7 @@ TEST_F(Contract, MassesBeyondFloats)
     mass_refused(large, 1e6f, "the shape's moment of inertia");
     mass_refused(Circle{.radius = 1e-5f}, 1e-30f, "the shape's mass");
     mass_refused(Circle{.radius = 1e-10f}, 1, "the shape's moment of inertia");
-    // What has no mass has no limits of it.
+    // A shape without mass has no limits of it.
     EXPECT_NO_THROW(scene.create_shape(ball.body, large, {.density = 0}));
     EXPECT_NO_THROW(scene.create_shape(ball.body, large, {.density = 1e30f, .trigger = true}));
     EXPECT_NO_THROW(scene.create_shape(ball.body, large));

@@ -1,4 +1,4 @@
-// Who may include whom (ARCHITECTURE.md). The build enforces most of it for the modules of the engine; this test says it of every
+// The rules of who may include whom (ARCHITECTURE.md). The build enforces most of it for the modules of the engine; this test says it of every
 // folder, and of the standard headers that the engine does without.
 #include <gtest/gtest.h>
 

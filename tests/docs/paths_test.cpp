@@ -40,7 +40,7 @@ std::vector<fs::path> documents()
     return found;
 }
 
-// What stands between single backquotes on one line, fenced blocks left out.
+// Texts between single backquotes on one line, without fenced blocks.
 std::vector<std::string> quoted(const std::string& text)
 {
     std::vector<std::string> found;

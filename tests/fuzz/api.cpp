@@ -140,7 +140,7 @@ Polygon polygon(Choices& c)
     return polygon;
 }
 
-// Of passive sessions, seen from both sides.
+// Invariants of passive sessions, seen from both sides.
 Geometry two_sided(Geometry of)
 {
     std::visit(
@@ -373,7 +373,7 @@ void destroy(Session& s, Choices& c)
     }
 }
 
-// What a callback does with the two it is told about; they may be gone already.
+// The action of a callback on the two that it is told about; they may be gone already.
 void meddle(Session& s, Scene& scene, int deed, BodyId a, BodyId b, ShapeId shape)
 {
     s.judge.meddle();

@@ -1,6 +1,6 @@
 #pragma once
 
-// What must hold after every step, whatever was done before it: all that the scene tells is finite, every touch that begins ends once, blows agree with
+// Invariants after every step, whatever was done before it: all that the scene tells is finite, every touch that begins ends once, blows agree with
 // themselves, the work is bounded, nobody's momentum comes from nowhere, and where nothing does work no energy does either.
 
 #include "carom/carom.h"
@@ -302,7 +302,7 @@ private:
         std::vector<bool> m_held;
     };
 
-    // Of groups that nothing holds from outside.
+    // For groups that nothing holds from outside.
     void momentum_is_kept(const Scene& scene, float time)
     {
         const std::vector<Momentum> now = momenta(scene);

@@ -1,4 +1,4 @@
-// What leaves keep beside themselves: shared by polygons that are alike, used again once nothing needs it.
+// Data that leaves keep beside themselves: shared by polygons that are alike, used again once nothing needs it.
 
 #include "geometry/leaf.h"
 

@@ -49,7 +49,7 @@ Table table_with(const char* id)
     return table;
 }
 
-/// What happens to the button within a step.
+/// The events of the button within a step.
 std::vector<ButtonChange> changes_of(const Shot& shot, double begin, double end)
 {
     std::vector<ButtonChange> changes;

@@ -1,4 +1,4 @@
-// What the machine shows, at several sizes of its window: every word is whole.
+// The screens of the machine at several sizes of its window: every word is whole.
 
 #include "pinball/player/controls_panel.h"
 #include "pinball/player/machine.h"

@@ -28,7 +28,7 @@ GameEvent impact(const char* element, float impulse)
     return {.kind = EventKind::Impact, .element = momentum().find(element), .point = {0.23, 0.5}, .impulse = impulse};
 }
 
-// What SDL's disk driver writes: raw floats, left and right in turn.
+// The output of SDL's disk driver: raw floats, left and right in turn.
 std::vector<float> record(const view::Strike& strike)
 {
     const std::string path = testing::TempDir() + "carom_player_sound_" + std::to_string(getpid()) + ".raw";

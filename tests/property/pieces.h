@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What is shot and what stands around: random shapes, materials, and their outlines.
+/// The shot and the obstacles: random shapes, materials, and their outlines.
 
 #include "property/trial.h"
 
@@ -42,7 +42,7 @@ BodyId add_piece(Trial& trial, const Piece& piece, BodyType type, Point at, doub
 /// A dynamic piece at a random angle, spinning up to 50 rad/s where it is no ball at rest.
 BodyId shoot(Trial& trial, const Piece& piece, Point at, Point velocity);
 
-/// What bounces off something convex and then flies straight stays outside of the tangent at the meeting; n points outwards. A way
+/// A body that bounces off something convex and then flies straight stays outside of the tangent at the meeting; n points outwards. A way
 /// into it that is a small part of the way since the meeting has strayed, more has passed through.
 void expect_outside(Trial& trial, Point n, double allowed, std::function<Point()> since_meeting);
 

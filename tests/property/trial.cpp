@@ -137,7 +137,7 @@ std::optional<Failure> Trial::check_finite(int step)
     return std::nullopt;
 }
 
-// What it takes to push out the overlaps that there were when the last step began, against the forces that press bodies into each other.
+// The energy that it takes to push out the overlaps that there were when the last step began, against the forces that press bodies into each other.
 double Trial::pressed_work(const Sums& now) const
 {
     double sum = 0;

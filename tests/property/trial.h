@@ -25,7 +25,7 @@ namespace carom::shots {
 
 using test::Random;
 
-/// What went wrong first.
+/// The first failure.
 struct Failure
 {
     std::string
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] double slop() const;
     [[nodiscard]] double time() const { return m_time; }
 
-    /// What the arrangement knows: called after every step, gives a sentence where something is on the wrong side.
+    /// An expectation of the arrangement: called after every step, gives a sentence where something is on the wrong side.
     void expect(std::function<std::string()> holds) { m_expectations.push_back({"passed", std::move(holds)}); }
     void expect(const char* law, std::function<std::string()> holds) { m_expectations.push_back({law, std::move(holds)}); }
     /// The torque acts on the body through every step, N m.

@@ -118,7 +118,7 @@ std::string say(int count, SpringSpec spring, bool is_free, float bend, bool act
 
 TEST(HingeSprings, AreStableAtAnyStiffnessDampingStepAndNumberOfLinks)
 {
-    // What is let go of bent by 0.6 rad may move by more than a sub-step can follow, and overshoots; it may not go on to grow.
+    // A hinge that is let go of bent by 0.6 rad may move by more than a sub-step can follow, and overshoots; it may not go on to grow.
     for (const auto& [count, bent, bound] : {std::tuple(1, 0.2f, 1.05),
                                              {2, 0.2f, 1.05},
                                              {4, 0.2f, 1.05},

@@ -22,7 +22,7 @@ struct Motion
     double y = 0;
 };
 
-// What the events say that a body was given.
+// The impulse that a body was given, by the events.
 Motion impulses_on(Scene& scene, BodyId body)
 {
     Motion sum;

@@ -33,7 +33,7 @@ struct Harm
     double gap = 0;
 };
 
-// Of the link's upper end, or of its lower one where `end` is negative.
+// For the link's upper end, or for its lower one where `end` is negative.
 Position end_of(const Scene& scene, BodyId link, float end)
 {
     const ConstBody body = scene.body(link);

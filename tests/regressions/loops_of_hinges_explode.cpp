@@ -112,7 +112,7 @@ TEST(Loops, KeepAngularMomentumAndEnergy)
     }
 }
 
-// What several pins to the world bear is the weight, however it is shared out.
+// Several pins to the world bear the weight together, however it is shared out.
 TEST(Loops, PinsBearTheWeightTogether)
 {
     for (const int pins : {2, 3, 5})

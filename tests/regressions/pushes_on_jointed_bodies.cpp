@@ -49,7 +49,7 @@ double push(Body bar, Push how)
     return 3 * d(bar.inertia()) / about_pivot;
 }
 
-// What makes a hinge one that flight cannot have, and company that the bar does not touch.
+// Surroundings that make the hinge one that flight cannot have, and company that the bar does not touch.
 struct Surroundings
 {
     const char* name;

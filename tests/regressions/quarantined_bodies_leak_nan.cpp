@@ -40,7 +40,7 @@ void expect_finite(const Scene& scene)
         EXPECT_TRUE(finite(e.normal) && std::isfinite(e.point.x) && std::isfinite(e.point.y));
 }
 
-// What a law gives that is no force makes its body unsound.
+// A law that gives no valid force makes its body unsound.
 Load no_force(void*, const BodyMotion&) { return {{std::nanf(""), 0}, 0}; }
 
 struct Wreck

@@ -47,7 +47,7 @@ Chain chain_of(const Kind& kind, std::vector<Vec2> points)
     return chain;
 }
 
-// What there is beyond the crest at (10, 0).
+// The terrain beyond the crest at (10, 0).
 struct Ground
 {
     std::string name;
@@ -135,7 +135,7 @@ double distance_to_line(Vec2 p, Vec2 a, Vec2 b)
     return d(length(p - a - t * along));
 }
 
-// Of a box's or triangle's outline, by points close together.
+// Samples the outline of a box or triangle by points close together.
 double distance_to_chain(const Polygon& shape, ConstBody body, std::span<const Vec2> chain)
 {
     double least = 1e9;

@@ -18,7 +18,7 @@ namespace {
 
 BodyId load(Scene& scene, Position at = {}) { return add_dynamic(scene, at, box(0.5f, 0.5f)).body; }
 
-// What is let go of beside the load, so that its island has more bodies, without touching it.
+// Bodies that are let go of beside the load without touching it, so that its island has more of them.
 void hang_others(Scene& scene, BodyId from, int count)
 {
     BodyId last = from;

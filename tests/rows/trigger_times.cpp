@@ -142,7 +142,7 @@ TEST(Row07_TriggerTimes, ATurningBar)
         }
 }
 
-// What the solver moves goes straight in every sub-step, from one recorded pose to the next.
+// A body that the solver moves goes straight in every sub-step, from one recorded pose to the next.
 TEST(Row07_TriggerTimes, OfASolvedBodyAsItsSubStepsSay)
 {
     SceneDef def = weightless();
@@ -230,7 +230,7 @@ TEST(Row07_TriggerTimes, AcrossTheCornerOfAChain)
             }
 }
 
-// Of a line with one solid side, the visitor's middle has to be on that side.
+// For a line with one solid side, the visitor's middle has to be on that side.
 TEST(Row07_TriggerTimes, ALineWithOneSide)
 {
     for (const float v : {1.0f, 40.0f, 900.0f})

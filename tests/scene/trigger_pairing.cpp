@@ -157,7 +157,7 @@ void run(std::uint64_t seed, int operations)
             ledger.read(scene);
             if (::testing::Test::HasFailure())
                 return;
-            // What the scene says is inside is what the events said.
+            // The scene's list of visitors must be the one that the events imply.
             if (i % 50 == 0)
             {
                 std::size_t inside = 0;

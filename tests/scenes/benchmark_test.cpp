@@ -67,7 +67,7 @@ TEST_P(BenchmarkScene, IsTakenForAsManyStepsAsTheirs)
     EXPECT_EQ(entry->h, 1.0f / 60);
 }
 
-// What a schedule adds and takes away does not depend on the physics, so that nothing needs to be stepped with it.
+// Schedules add and take away bodies independently of the physics, so that nothing needs to be stepped with them.
 TEST_P(BenchmarkScene, HasAsManyBodiesShapesAndJointsAsTheirs)
 {
     const SceneEntry* entry = find_scene(GetParam().name);

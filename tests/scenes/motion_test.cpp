@@ -62,7 +62,7 @@ TEST(Bullet, NoneGetsOutAndNoneChangesItsSpeed)
     EXPECT_NEAR(end, start, 0.01 * start);
 }
 
-// What the test above would miss if nothing were fast: without continuous collision they do get out.
+// The test above would miss this if nothing were fast: without continuous collision they do get out.
 TEST(Bullet, GetOutWithoutContinuousCollision)
 {
     SceneRun run("bullet", {.continuous = false});

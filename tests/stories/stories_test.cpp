@@ -1,4 +1,4 @@
-// What the x-ray says of impacts, in every impact of every small scene of the lab and of a hundred games.
+// Checks the x-ray's stories of impacts, in every impact of every small scene of the lab and of a hundred games.
 
 #include "pinball/autoplay/reflex.h"
 #include "pinball/game/game.h"

@@ -14,7 +14,7 @@
 
 namespace carom::test {
 
-/// What a number with so many digits may have been before it was rounded.
+/// The range of values that a number with so many digits may have been rounded from.
 struct Range
 {
     double low = 0;
@@ -202,7 +202,7 @@ inline std::optional<Range> number_after(const std::vector<view::StoryLine>& sto
     return std::nullopt;
 }
 
-/// What is false in the story of this impact; empty: nothing.
+/// The first false statement in the story of this impact; empty: there is none.
 inline std::string what_is_false(const view::ImpactRecord& record)
 {
     const std::vector<view::StoryLine> story = view::impact_story(record);

@@ -1,4 +1,4 @@
-// What the chapters say is so: their numbers against the engine's.
+// Compares the numbers of the chapters with the engine's.
 
 #include "tour/chapters/school_geometry.h"
 #include "tour/lesson.h"

@@ -14,7 +14,7 @@
 namespace carom::view {
 namespace {
 
-// What SDL's disk driver wrote: raw floats, left and right in turn.
+// The output of SDL's disk driver: raw floats, left and right in turn.
 class SoundFile
 {
 public:

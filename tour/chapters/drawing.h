@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What several chapters draw: labels, arrows with a name, curves.
+/// Drawings that several chapters share: labels, arrows with a name, curves.
 
 #include "tour/chapter.h"
 #include "view/canvas.h"

@@ -1,4 +1,4 @@
-// What an engine does sixty times a second: the stages of a step, each drawn on the scene that is running, and the path of a thrown ball.
+// The work of an engine, sixty times a second: the stages of a step, each drawn on the scene that is running, and the path of a thrown ball.
 
 #include "tour/chapters/chapters.h"
 #include "tour/chapters/drawing.h"
@@ -133,7 +133,7 @@ private:
         m_xray.draw(canvas, scene());
     }
 
-    // Of bodies that may meet in the step: the engine has made a contact of them.
+    // The contacts of bodies that may meet in the step.
     void draw_pairs(view::Canvas& canvas) const
     {
         for (const ContactInfo& contact : scene().contacts())

@@ -10,7 +10,7 @@
 
 namespace carom::tour::school {
 
-/// Of a point over a plane through a point, m; negative below.
+/// The height of a point over a plane through a point, m; negative below.
 [[nodiscard]] float above_plane(Position point, Position on_plane, Vec2 normal);
 
 [[nodiscard]] std::array<Position, 4> corners(const Pose& pose, Vec2 half);

@@ -137,7 +137,7 @@ private:
 
     BodyId add(int kind, Position at)
     {
-        // What is endless or bends inwards has no mass.
+        // A shape that is endless or bends inwards has no mass.
         const BodyType type = kind == 0 || kind == 5 ? BodyType::Static : BodyType::Dynamic;
         const BodyId body = scene().create_body({.type = type, .position = at, .angle = kind == 0 ? 0.0f : 0.3f});
         scene().create_shape(body, geometry_of(kind));

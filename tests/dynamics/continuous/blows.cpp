@@ -17,7 +17,7 @@ constexpr int boxes_in_row = 20;
 constexpr int rows_of_boxes = 15;
 constexpr double between_boxes = 0.015; // nearer than the 2 cm within which pairs get rows
 
-// Of one metre; nothing moves them.
+// Walls one metre long; nothing moves them.
 std::vector<BodyId> build_loose_grid(Scene& scene)
 {
     std::vector<BodyId> boxes;

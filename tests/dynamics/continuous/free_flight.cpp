@@ -1,4 +1,4 @@
-// What flies through a whole step at once goes where sub-steps lead it; what presses weakly in flight is taken in few blows.
+// A body that flies through a whole step at once goes where sub-steps lead it; weak presses in flight are taken in few blows.
 
 #include "dynamics/state/scene_data.h"
 #include "support/test_scene.h"

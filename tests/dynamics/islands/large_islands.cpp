@@ -49,7 +49,7 @@ float deepest(const Scene& scene)
     return depth;
 }
 
-// Of the bodies that move, how many lie in the plane cell that has most.
+// The number of moving bodies in the plane cell that has most of them.
 std::size_t fullest_cell(Scene& scene)
 {
     const internal::SceneState& state = scene.data().state;
@@ -73,7 +73,7 @@ std::vector<std::int32_t> groups_of_parts(Scene& scene)
     return groups;
 }
 
-// Of bodies, by slot: what contacts say that they gave along y in the last step.
+// Impulses along y by body slot, as the contacts of the last step report them.
 std::vector<double> upward_impulses(Scene& scene)
 {
     std::vector<double> sums(static_cast<std::size_t>(scene.data().state.bodies.capacity()));

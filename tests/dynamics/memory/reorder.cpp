@@ -21,7 +21,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>; // slots of the shapes
 
 Pair pair_of(const ContactInfo& c) { return std::minmax(c.shape_a.slot, c.shape_b.slot); }
 
-// What each body lists is what the scene lists, no more and no less.
+// The bodies together list what the scene lists, no more and no less.
 void expect_lists_agree(const Scene& scene)
 {
     std::map<BodyId, std::multiset<Pair>> of_scene;
@@ -125,7 +125,7 @@ TEST(DynamicsTidy, ListsKeepWhileBodiesComeAndGo)
     EXPECT_TRUE(scene.contacts().empty());
 }
 
-// Of many, what is made takes the slots of what goes. Both are more by turns: balls fly apart, and others come.
+// New bodies take the slots of those that go. Both are more by turns: balls fly apart, and others come.
 TEST(DynamicsTidy, ManyContactsStayInTheOrderOfMemory)
 {
     Threads three(3);

@@ -58,7 +58,7 @@ struct Tally
     int off = 0;   ///< something else would be found
 };
 
-// Of a contact that is kept, whether the last step followed it or found it. Where it was not solved in a crowd, within the step it may have been found again.
+// For a contact that is kept: whether the last step followed it or found it. Where it was not solved in a crowd, within the step it may have been found again.
 void compare(const SceneState& state, int index, Tally& tally)
 {
     const Contact& contact = state.contacts[index];
@@ -77,7 +77,7 @@ void compare(const SceneState& state, int index, Tally& tally)
     const Manifold found = world_manifold(state, contact, a, b, std::max(near, 0.0f) + 0.03f);
     ++(caches_nearest(contact) ? tally.corners : tally.edges);
     ASSERT_GT(found.count, 0) << "a point that is not there, apart by " << near;
-    // Of two points, or of one that is deeper than its corner is round, another edge or corner may be a little better, and is not looked for as long as
+    // For two points, or for one that is deeper than its corner is round, another edge or corner may be a little better, and is not looked for as long as
     // bodies have moved little.
     const float off = std::fabs(least_separation(found) - near);
     const bool is_surely_best =

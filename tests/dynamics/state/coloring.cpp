@@ -1,4 +1,4 @@
-// What bodies know of the colours of their contacts is what the contacts say, whatever a user does between steps.
+// The colors that bodies list are those of their contacts, whatever a user does between steps.
 
 #include "dynamics/state/coloring.h"
 #include "dynamics/state/scene_data.h"

@@ -50,7 +50,7 @@ struct PilesAndSheet
     Scene scene{sleepless()};
     std::vector<BodyId> bodies{};
 
-    // What flies high above keeps all islands from staying in place.
+    // A body that flies high above keeps all islands from staying in place.
     explicit PilesAndSheet(bool with_flier)
     {
         add_static(scene, box(60, 0.5f, {0, -0.5f}));

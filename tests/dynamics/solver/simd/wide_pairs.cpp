@@ -1,4 +1,4 @@
-// What has come to overlap among moving boxes, and what may meet in a step: every instruction set against one box, or pair, after the other.
+// New overlaps among moving boxes, and pairs that may meet in a step: every instruction set against one box, or pair, after the other.
 
 #include "collision/broad_phase.h"
 #include "dynamics/solver/simd/kernels.h"
