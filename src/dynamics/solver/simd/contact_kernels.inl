@@ -142,18 +142,18 @@ CAROM_INLINE void for_each_block(const WideBucket& bucket, const Pass& pass)
     {
         if (bucket.are_far)
             fetch(bucket.constraints + i, bucket.notes + i);
-        const bool is_pair = i + 1 < bucket.count;
         if constexpr (Features::in_pairs)
         {
-            if (is_pair)
-            {
+            if (i + 1 < bucket.count)
                 pass(bucket.constraints[i], Features(bucket.features[i]), F16());
-                continue;
-            }
+            else
+                pass(bucket.constraints[i], Features(bucket.features[i]), F8());
         }
-        pass(bucket.constraints[i], Features(bucket.features[i]), F8());
-        if (is_pair)
-            pass(bucket.constraints[i + 1], Features(bucket.features[i + 1]), F8());
+        else
+        {
+            for (std::int32_t k = i; k < std::min(i + 2, bucket.count); ++k)
+                pass(bucket.constraints[k], Features(bucket.features[k]), F8());
+        }
     }
 }
 
