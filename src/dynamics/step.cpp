@@ -17,9 +17,12 @@ namespace {
 
 constexpr float longest_step = 1.0f / 30; // s
 
-// The frequency of contacts is at most 0.15 / (longest recent sub-step), twice that against bodies of infinite mass. With the rate of the present
-// sub-step, steps of changing length would change the stiffness, and stacks would rise and sink. With 3/16 a pyramid of a hundred layers still moves at 28 mm/s in the mean
-// after 4 to 8 s, with 0.15 at 4 mm/s; its boxes have strayed by 16 and 25 cm, and by 35 cm with 1/8. Joints: see joint_solver.cpp.
+// The frequency of contacts is at most 0.15 / (longest recent sub-step), twice that against bodies of infinite mass. If it followed the present sub-step,
+// steps of changing length would change the stiffness, and stacks would rise and sink. A pyramid of a hundred layers, after 4 to 8 s:
+//   3/16   it moves at 28 mm/s in the mean, and its boxes have strayed by 16 cm
+//   0.15   4 mm/s, 25 cm
+//   1/8    35 cm
+// A speed that gravity gives in two sub-steps is no impact. Joints: see joint_solver.cpp.
 void set_softness(StepContext& ctx)
 {
     const SceneDef& def = ctx.scene.def;
@@ -72,6 +75,7 @@ void end_step(StepContext& ctx)
 
 } // namespace
 
+// The step as an island with subdivided sub-steps sees it.
 StepContext step_of(const StepContext& ctx, const Island& island)
 {
     StepContext s = ctx;
@@ -88,12 +92,12 @@ const StepReport& step(SceneData& scene, float dt)
 {
     StageTimes ms;
     Stopwatch watch;
-    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness, as step_of() does for an island
+    StepContext ctx = begin_step(scene, dt); // clears events; derives h and softness
     watch.time(ms.sweep, [&] { sweep_paths(ctx); });
     watch.time(ms.pairs, [&] { find_pairs(ctx); });
     watch.time(ms.contacts, [&] { update_contacts(ctx); });
     watch.time(ms.islands, [&] { build_islands(ctx); });
-    save_impulses(ctx); // of a step shorter than recent ones: averaged with the new ones below, see uneven_steps.h
+    save_impulses(ctx); // if this step is shorter than recent ones: they are averaged with the new ones below, see uneven_steps.h
     watch.time(ms.solve, [&] { solve_islands(ctx); });
     watch.time(ms.commit, [&] { commit(ctx); });
     average_saved_impulses(ctx);

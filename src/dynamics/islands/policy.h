@@ -1,6 +1,6 @@
 #pragma once
 
-// How an island is solved. Only policy.cpp decides by an island's size or content; all other code reads the choices below. They depend on the island and the
+// How an island is solved. Only policy.cpp and the limits below decide by an island's size or content; all other code reads the choices. They depend on the island and the
 // length of the step, never on threads. Tests may force any of them. Islands in free fall and islands with soft joints are then solved several at a time, as one Island.
 
 #include <cstddef>

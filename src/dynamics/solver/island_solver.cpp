@@ -1,4 +1,5 @@
-// One island through all its sub-steps. There are three ways through a sub-step:
+// One island through all its sub-steps; islands in free fall, and those that fly a whole step at once, do not come here (solve_islands.cpp). There are three
+// ways through a sub-step:
 //   advance_airborne       every body of the island flies; what lands is relaxed
 //   advance_by_partition   all constraints are in lanes, and nothing flies or the island is huge: each partition is solved, moved and relaxed while in the cache
 //   advance                solve with bias, move, fly, relax
