@@ -102,6 +102,7 @@ CAROM_INLINE auto are_fixed(F inverse_mass, F inverse_inertia)
 }
 
 #include "fill_kernels.inl"
+#include "feature_kernels.inl"
 #include "contact_kernels.inl"
 #include "joint_kernels.inl"
 #include "follow_kernels.inl"
