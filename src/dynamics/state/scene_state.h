@@ -270,8 +270,8 @@ enum class JointType : std::uint8_t
     Weld,
 };
 
-inline constexpr int most_joint_rows =
-    3; ///< held rows and free axes together: two bodies move relative to each other in three ways
+/// Held rows and free axes together: two bodies move relative to each other in three ways.
+inline constexpr int most_joint_rows = 3;
 inline constexpr int most_joint_axes = 2; ///< free axes on which something acts
 
 /// Index of a constraint in JointRecord::impulses: of the held rows, then what acts on the first free axis, and the same on the second.

@@ -53,6 +53,15 @@ struct ContactConstraint
     ConstraintPoint points[2];
 };
 
+/// The sum of its normal impulses, which limits rolling.
+[[nodiscard]] inline float load_of(const ContactConstraint& constraint)
+{
+    float load = 0;
+    for (int i = 0; i < constraint.count; ++i)
+        load += constraint.points[i].normal_impulse;
+    return load;
+}
+
 [[nodiscard]] inline bool bears_load(const ContactConstraint& constraint)
 {
     return (constraint.count > 0 && constraint.points[0].normal_impulse > 0) ||

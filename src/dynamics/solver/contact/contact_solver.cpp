@@ -53,11 +53,9 @@ struct Pair
 
 void solve_rolling(const Pair& pair, ContactConstraint& constraint)
 {
-    float load = 0;
-    for (int i = 0; i < constraint.count; ++i)
-        load += constraint.points[i].normal_impulse;
-    const float updated = friction_impulse(constraint.rolling_impulse, constraint.rolling_mass,
-                                           pair.sb.angular_velocity - pair.sa.angular_velocity, constraint.rolling * load);
+    const float updated =
+        friction_impulse(constraint.rolling_impulse, constraint.rolling_mass, pair.sb.angular_velocity - pair.sa.angular_velocity,
+                         constraint.rolling * load_of(constraint));
     const float change = updated - std::exchange(constraint.rolling_impulse, updated);
     pair.sa.angular_velocity -= pair.ca.inverse_inertia * change;
     pair.sb.angular_velocity += pair.cb.inverse_inertia * change;

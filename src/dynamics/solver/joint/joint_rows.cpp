@@ -3,7 +3,6 @@
 
 #include "dynamics/solver/joint/joint_rows.h"
 
-#include "dynamics/solver/joint/joint_bodies.h"
 #include "dynamics/solver/joint/kinds/distance.h"
 #include "dynamics/solver/joint/kinds/prismatic.h"
 #include "dynamics/solver/joint/kinds/revolute.h"

@@ -70,7 +70,7 @@ struct JointPose
 
 using JointErrors = std::array<float, joint_errors>;
 
-/// What the solver keeps about a free axis from one place to the next.
+/// State of a free axis that outlives its rows, which are made anew at each pose.
 struct AxisWork
 {
     AxisSpring spring{};    ///< the joint's own, or that of its soft limits

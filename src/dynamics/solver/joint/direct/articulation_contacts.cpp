@@ -271,9 +271,7 @@ void DirectSolve::solve_contact(const Contact& contact, bool use_bias)
         const float updated = normal_impulse(normal.mass, p.normal_impulse, target);
         push_whole(normal, updated - std::exchange(p.normal_impulse, updated));
     }
-    float load = 0;
-    for (int i = 0; i < constraint.count; ++i)
-        load += constraint.points[i].normal_impulse;
+    const float load = load_of(constraint);
     if (constraint.rolling > 0 && (load > 0 || constraint.rolling_impulse != 0))
     {
         const PushedLine turn = pushed_line(contact, {0, 0, -1}, {0, 0, 1});
