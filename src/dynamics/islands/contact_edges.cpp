@@ -85,12 +85,11 @@ private:
     {
         ContactEdge& l = *m_next;
         if (m_stay)
-            m_stay = m_next < m_old_end && is_same(l, {contact, a, b, flags});
+            m_stay = m_next < m_old_end && is_same(l, {{flags}, contact, a, b});
         l.contact = contact;
         l.a = a;
         l.b = b;
         l.flags = flags;
-        l.partition = 0;
         ++m_next;
     }
 

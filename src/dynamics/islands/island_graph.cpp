@@ -306,7 +306,8 @@ public:
     void sort_joints()
     {
         sort_by_island(
-            ctx.scene.def.tasks, scratch, scratch.graph.joint_edges, scratch.graph.solved_joints, joints_per_task,
+            ctx.scene.def.tasks, scratch, scratch.graph.joint_edges.size(), scratch.graph.solved_joints, joints_per_task,
+            [&](std::size_t i) { return scratch.graph.joint_edges[i]; },
             [&](std::size_t i) { return island_of_edge(scratch, scratch.graph.joint_edges[i]); },
             [](Island& island, int first, int count)
             {
@@ -319,7 +320,8 @@ public:
     void sort_bodies()
     {
         sort_by_island(
-            ctx.scene.def.tasks, scratch, scratch.graph.in_plane, scratch.graph.solved_bodies, bodies_per_task,
+            ctx.scene.def.tasks, scratch, scratch.graph.in_plane.size(), scratch.graph.solved_bodies, bodies_per_task,
+            [&](std::size_t i) { return scratch.graph.in_plane[i]; },
             [&](std::size_t i) { return scratch.graph.island_of[static_cast<std::size_t>(scratch.graph.in_plane[i])]; },
             [](Island& island, int first, int count)
             {

@@ -25,19 +25,23 @@ inline constexpr std::uint32_t in_lane = 8;
 inline constexpr std::uint32_t all = 63;
 } // namespace edge_flag
 
-/// Contact that takes part in a step, between two bodies of which at least one is dynamic. Four to a cache line.
-struct ContactEdge
+/// Flags, number of points and color of a contact edge.
+struct EdgeTraits
 {
-    std::int32_t contact = none;
-    std::int32_t a = none; ///< index in awake_bodies if the body is dynamic; none: it rests; -2 - index: kinematic
-    std::int32_t b = none;
-    // Not bytes: a store through a byte type may alias anything, and the compiler would reload everything after it.
-    std::uint16_t flags = 0;     ///< see packed_flags
-    std::uint16_t partition = 0; ///< in a lane
+    // Not a byte: a store through a byte type may alias anything, and the compiler would reload everything after it.
+    std::uint16_t flags = 0; ///< see packed_flags
 
     [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
     [[nodiscard]] int points() const { return flags >> 6 & 3; }
     [[nodiscard]] int color() const { return (flags >> 8) - 1; } ///< color from the last step, then that of its constraint
+};
+
+/// Contact that takes part in a step, between two bodies of which at least one is dynamic. Four to a cache line.
+struct ContactEdge : EdgeTraits
+{
+    std::int32_t contact = none;
+    std::int32_t a = none; ///< index in awake_bodies if the body is dynamic; none: it rests; -2 - index: kinematic
+    std::int32_t b = none;
 };
 static_assert(sizeof(ContactEdge) == 16);
 

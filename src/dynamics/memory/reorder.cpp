@@ -159,7 +159,7 @@ private:
         }
     }
 
-    void place(const ContactEdge& l)
+    void place(const SolvedEdge& l)
     {
         if (l.color() != m_last.color() || l.points() != m_last.points())
             ++m_color;
@@ -349,7 +349,7 @@ private:
     std::vector<std::int32_t>& m_moved_to; ///< by contact slot, in the same memory, afterwards
     const TaskHooks& m_tasks;
     std::uint32_t m_color = 0;
-    ContactEdge m_last; ///< last contact edge that was placed in the island
+    SolvedEdge m_last; ///< last contact edge that was placed in the island
 };
 
 } // namespace

@@ -86,7 +86,7 @@ bool constraints_are_unchanged(const StepContext& ctx)
                 prefetch(constraints[g + 2]);
                 prefetch(all_notes[g + 2]);
             }
-            const RefreshChanges changes = are_marked(ctx.state, notes) ? follower.follow(constraints[g], notes)
+            const RefreshChanges changes = are_marked(ctx.state, notes) ? follower.follow(as_index(island.wide_store + g))
                                                                         : RefreshChanges{.gone = filled_lanes(notes)};
             if ((changes.gone | changes.told) != 0)
                 stay.store(false, std::memory_order_relaxed);
@@ -167,7 +167,7 @@ void cache_constraints(StepContext& ctx)
     cached.touching = ctx.report.touching;
     std::vector<std::int32_t>& has_lane = scratch.order;
     has_lane.assign(static_cast<std::size_t>(ctx.state.contacts.capacity()), 0);
-    for (const ContactEdge& l : scratch.layout.solved_edges)
+    for (const SolvedEdge& l : scratch.layout.solved_edges)
         has_lane[as_index(l.contact)] = 1;
     cached.loose.clear();
     std::copy_if(cached.contacts.begin(), cached.contacts.end(), std::back_inserter(cached.loose),

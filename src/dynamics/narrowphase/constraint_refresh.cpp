@@ -27,8 +27,10 @@ ConstraintRefresh::ConstraintRefresh(const StepContext& ctx)
     : m_ctx(ctx), m_state(ctx.state), m_scratch(ctx.scratch), m_scene(followed_scene(ctx))
 {}
 
-RefreshChanges ConstraintRefresh::follow(WideContact& constraint, WideContactNotes& notes)
+RefreshChanges ConstraintRefresh::follow(std::size_t at)
 {
+    WideContact& constraint = m_scratch.solver.wide_contacts[at];
+    WideContactNotes& notes = m_scratch.solver.wide_notes[at];
     RefreshedContacts now;
     m_kernels.follow(constraint, notes, m_scene, now);
     RefreshChanges changes;
@@ -40,14 +42,16 @@ RefreshChanges ConstraintRefresh::follow(WideContact& constraint, WideContactNot
     notes.followed |= sure;
     for_each_lane(now.borne & sure, [&](int i) { note_borne(constraint, i); });
     for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(constraint, notes, i, now.separation.v[i]); });
-    for_each_lane(looked, [&](int i) { look_at(constraint, notes, i, changes); });
+    for_each_lane(looked, [&](int i) { look_at(at, i, changes); });
     m_kernels.prepare(constraint, notes.count);
     return changes;
 }
 
 // Updates the contact of one lane by itself and refills the lane.
-void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes, int i, RefreshChanges& changes)
+void ConstraintRefresh::look_at(std::size_t at, int i, RefreshChanges& changes)
 {
+    WideContact& constraint = m_scratch.solver.wide_contacts[at];
+    WideContactNotes& notes = m_scratch.solver.wide_notes[at];
     const std::uint32_t bit = 1u << i;
     const std::int32_t index = notes.contact.v[i];
     m_scratch.narrow.is_looked_at[static_cast<std::size_t>(index)] = 1;
@@ -59,11 +63,7 @@ void ConstraintRefresh::look_at(WideContact& constraint, WideContactNotes& notes
         changes.gone |= bit;
         return;
     }
-    ContactEdge edge;
-    edge.contact = index;
-    edge.a = constraint.a.v[i];
-    edge.b = constraint.b.v[i];
-    refill_lane(m_ctx, edge, constraint, notes, i);
+    refill_lane(m_ctx, at, i);
     note_if_loaded(constraint, notes, i, least_separation(contact.manifold));
 }
 

@@ -20,12 +20,12 @@ class ConstraintRefresh
 public:
     explicit ConstraintRefresh(const StepContext& ctx);
 
-    /// Lanes that cannot be followed, or whose touch may begin or end, are updated one by one and refilled. Lanes that are gone are left in an arbitrary state.
+    /// The wide constraint at an index in SolverWorkspace::wide_contacts. Lanes that cannot be followed, or whose touch may begin or end, are updated one by one and refilled. Lanes that are gone are left in an arbitrary state.
     /// All contacts must have their lane marks.
-    [[nodiscard]] RefreshChanges follow(WideContact& constraint, WideContactNotes& notes);
+    [[nodiscard]] RefreshChanges follow(std::size_t at);
 
 private:
-    void look_at(WideContact& constraint, WideContactNotes& notes, int i, RefreshChanges& changes);
+    void look_at(std::size_t at, int lane, RefreshChanges& changes);
     void note_borne(const WideContact& constraint, int i) const;
     void note_if_loaded(const WideContact& constraint, const WideContactNotes& notes, int i, float separation) const;
 

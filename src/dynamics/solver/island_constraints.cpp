@@ -63,7 +63,7 @@ void fill_block(const StepContext& ctx, const Island& island, std::int32_t g)
             notes.contact.v[i] = none;
             continue;
         }
-        const ContactEdge& l = scratch.layout.solved_edges[as_index(edge)];
+        const SolvedEdge& l = scratch.layout.solved_edges[as_index(edge)];
         constraint.a.v[i] = l.a;
         constraint.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
@@ -89,7 +89,7 @@ void take_rolling_impulses(SceneState& state, const WideContactNotes& notes, con
 
 void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t i)
 {
-    const ContactEdge& l = ctx.scratch.layout.solved_edges[as_index(ctx.scratch.layout.constraint_edges[as_index(i)])];
+    const SolvedEdge& l = ctx.scratch.layout.solved_edges[as_index(ctx.scratch.layout.constraint_edges[as_index(i)])];
     const Contact& contact = ctx.state.contacts[l.contact];
     ContactConstraint& constraint = ctx.scratch.solver.constraints[as_index(i)];
     constraint = prepare_constraint(ctx, l.contact, contact.manifold, l.a, l.b);

@@ -120,7 +120,7 @@ private:
     }
 
     // Partition of the bodies that have finite mass. Boundary constraints between two partitions come after all partitions.
-    [[nodiscard]] int partition_of(const ContactEdge& l) const
+    [[nodiscard]] int partition_of(const SolvedEdge& l) const
     {
         if (m_island.partitions == 0)
             return 0;
@@ -150,7 +150,7 @@ private:
 
     // --- colors and counts ------------------------------------------------------------------------------------------------------------
 
-    [[nodiscard]] std::span<ContactEdge> edges() const
+    [[nodiscard]] std::span<SolvedEdge> edges() const
     {
         return std::span(m_scratch.layout.solved_edges).subspan(as_index(m_island.first_edge), as_index(m_island.edge_count));
     }
@@ -162,7 +162,6 @@ private:
                                        : std::max<std::size_t>(edges().size(), 1);
     }
 
-    // From here on, edges hold states instead of awake indices.
     [[nodiscard]] std::span<SlotsOfTask> count_edges()
     {
         return find_in_chunks(
@@ -176,9 +175,10 @@ private:
                 some.has_features = false;
                 for (std::size_t i = first; i < std::min(last, edges().size()); ++i)
                 {
-                    ContactEdge& l = edges()[i];
-                    l.a = state_at(l.a);
-                    l.b = state_at(l.b);
+                    SolvedEdge& l = edges()[i];
+                    const ContactEdge& edge =
+                        m_scratch.graph.edges[as_index(m_scratch.layout.edge_order[as_index(m_island.first_edge) + i])];
+                    l = {edge, 0, edge.contact, state_at(edge.a), state_at(edge.b)};
                     if (l.color() == none || l.color() == color_limit)
                         some.uncolored.push_back(static_cast<std::int32_t>(i));
                     else
@@ -194,7 +194,7 @@ private:
             for (std::size_t u = 0; u < some.uncolored.size(); ++u)
             {
                 prefetch_uncolored(some.uncolored, u);
-                ContactEdge& l = edges()[as_index(some.uncolored[u])];
+                SolvedEdge& l = edges()[as_index(some.uncolored[u])];
                 Contact& contact = m_state.contacts[l.contact];
                 take_color(m_state, contact);
                 l.flags = packed_flags(l.flags & edge_flag::all, l.points(), contact.color);
@@ -218,7 +218,7 @@ private:
             prefetch(m_state.bodies[body]);
     }
 
-    void count(ContactEdge& l, SlotsOfTask& some) const
+    void count(SolvedEdge& l, SlotsOfTask& some) const
     {
         const int color = l.color();
         const bool in_lane = m_island.policy.wide_contacts && color != color_limit && (m_is_uniform || give_evenly(m_ctx, l));
@@ -295,7 +295,7 @@ private:
     {
         for (std::size_t i = first; i < std::min(first + edges_of_task(), edges().size()); ++i)
         {
-            const ContactEdge& l = edges()[i];
+            const SolvedEdge& l = edges()[i];
             const std::int32_t at = some.place_for(l)++;
             (l.has(edge_flag::in_lane) ? m_scratch.layout.lane_edges : m_scratch.layout.constraint_edges)[as_index(at)] =
                 m_island.first_edge + static_cast<std::int32_t>(i);
@@ -311,7 +311,7 @@ private:
     }
 
     // Balls and jointed bodies have a core against bodies that are not dynamic.
-    void add_core(const ContactEdge& l, std::int32_t lane, SlotsOfTask& some) const
+    void add_core(const SolvedEdge& l, std::int32_t lane, SlotsOfTask& some) const
     {
         const bool a_gives = is_dynamic(m_island, l.a);
         if (a_gives && is_dynamic(m_island, l.b))
@@ -352,13 +352,14 @@ void sort_edges(StepContext& ctx)
 {
     Scratch& scratch = ctx.scratch;
     sort_by_island(
-        {}, scratch, scratch.graph.edges, scratch.layout.solved_edges, edges_per_task,
-        [&](std::size_t i) { return scratch.graph.island_of_edge[i]; },
+        {}, scratch, scratch.graph.edges.size(), scratch.layout.edge_order, edges_per_task, [](std::size_t i)
+        { return static_cast<std::int32_t>(i); }, [&](std::size_t i) { return scratch.graph.island_of_edge[i]; },
         [](Island& island, int first, int count)
         {
             island.first_edge = first;
             island.edge_count = count;
         });
+    set_size(scratch.layout.solved_edges, scratch.layout.edge_order.size());
 }
 
 void place_constraints_of_small_islands(StepContext& ctx)

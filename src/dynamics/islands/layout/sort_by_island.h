@@ -33,15 +33,15 @@ void for_each_run(std::size_t first, std::size_t last, const IslandOf& island_of
     }
 }
 
-/// A stable counting sort of items by island_of(index), which works on runs: fills `sorted` and calls set_range(island, first, count). Items for which
-/// island_of returns none are left out.
-template <class Item, class IslandOf, class SetRange>
-void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<Item>& items, std::vector<Item>& sorted,
-                    std::size_t items_per_task, const IslandOf& island_of, const SetRange& set_range)
+/// A stable counting sort of the `count` items item_at(index) by island_of(index), which works on runs: fills `sorted` and calls set_range(island, first,
+/// count). Items for which island_of returns none are left out.
+template <class Item, class ItemAt, class IslandOf, class SetRange>
+void sort_by_island(const TaskHooks& tasks, Scratch& scratch, std::size_t count, std::vector<Item>& sorted,
+                    std::size_t items_per_task, const ItemAt& item_at, const IslandOf& island_of, const SetRange& set_range)
 {
     using Runs = std::vector<IslandRun>;
     const std::span<Runs> partitions =
-        find_in_chunks(tasks, items.size(), items_per_task, scratch.layout.runs_of_task,
+        find_in_chunks(tasks, count, items_per_task, scratch.layout.runs_of_task,
                        [&](std::size_t first, std::size_t last, Runs& runs)
                        {
                            runs.clear();
@@ -70,7 +70,11 @@ void sort_by_island(const TaskHooks& tasks, Scratch& scratch, const std::vector<
               [&](int task)
               {
                   for (const IslandRun& run : partitions[static_cast<std::size_t>(task)])
-                      std::ranges::copy(run.of(items), sorted.begin() + run.sorted_first);
+                  {
+                      for (std::int32_t i = 0; i < run.count; ++i)
+                          sorted[static_cast<std::size_t>(run.sorted_first + i)] =
+                              item_at(static_cast<std::size_t>(run.first + i));
+                  }
               });
 }
 

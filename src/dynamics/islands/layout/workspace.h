@@ -13,6 +13,15 @@
 
 namespace carom::internal {
 
+/// Contact edge that gets a constraint, between the states of its bodies.
+struct SolvedEdge : EdgeTraits
+{
+    std::uint16_t partition = 0; ///< in a lane
+    std::int32_t contact = none;
+    std::int32_t a = none; ///< state
+    std::int32_t b = none;
+};
+
 /// Slots of a task's contact edges: first the number of edges in each bucket, then the slot of the next one. All 0 between steps.
 struct SlotsOfTask
 {
@@ -23,13 +32,13 @@ struct SlotsOfTask
     std::vector<std::int32_t> uncolored; ///< indices among the island's edges
     std::vector<WideCore> cores;
 
-    [[nodiscard]] std::int32_t& place_for(const ContactEdge& l)
+    [[nodiscard]] std::int32_t& place_for(const SolvedEdge& l)
     {
         return l.has(edge_flag::in_lane) ? lanes[static_cast<std::size_t>(place_of(l))] : constraints[l.color()];
     }
 
 private:
-    [[nodiscard]] static int place_of(const ContactEdge& l)
+    [[nodiscard]] static int place_of(const SolvedEdge& l)
     {
         const int kind = l.has(edge_flag::plain) ? 0 : plain_buckets;
         return l.partition * buckets_to_a_partition + kind + 2 * l.color() + (l.points() == 2 ? 0 : 1);
@@ -51,12 +60,6 @@ struct IslandRun
     std::int32_t first;
     std::int32_t count;
     std::int32_t sorted_first = 0; ///< index of the first when the list is sorted by island
-
-    template <class Item>
-    [[nodiscard]] std::span<const Item> of(const std::vector<Item>& items) const
-    {
-        return {items.data() + first, static_cast<std::size_t>(count)};
-    }
 };
 
 /// A joint and the states of its bodies.
@@ -134,7 +137,8 @@ struct LayoutWorkspace
     std::vector<std::int32_t> island_starts;
     std::vector<std::vector<IslandRun>> runs_of_task;
     std::vector<std::vector<CellOfIsland>> cells_of_task;
-    std::vector<ContactEdge> solved_edges;      ///< edges that get constraints, by island
+    std::vector<std::int32_t> edge_order;       ///< indices of the contact edges that get constraints, by island
+    std::vector<SolvedEdge> solved_edges;       ///< in the same order
     std::vector<std::int32_t> lane_edges;       ///< edge in each lane; none: empty
     std::vector<std::int32_t> constraint_edges; ///< edge of each constraint
     std::vector<SlotsOfTask> slots_of_task;

@@ -73,20 +73,19 @@ void clear_sums(WideContact& constraint, WideContactNotes& notes)
         approach = {};
 }
 
-void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact& constraint, WideContactNotes& notes, int i)
+void refill_lane(const StepContext& ctx, std::size_t at, int i)
 {
+    SolverWorkspace& solver = ctx.scratch.solver;
+    WideContact& constraint = solver.wide_contacts[at];
+    WideContactNotes& notes = solver.wide_notes[at];
     for (std::uint32_t* lanes :
          {&notes.loaded, &notes.may_hit, &notes.unreported, &notes.edge_of_b, &notes.nearest, &notes.cached, &notes.followed})
         *lanes &= ~(1u << i);
-    const Contact& contact = ctx.state.contacts[states.contact];
+    const std::int32_t index = notes.contact.v[i];
+    const Contact& contact = ctx.state.contacts[index];
     const Manifold& m = contact.manifold;
-    const StateConstants& a = constants_of(ctx, states.a);
-    const StateConstants& b = constants_of(ctx, states.b);
-    constraint.a.v[i] = states.a;
-    constraint.b.v[i] = states.b;
-    notes.contact.v[i] = states.contact;
-    notes.body_a.v[i] = contact.body_a;
-    notes.body_b.v[i] = contact.body_b;
+    const StateConstants& a = constants_of(ctx, constraint.a.v[i]);
+    const StateConstants& b = constants_of(ctx, constraint.b.v[i]);
     constraint.nx.v[i] = m.normal.x;
     constraint.ny.v[i] = m.normal.y;
     constraint.friction.v[i] = contact.friction;
@@ -108,12 +107,11 @@ void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact&
         p.across_b.v[i] = cross(from.anchor_b, m.normal);
         p.along_b.v[i] = dot(from.anchor_b, m.normal);
         p.base.v[i] = from.separation;
-        p.normal_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].normal;
-        p.tangent_impulse.v[i] = impulses_of(ctx.state, states.contact).points[k].tangent;
+        p.normal_impulse.v[i] = impulses_of(ctx.state, index).points[k].normal;
+        p.tangent_impulse.v[i] = impulses_of(ctx.state, index).points[k].tangent;
     }
     if (notes.featured != 0)
-        fill_features(ctx.state, states.contact,
-                      *(ctx.scratch.solver.wide_features.data() + (&notes - ctx.scratch.solver.wide_notes.data())), i);
+        fill_features(ctx.state, index, solver.wide_features[at], i);
     ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
     if (!touches(contact))
         notes.unreported |= 1u << i;

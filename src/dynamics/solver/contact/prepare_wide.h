@@ -6,14 +6,15 @@
 
 namespace carom::internal {
 
-/// Clears what a constraint sums up over a step.
 /// Fills the features of one lane from its contact; for an empty lane they are 0.
-void fill_features(const SceneState& state, std::int32_t contact, WideFeatures& features, int i);
+void fill_features(const SceneState& state, std::int32_t contact, WideFeatures& features, int lane);
+
+/// Clears what a constraint sums up over a step.
 void clear_sums(WideContact& constraint, WideContactNotes& notes);
 
-/// Writes the contact of an edge between states into a lane that it has occupied before, as
-/// WideKernels::fill does for eight lanes; sums are cleared already. WideKernels::prepare does the rest.
-void refill_lane(const StepContext& ctx, const ContactEdge& states, WideContact& constraint, WideContactNotes& notes, int lane);
+/// Writes a contact again into its lane of the wide constraint at an index in SolverWorkspace::wide_contacts, as WideKernels::fill does for eight lanes; sums
+/// are cleared already. WideKernels::prepare does the rest.
+void refill_lane(const StepContext& ctx, std::size_t at, int lane);
 
 /// The lanes that hold a contact, as bits.
 [[nodiscard]] std::uint32_t filled_lanes(const WideContactNotes& notes);
