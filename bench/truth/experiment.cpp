@@ -23,6 +23,15 @@ std::span<const Experiment> experiments()
         Experiment{13, "chains", chains, false},
         Experiment{14, "a pile of a thousand", pile, false},
         Experiment{15, "the flipper shot", flipper_shot},
+        Experiment{16, "a gas", gas},
+        Experiment{17, "long cradles", long_rows},
+        Experiment{18, "a pool shot beside others", spectators},
+        Experiment{19, "blows to joints", struck_joints},
+        Experiment{20, "linkages", linkages},
+        Experiment{21, "long chains", long_chains},
+        Experiment{22, "nets of springs", spring_nets},
+        Experiment{23, "a rocking block", rocking},
+        Experiment{24, "a loaded cart on ice", carts},
     };
     return list;
 }

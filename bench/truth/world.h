@@ -107,6 +107,19 @@ struct Hinge
     double damping_ratio = 0;
 };
 
+/// Holds the angle between the bodies and the distance from a line. The translation is how far the anchor on b is ahead of that on a.
+struct Slider
+{
+    Body a = ground;
+    Body b = ground;
+    Vec anchor{}; ///< a point of the world
+    Vec axis{1, 0};
+    bool limited = false;
+    double lower = 0;
+    double upper = 0;
+    double restitution = 0; ///< of the limits, where an engine has it
+};
+
 struct State
 {
     Vec position{};
@@ -155,6 +168,9 @@ public:
     virtual void add_shape(Body body, const Shape& shape, const Material& material) = 0;
     virtual void add_hinge(const Hinge& hinge) = 0;
     void add_hinge(Body a, Body b, Vec anchor) { add_hinge(Hinge{.a = a, .b = b, .anchor = anchor}); }
+    virtual void add_slider(const Slider& slider) = 0;
+    /// Holds the distance between two centers, which do not collide for it.
+    virtual void add_rod(Body a, Body b, double length) = 0;
     /// Force stiffness · (distance − length) − damping · (its rate) between two centers.
     virtual void add_spring(Body a, Body b, double length, double stiffness, double damping) = 0;
     /// Velocity of a kinematic body, kept through the following steps.
@@ -168,6 +184,9 @@ public:
     virtual void remove_body(Body) { throw Missing("bodies that go"); }
     /// Optional: pairs of shapes that the engine keeps as contacts, as it counts them itself.
     [[nodiscard]] virtual int contacts() const { return 0; }
+
+    /// Optional: force of a hinge on its body b over the last step. Hinges are counted in the order of creation.
+    [[nodiscard]] virtual Vec hinge_force(int) const { throw Missing("forces of hinges"); }
 
     /// Optional: impacts of the last step, in order.
     [[nodiscard]] virtual bool reports_impacts() const { return false; }

@@ -132,7 +132,31 @@ public:
         def.enableMotor = hinge.driven;
         def.motorSpeed = static_cast<float>(hinge.motor_speed);
         def.maxMotorTorque = static_cast<float>(hinge.motor_torque);
+        m_hinges.push_back(m_world.CreateJoint(&def));
+    }
+
+    void add_slider(const Slider& slider) override
+    {
+        b2PrismaticJointDef def;
+        def.Initialize(find(slider.a), find(slider.b), narrow(slider.anchor), narrow(slider.axis));
+        def.enableLimit = slider.limited;
+        def.lowerTranslation = static_cast<float>(slider.lower);
+        def.upperTranslation = static_cast<float>(slider.upper);
         m_world.CreateJoint(&def);
+    }
+
+    void add_rod(Body a, Body b, double length) override
+    {
+        b2DistanceJointDef def;
+        def.Initialize(find(a), find(b), find(a)->GetPosition(), find(b)->GetPosition());
+        def.length = def.minLength = def.maxLength = static_cast<float>(length);
+        m_world.CreateJoint(&def);
+    }
+
+    Vec hinge_force(int hinge) const override
+    {
+        const b2Vec2 force = m_hinges[static_cast<std::size_t>(hinge)]->GetReactionForce(m_rate);
+        return {force.x, force.y};
     }
 
     void add_spring(Body a, Body b, double length, double stiffness, double damping) override
@@ -166,6 +190,7 @@ public:
     void step(double dt) override
     {
         m_sensors.crossings.clear();
+        m_rate = static_cast<float>(1 / dt);
         m_world.Step(static_cast<float>(dt), 8, 3);
     }
 
@@ -198,6 +223,8 @@ private:
     b2World m_world;
     b2Body* m_ground = nullptr;
     std::vector<b2Body*> m_bodies{};
+    std::vector<b2Joint*> m_hinges{};
+    float m_rate = 0;
 };
 
 } // namespace

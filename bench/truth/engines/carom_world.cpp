@@ -85,20 +85,47 @@ public:
 
     void add_hinge(const Hinge& hinge) override
     {
-        m_scene.create_joint(carom::RevoluteDef{.body_a = id(hinge.a),
-                                                .body_b = id(hinge.b),
-                                                .anchor_a = local(hinge.a, hinge.anchor),
-                                                .anchor_b = local(hinge.b, hinge.anchor),
-                                                .reference_angle = static_cast<float>(hinge.reference),
-                                                .enable_limit = hinge.limited,
-                                                .lower_angle = static_cast<float>(hinge.lower),
-                                                .upper_angle = static_cast<float>(hinge.upper),
-                                                .enable_motor = hinge.driven,
-                                                .motor_speed = static_cast<float>(hinge.motor_speed),
-                                                .max_motor_torque = static_cast<float>(hinge.motor_torque),
-                                                .spring_hertz = static_cast<float>(hinge.hertz),
-                                                .spring_damping_ratio = static_cast<float>(hinge.damping_ratio)});
+        m_hinges.push_back(
+            m_scene.create_joint(carom::RevoluteDef{.body_a = id(hinge.a),
+                                                    .body_b = id(hinge.b),
+                                                    .anchor_a = local(hinge.a, hinge.anchor),
+                                                    .anchor_b = local(hinge.b, hinge.anchor),
+                                                    .reference_angle = static_cast<float>(hinge.reference),
+                                                    .enable_limit = hinge.limited,
+                                                    .lower_angle = static_cast<float>(hinge.lower),
+                                                    .upper_angle = static_cast<float>(hinge.upper),
+                                                    .enable_motor = hinge.driven,
+                                                    .motor_speed = static_cast<float>(hinge.motor_speed),
+                                                    .max_motor_torque = static_cast<float>(hinge.motor_torque),
+                                                    .spring_hertz = static_cast<float>(hinge.hertz),
+                                                    .spring_damping_ratio = static_cast<float>(hinge.damping_ratio)}));
     }
+
+    void add_slider(const Slider& slider) override
+    {
+        const double turn = slider.a == ground ? 0 : state(slider.a).angle;
+        const double turn_b = slider.b == ground ? 0 : state(slider.b).angle;
+        m_scene.create_joint(carom::PrismaticDef{.body_a = id(slider.a),
+                                                 .body_b = id(slider.b),
+                                                 .anchor_a = local(slider.a, slider.anchor),
+                                                 .anchor_b = local(slider.b, slider.anchor),
+                                                 .axis_a = narrow(rotate(-turn, slider.axis)),
+                                                 .reference_angle = static_cast<float>(turn_b - turn),
+                                                 .enable_limit = slider.limited,
+                                                 .lower_translation = static_cast<float>(slider.lower),
+                                                 .upper_translation = static_cast<float>(slider.upper),
+                                                 .limit_restitution = static_cast<float>(slider.restitution)});
+    }
+
+    void add_rod(Body a, Body b, double length) override
+    {
+        m_scene.create_joint(carom::DistanceDef{.body_a = id(a),
+                                                .body_b = id(b),
+                                                .min_length = static_cast<float>(length),
+                                                .max_length = static_cast<float>(length)});
+    }
+
+    Vec hinge_force(int hinge) const override { return widen(m_scene.joint(m_hinges[static_cast<std::size_t>(hinge)]).force()); }
 
     void add_spring(Body a, Body b, double length, double stiffness, double damping) override
     {
@@ -160,6 +187,7 @@ private:
 
     carom::Scene m_scene;
     std::vector<carom::BodyId> m_bodies{};
+    std::vector<carom::JointId> m_hinges{};
 };
 
 } // namespace

@@ -123,6 +123,27 @@ public:
         }
     }
 
+    // A groove that a's anchor runs along, and a gear that holds the angle.
+    void add_slider(const Slider& slider) override
+    {
+        cpBody* a = find(slider.a);
+        cpBody* b = find(slider.b);
+        const double unit = 1 / length(slider.axis);
+        const double reach = 1000; // where it has no limit
+        const auto end = [&](double at) { return cpBodyWorldToLocal(a, vect(slider.anchor + at * unit * slider.axis)); };
+        cpConstraint* groove =
+            cpGrooveJointNew(a, b, end(slider.limited ? slider.lower : -reach), end(slider.limited ? slider.upper : reach),
+                             cpBodyWorldToLocal(b, vect(slider.anchor)));
+        cpConstraintSetCollideBodies(own(groove), cpFalse);
+        own(cpGearJointNew(a, b, cpBodyGetAngle(b) - cpBodyGetAngle(a), 1));
+    }
+
+    // It takes the distance that the bodies have.
+    void add_rod(Body a, Body b, double) override
+    {
+        cpConstraintSetCollideBodies(own(cpPinJointNew(find(a), find(b), cpvzero, cpvzero)), cpFalse);
+    }
+
     void add_spring(Body a, Body b, double length, double stiffness, double damping) override
     {
         own(cpDampedSpringNew(find(a), find(b), cpvzero, cpvzero, length, stiffness, damping));

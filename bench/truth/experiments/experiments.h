@@ -22,5 +22,14 @@ Metrics stacks(const Setup& setup);
 Metrics chains(const Setup& setup);
 Metrics pile(const Setup& setup);
 Metrics flipper_shot(const Setup& setup);
+Metrics gas(const Setup& setup);
+Metrics long_rows(const Setup& setup);
+Metrics spectators(const Setup& setup);
+Metrics struck_joints(const Setup& setup);
+Metrics linkages(const Setup& setup);
+Metrics long_chains(const Setup& setup);
+Metrics spring_nets(const Setup& setup);
+Metrics rocking(const Setup& setup);
+Metrics carts(const Setup& setup);
 
 } // namespace truth

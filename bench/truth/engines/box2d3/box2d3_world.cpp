@@ -147,7 +147,33 @@ public:
         def.enableSpring = hinge.hertz > 0;
         def.hertz = narrow(hinge.hertz);
         def.dampingRatio = narrow(hinge.damping_ratio);
-        b2CreateRevoluteJoint(m_world, &def);
+        m_hinges.push_back(b2CreateRevoluteJoint(m_world, &def));
+    }
+
+    void add_slider(const Slider& slider) override
+    {
+        b2PrismaticJointDef def = b2DefaultPrismaticJointDef();
+        join(def.base, slider.a, slider.b);
+        def.base.localFrameA = frame(slider.a, slider.anchor, slider.axis);
+        def.base.localFrameB = frame(slider.b, slider.anchor, slider.axis);
+        def.enableLimit = slider.limited;
+        def.lowerTranslation = narrow(slider.lower);
+        def.upperTranslation = narrow(slider.upper);
+        b2CreatePrismaticJoint(m_world, &def);
+    }
+
+    void add_rod(Body a, Body b, double length) override
+    {
+        b2DistanceJointDef def = b2DefaultDistanceJointDef();
+        join(def.base, a, b);
+        def.length = narrow(length);
+        b2CreateDistanceJoint(m_world, &def);
+    }
+
+    Vec hinge_force(int hinge) const override
+    {
+        const b2Vec2 force = b2Joint_GetConstraintForce(m_hinges[static_cast<std::size_t>(hinge)]);
+        return {static_cast<double>(force.x), static_cast<double>(force.y)};
     }
 
     // It counts in frequency and damping ratio.
@@ -218,6 +244,11 @@ private:
         def.bodyIdA = find(a);
         def.bodyIdB = find(b);
     }
+    b2Transform frame(Body body, Vec anchor, Vec axis)
+    {
+        const b2Vec2 along = b2Body_GetLocalVector(find(body), narrow(axis));
+        return {b2Body_GetLocalPoint(find(body), position(anchor)), {along.x, along.y}};
+    }
     double inverse_mass(Body body)
     {
         const auto mass = static_cast<double>(b2Body_GetMass(find(body)));
@@ -227,6 +258,7 @@ private:
     b2WorldId m_world{};
     b2BodyId m_ground = b2_nullBodyId;
     std::vector<b2BodyId> m_bodies{};
+    std::vector<b2JointId> m_hinges{};
     int m_substeps;
 };
 
