@@ -222,6 +222,31 @@ void merge_output(StepContext& ctx, const IslandOutput& output)
     end_bounces(ctx, output);
 }
 
+// Bodies with more impacts than flight resolves at a bearable cost, for the next steps.
+void note_rattling(StepContext& ctx)
+{
+    std::vector<RattlingBody>& list = ctx.state.rattling;
+    for (RattlingBody& r : list)
+        r.impacts /= 2;
+    for (std::size_t u = 0; u < ctx.scratch.solver.islands.size(); ++u)
+    {
+        const Island& island = ctx.scratch.solver.islands[u];
+        if (ctx.scratch.solver.outputs[u].flight_impacts == 0)
+            continue;
+        const int most = most_impacts_of_a_step(ctx.scratch.solver.outputs[u].flight_impacts, island.dynamic_count);
+        for (const Flier& f : fliers_of(ctx.scratch, island))
+        {
+            const int impacts = f.impacts_before + f.impacts;
+            const auto awake = static_cast<std::size_t>(ctx.state.bodies[f.body].awake_index);
+            if (impacts > most && ctx.scratch.graph.may_bounce[awake] != 0)
+                list.push_back({f.body, impacts / most});
+        }
+    }
+    std::erase_if(list, [](const RattlingBody& r) { return r.impacts == 0; });
+    std::ranges::sort(list, {}, [](const RattlingBody& r) { return std::pair(r.body, -r.impacts); });
+    list.erase(std::ranges::unique(list, {}, &RattlingBody::body).begin(), list.end());
+}
+
 } // namespace
 
 void commit(StepContext& ctx)
@@ -253,6 +278,7 @@ void commit(StepContext& ctx)
     }
     if (any_stopped)
         forget_errors_of_stopped(ctx);
+    note_rattling(ctx);
     for (const Flier& flier : scratch.flight.fliers)
         commit_hinge(ctx, flier);
     note_pending_impacts(ctx);

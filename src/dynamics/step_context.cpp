@@ -30,7 +30,6 @@ void IslandOutput::clear()
     kicked_shapes.clear();
     struck_states.clear();
     deflected.clear();
-    reaches.clear();
     resting_sets.clear();
     path.clear();
     last_piece.clear();

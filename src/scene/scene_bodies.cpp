@@ -104,6 +104,7 @@ void Scene::destroy(BodyId id)
         state.waiting_forces[index] = {};
     if (state.bodies[slot].ignores)
         state.ignored.erase_if([slot](std::uint64_t key) { return is_in_pair(key, slot); });
+    std::erase_if(state.rattling, [slot](const RattlingBody& r) { return r.body == slot; });
     state.bodies.destroy(slot);
     state.graph_dirty = true;
 }

@@ -157,6 +157,11 @@ std::uint64_t Scene::state_hash() const
     h.add(state.longest_substep);
     add(h, state.gravity);
     h.add(state.ignored.hash());
+    for (const RattlingBody& r : state.rattling)
+    {
+        h.add(r.body);
+        h.add(r.impacts);
+    }
     for (int i = 0; i < state.bodies.capacity(); ++i)
     {
         if (!state.bodies.is_live(i))

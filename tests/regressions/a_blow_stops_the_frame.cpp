@@ -43,7 +43,7 @@ Blow strike(int count, float speed, float angle)
         const BodyId b = add_dynamic(scene, {i % 8 * 1.1 - 3.5, 0.6 + i / 8 * 1.1}, box(0.5f, 0.5f), {.restitution = 0.5f}).body;
         struck = i == count / 2 ? b : struck;
     }
-    steps(scene, 60);
+    steps(scene, 180);
     scene.body(struck).set_velocity({speed * std::cos(angle), speed * std::sin(angle)});
     const double start = energy_of(scene);
     Blow blow;

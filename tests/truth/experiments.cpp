@@ -17,6 +17,20 @@ TEST(Truth, E10_NothingPasses) { expect_bounds(10); }
 TEST(Truth, E11_Sensors) { expect_bounds(11); }
 TEST(Truth, E15_FlipperShot) { expect_bounds(15); }
 
+TEST(Truth, E17_LongCradles) { expect_bounds(17); }
+TEST(Truth, E18_BesideOthers) { expect_bounds(18); }
+TEST(Truth, E20_Linkages) { expect_bounds(20); }
+TEST(Truth, E24_LoadedCarts) { expect_bounds(24); }
+
+TEST(Truth, E16_Gas)
+{
+    if (slow_build)
+    {
+        GTEST_SKIP() << "minutes in this build";
+    }
+    expect_bounds(16);
+}
+
 TEST(TruthShrinks, E01_ElasticBall) { expect_shrinking(1); }
 TEST(TruthShrinks, E02_Restitution) { expect_shrinking(2); }
 TEST(TruthShrinks, E03_TwoDiscs) { expect_shrinking(3); }
@@ -29,6 +43,8 @@ TEST(TruthShrinks, E09_Billiards) { expect_shrinking(9); }
 TEST(TruthShrinks, E10_NothingPasses) { expect_shrinking(10); }
 TEST(TruthShrinks, E11_Sensors) { expect_shrinking(11); }
 TEST(TruthShrinks, E15_FlipperShot) { expect_shrinking(15); }
+TEST(TruthShrinks, E17_LongCradles) { expect_shrinking(17); }
+TEST(TruthShrinks, E18_BesideOthers) { expect_shrinking(18); }
 
 TEST(TruthAtRest, E12_Stacks) { expect_bounds(12); }
 

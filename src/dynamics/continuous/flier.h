@@ -34,11 +34,12 @@ struct Flier
 {
     std::int32_t state = none;
     std::int32_t body = none;
-    std::int32_t joint = none;    ///< the hinge to the world; none: free
-    std::int32_t impacts = 0;     ///< in this sub-step
-    std::int64_t looks = 0;       ///< looks at candidates for the next event, not yet charged
-    std::int64_t union_looks = 0; ///< those of them that ask flush neighbors
-    double x = 0;                 ///< reference point
+    std::int32_t joint = none;       ///< the hinge to the world; none: free
+    std::int32_t impacts = 0;        ///< in this sub-step
+    std::int32_t impacts_before = 0; ///< in the step before this sub-step
+    std::int64_t looks = 0;          ///< looks at candidates for the next event, not yet charged
+    std::int64_t union_looks = 0;    ///< those of them that ask flush neighbors
+    double x = 0;                    ///< reference point
     double y = 0;
     double vx = 0;
     double vy = 0;
@@ -81,14 +82,15 @@ struct Flier
     // The next event, as last computed.
     double event_time = 0; ///< beyond the sub-step: none
     std::int32_t event_own = none;
-    std::int32_t event_shape = none; ///< none: a limit of the hinge, or a resting contact to be renewed
-    std::int32_t event_state = none; ///< of the body that is hit; none: it does not move, or belongs to another island
-    std::int32_t passes = none;      ///< contact with a one-way shape that it passes through, not yet noted
-    std::int32_t event_version = 0;  ///< of that state when the event was computed
-    bool deflected = false;          ///< its path is no longer the one with which the pairs of this step were found
-    bool needs_wall_check = false;   ///< struck in a crowd: its path is checked against static shapes at the end of the step
-    bool constrained = false;        ///< its accelerations are those of a resting contact or limit
-    bool landed = false;             ///< not in flight: solver-owned until an impact makes it fast
+    std::int32_t event_shape = none;     ///< none: a limit of the hinge, or a resting contact to be renewed
+    std::int32_t event_state = none;     ///< of the body that is hit; none: it does not move, or belongs to another island
+    std::int32_t passes = none;          ///< contact with a one-way shape that it passes through, not yet noted
+    std::int32_t event_version = 0;      ///< of that state when the event was computed
+    std::int32_t deflected_index = none; ///< in IslandOutput::deflected
+    bool deflected = false;              ///< its path is no longer the one with which the pairs of this step were found
+    bool needs_wall_check = false;       ///< struck in a crowd: its path is checked against static shapes at the end of the step
+    bool constrained = false;            ///< its accelerations are those of a resting contact or limit
+    bool landed = false;                 ///< not in flight: solver-owned until an impact makes it fast
 };
 
 using RestingContacts = std::array<RestingContact, Flier::most_resting>;

@@ -15,7 +15,7 @@ void take_off_fast_movers(StepContext& ctx, const Island& island, int k, IslandO
 void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, WorkerTeam& team);
 
 /// Moves an island through the whole step at once if all its bodies are in free flight and meet nothing. False: nothing has moved.
-[[nodiscard]] bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& output);
+[[nodiscard]] bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& output, WorkerTeam& team);
 
 /// Marks a flier as deflected: its path is no longer the one with which the pairs of this step were found.
 void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier);

@@ -14,13 +14,20 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 namespace carom::internal {
+
+// A step that is flown at once has the budgets of all its sub-steps.
+int substeps_in(const StepContext& ctx)
+{
+    return std::max(1, static_cast<int>(std::lround(ctx.h * static_cast<float>(ctx.scene.def.substeps) / ctx.dt)));
+}
 
 FlightSpan::FlightSpan(StepContext& context, const Island& u, int substep, IslandOutput& out)
     : ctx(context), state(context.state), scratch(context.scratch), island(u), output(out), k(substep),
       h(static_cast<double>(context.h)), least_approach(1e-6 * static_cast<double>(context.scene.def.length_scale)),
-      most_impacts(u.policy.exact_impacts ? impact_limit : crowd_impact_limit)
+      most_impacts(substeps_in(context) * (u.policy.exact_impacts ? impact_limit : crowd_impact_limit))
 {}
 
 std::span<Flier> FlightSpan::fliers() const { return fliers_of(scratch, island); }
@@ -97,7 +104,7 @@ bool leans_on_limit(const Flier& f)
 void clear_substep(const FlightSpan& span, Flier& f)
 {
     fall_freely(span, f);
-    f.impacts = 0;
+    f.impacts_before += std::exchange(f.impacts, 0);
     f.impulse_x = f.impulse_y = f.turn_impulse = 0;
     f.start_w = f.w;
     f.rests = false;
@@ -363,6 +370,22 @@ bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
                       leaves |= !contains(foreseen, soon);
                   });
     return leaves;
+}
+
+bool bears_load_now(const FlightSpan& span, std::int32_t state)
+{
+    const auto loads_it = [state](const ContactConstraint& constraint)
+    { return (constraint.a == state || constraint.b == state) && bears_load(constraint); };
+    const auto is_loaded_lane = [&](int index)
+    {
+        const std::int32_t wide = span.state.contacts[index].wide;
+        return wide != none && bears_load(constraint_of_lane(span.scratch, wide));
+    };
+    bool loaded = std::ranges::any_of(constraints_of(span.scratch, span.island), loads_it) ||
+                  std::ranges::any_of(span.output.late_constraints, loads_it);
+    for (const int index : contacts_of(span.state, span.scratch.solver.state_bodies[static_cast<std::size_t>(state)]))
+        loaded = loaded || is_loaded_lane(index);
+    return loaded;
 }
 
 void take_off(const FlightSpan& span, Flier& f, double time)

@@ -14,6 +14,9 @@ namespace carom::internal {
 inline constexpr int impact_limit = 64;
 inline constexpr int crowd_impact_limit = 16;
 
+/// Sub-steps of the scene in one of the context, at least 1.
+[[nodiscard]] int substeps_in(const StepContext& ctx);
+
 /// A sub-step of an island, as flight sees it.
 struct FlightSpan
 {
@@ -64,6 +67,9 @@ void advance(const FlightSpan& span, Flier& f, double time);
 
 /// True if a body was deflected in this step and leaves the boxes in which pairs were searched: the solver would miss what is there.
 [[nodiscard]] bool leaves_its_boxes(const FlightSpan& span, const Flier& f);
+
+/// Does a constraint of a solver-owned body bear a load?
+[[nodiscard]] bool bears_load_now(const FlightSpan& span, std::int32_t state);
 
 /// Moves a body from the solver into flight at a time of the sub-step and drops its constraints.
 void take_off(const FlightSpan& span, Flier& f, double time);

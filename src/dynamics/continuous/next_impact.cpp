@@ -186,17 +186,17 @@ private:
     // A deflected body may be anywhere, whether it still flies or has come to rest.
     void look_at_deflected()
     {
-        const std::vector<Reach>& reaches = m_span.output.reaches;
-        for (std::size_t i = 0; i < reaches.size(); ++i)
-        {
-            const double time = first_meeting(own_displacement().reach, reaches[i]);
-            if (time > m_span.h || time >= m_flier.event_time)
-                continue;
-            const int body = m_span.scratch.flight.fliers[static_cast<std::size_t>(m_span.output.deflected[i])].body;
-            if (body != m_flier.body)
-                offer_all(body, time);
-        }
-        m_made += static_cast<int>(reaches.size());
+        if (m_span.output.deflected.empty())
+            return;
+        m_made += m_span.output.deflected.for_each_near(
+            own_displacement().reach,
+            [&](std::int32_t flier)
+            {
+                const double time = first_meeting(own_displacement().reach, reach_in_list(m_span, flier));
+                const int body = m_span.scratch.flight.fliers[static_cast<std::size_t>(flier)].body;
+                if (time <= m_span.h && time < m_flier.event_time && body != m_flier.body)
+                    offer_all(body, time);
+            });
     }
 
     void offer_all(int body, double time)
@@ -388,15 +388,9 @@ Reach reach_of_flier(const FlightSpan& span, const Flier& f, const BodySim& sim)
     return {reach.x, reach.y, c.vx, c.vy, f.time, extent + bend};
 }
 
-} // namespace
-
-Reach reach_of(const FlightSpan& span, int body)
+// The solver has already moved the body to the end of the sub-step.
+Reach reach_of_solved(const FlightSpan& span, std::int32_t s, const BodySim& sim)
 {
-    const BodySim& sim = span.sim_of(body);
-    const std::int32_t s = span.state_in_island(body);
-    if (const Flier* f = span.flier_at(s))
-        return reach_of_flier(span, *f, sim);
-    // The solver has already moved the body to the end of the sub-step.
     const BodyState& there = span.state_of(s);
     const auto vx = static_cast<double>(there.velocity.x);
     const auto vy = static_cast<double>(there.velocity.y);
@@ -407,6 +401,32 @@ Reach reach_of(const FlightSpan& span, int body)
             vy,
             0,
             margin * static_cast<double>(sim.extent) + bend};
+}
+
+} // namespace
+
+Reach reach_of(const FlightSpan& span, int body)
+{
+    const std::int32_t s = span.state_in_island(body);
+    if (span.flier_at(s) != nullptr)
+        return reach_in_list(span, span.scratch.flight.flier_of_state[static_cast<std::size_t>(s)]);
+    return reach_of_solved(span, s, span.sim_of(body));
+}
+
+// One that has been capped since its reach was noted stays where it is.
+Reach reach_in_list(const FlightSpan& span, std::int32_t flier)
+{
+    const Flier& f = span.scratch.flight.fliers[static_cast<std::size_t>(flier)];
+    return !f.landed && is_capped(span, f) ? reach_of_flier(span, f, span.sim_of(f.body))
+                                           : span.scratch.flight.reaches[static_cast<std::size_t>(flier)];
+}
+
+void find_reach(const FlightSpan& span, std::int32_t flier)
+{
+    const Flier& f = span.scratch.flight.fliers[static_cast<std::size_t>(flier)];
+    const BodySim& sim = span.sim_of(f.body);
+    span.scratch.flight.reaches[static_cast<std::size_t>(flier)] =
+        f.landed ? reach_of_solved(span, f.state, sim) : reach_of_flier(span, f, sim);
 }
 
 namespace {

@@ -20,6 +20,10 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     return state == none ? 0 : span.scratch.flight.versions[static_cast<std::size_t>(state)];
 }
 
+/// Notes the reach of a flier after its path has changed.
+void find_reach(const FlightSpan& span, std::int32_t flier);
+/// Reach of a flier, or of one that has been deflected and has landed.
+[[nodiscard]] Reach reach_in_list(const FlightSpan& span, std::int32_t flier);
 /// Reach of a dynamic body of the island, in flight or not, for the rest of the sub-step.
 [[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
 /// Time before which the two cannot meet; 1e300: they do not.

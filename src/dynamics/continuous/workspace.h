@@ -2,6 +2,7 @@
 
 // Scratch memory of flight and of the safety sweep.
 
+#include "dynamics/continuous/deflected.h"
 #include "dynamics/continuous/flier.h"
 
 #include <cstdint>
@@ -21,6 +22,7 @@ struct FlightWorkspace
 {
     std::vector<Flier> fliers;
     std::vector<double> event_times; ///< by flier, contiguous: the search for the earliest event reads nothing else
+    std::vector<Reach> reaches;      ///< by flier; of the landed ones only if they have been deflected
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions;     ///< by state: counts changes of its path within a sub-step
     std::vector<Surroundings> surroundings; ///< by block of the moving layer

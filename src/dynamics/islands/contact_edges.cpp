@@ -60,6 +60,8 @@ public:
         const bool loaded = solved && is_loaded(m_ctx, contact, least_separation(contact.manifold));
         note_load(a, loaded);
         note_load(b, loaded);
+        if ((contact.flags & contact_flag::bounces) != 0 && solved && meets_soon(contact)) [[unlikely]]
+            note_bounce(a, b);
         edge(index, a, b, flags(contact, solved));
         m_touching += touching ? 1 : 0;
     }
@@ -98,6 +100,24 @@ private:
     {
         const std::int32_t marked = loaded && place >= 0 ? place : m_nobody;
         std::atomic_ref(m_is_loaded[marked]).store(1, std::memory_order_relaxed);
+    }
+
+    // Within the step, or within the sub-step after it, which the solver's relaxation looks ahead to.
+    [[nodiscard]] bool meets_soon(const Contact& contact) const
+    {
+        const float ahead = 1 + 1 / static_cast<float>(m_ctx.substeps);
+        return !means_apart(contact) || least_separation(contact.manifold) <= ahead * relative_motion(m_ctx.state, contact) +
+                                                                                  0.1f * m_ctx.scene.tolerances.speculation;
+    }
+
+    void note_bounce(std::int32_t a, std::int32_t b) const
+    {
+        for (const std::int32_t place : {a, b})
+        {
+            if (place >= 0)
+                std::atomic_ref(m_ctx.scratch.graph.may_bounce[static_cast<std::size_t>(place)])
+                    .store(1, std::memory_order_relaxed);
+        }
     }
 
     const StepContext& m_ctx;

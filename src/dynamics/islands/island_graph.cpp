@@ -77,17 +77,20 @@ public:
         sets.flatten();
     }
 
-    // In a crowd only fast movers fly: contacts of the other bodies are speculative, and one contact more or less does not decide their paths.
+    // In a crowd only fast movers and bodies that bounce fly: contacts of the others are speculative.
     void keep_crowds_from_flight()
     {
         for (const std::int32_t place : scratch.graph.flying)
+        {
             ++tally_of(scratch, place).unloaded;
+            tally_of(scratch, place).bouncing += scratch.graph.may_bounce[static_cast<std::size_t>(place)];
+        }
         for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.flying.size(), fliers_per_task,
                            [&](std::size_t i)
                            {
                                const std::int32_t place = scratch.graph.flying[i];
                                std::int32_t& flight = scratch.graph.flight_mode[static_cast<std::size_t>(place)];
-                               if (limits_flight_to_fast_movers(tally_of(scratch, place).unloaded) &&
+                               if (limits_flight_to_fast_movers(tally_of(scratch, place).unloaded) && !bounces(place) &&
                                    !is_fast_mover(body_at(place)))
                                    scratch.graph.could_fly[static_cast<std::size_t>(place)] = std::exchange(flight, solver_owned);
                            });
@@ -95,6 +98,15 @@ public:
                       { return scratch.graph.flight_mode[static_cast<std::size_t>(place)] == solver_owned; });
         for (const std::int32_t place : scratch.graph.flying)
             ++tally_of(scratch, place).fliers;
+    }
+
+    // Where most of a crowd bounces, all of it flies, often the whole step at once.
+    [[nodiscard]] bool bounces(std::int32_t place) const
+    {
+        const IslandTally& t = tally_of(scratch, place);
+        if (std::ranges::binary_search(state.rattling, body_at(place), {}, &RattlingBody::body))
+            return false;
+        return scratch.graph.may_bounce[static_cast<std::size_t>(place)] != 0 || 2 * t.bouncing > t.unloaded;
     }
 
     // True if the body moves by more than half its size in a sub-step, also relative to its neighbors.

@@ -50,6 +50,7 @@ public:
         scratch.graph.flight_mode.clear();
         scratch.graph.could_fly.clear();
         scratch.graph.is_loaded.clear();
+        scratch.graph.may_bounce.clear();
         scratch.graph.has_uneven = scratch.graph.has_kinematic = scratch.graph.has_hinged_fliers = false;
         // Only bodies that were awake in the last step: a body that never moves costs nothing.
         for (const std::int32_t body : scratch.graph.placed)
@@ -68,6 +69,7 @@ public:
                                     state.awake_bodies.end());
         scratch.graph.flight_mode.resize(count, solver_owned);
         scratch.graph.could_fly.resize(count, solver_owned);
+        scratch.graph.may_bounce.resize(count);
         scratch.graph.is_loaded.resize(first); // without the dummy element
         scratch.graph.is_loaded.resize(count + 1);
         for_each_in_chunks(ctx.scene.def.tasks, count - first, bodies_per_task,

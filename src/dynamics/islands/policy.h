@@ -13,8 +13,14 @@ namespace carom::internal {
 inline constexpr int few_bodies = 16;
 inline constexpr int most_watched_bodies = 64;    ///< island size up to which energy is monitored: the capacity of IslandEnergy
 inline constexpr int most_converging_bodies = 32; ///< number of bodies whose speeds IslandSolver can store
-inline constexpr int most_direct_rows = 128;      ///< beyond it, DirectSolve takes longer than soft rows
-inline constexpr int most_subdivisions = 32;      ///< limit where a driven body or a joint's arm turns
+/// Impacts of a body in a crowd in one step: with more, the solver owns it in the next steps. A crowd that has had more than four for each body collapses:
+/// there, most of them only pass speed to and fro.
+[[nodiscard]] inline int most_impacts_of_a_step(int impacts_of_island, int bodies)
+{
+    return impacts_of_island > 4 * bodies ? 4 : 16;
+}
+inline constexpr int most_direct_rows = 128; ///< beyond it, DirectSolve takes longer than soft rows
+inline constexpr int most_subdivisions = 32; ///< limit where a driven body or a joint's arm turns
 
 /// Data by which the policy of an island is chosen.
 struct IslandTally
@@ -22,6 +28,7 @@ struct IslandTally
     std::int32_t first = -1; ///< index in awake_bodies of its first body
     std::int32_t bodies = 0;
     std::int32_t unloaded = 0; ///< bodies that no contact loads; they fly unless the island is a crowd
+    std::int32_t bouncing = 0; ///< unloaded ones that may meet something in this step that they bounce off
     std::int32_t fliers = 0;
     std::int32_t joints = 0;
     std::int32_t contacts = 0;

@@ -121,12 +121,14 @@ struct GraphWorkspace
     std::vector<std::int32_t> flight_mode;    ///< by awake index: free_flight, solver_owned, or the hinge about which it turns
     std::vector<std::int32_t> flying;         ///< awake indices of the bodies that are not solver_owned
     std::vector<std::int32_t> could_fly;      ///< the same for a body that could fly but bears a load or is borne
-    std::vector<std::uint8_t> is_loaded;      ///< whether a contact loads the body, by awake index; the last element is a dummy
-    std::vector<std::uint8_t> is_isolated;    ///< whether a flier has nothing near, by awake index
-    std::vector<std::uint8_t> may_be_struck;  ///< whether a flier may strike the body, by awake index
-    bool has_kinematic = false;               ///< a kinematic body is awake
-    bool has_hinged_fliers = false;           ///< a body that may fly about a hinge is awake
-    bool has_uneven = false;                  ///< an awake body is locked along one axis of the plane only
+    std::vector<std::uint8_t>
+        may_bounce;                      ///< whether the body may meet something in this step that it bounces off, by awake index
+    std::vector<std::uint8_t> is_loaded; ///< whether a contact loads the body, by awake index; the last element is a dummy
+    std::vector<std::uint8_t> is_isolated;   ///< whether a flier has nothing near, by awake index
+    std::vector<std::uint8_t> may_be_struck; ///< whether a flier may strike the body, by awake index
+    bool has_kinematic = false;              ///< a kinematic body is awake
+    bool has_hinged_fliers = false;          ///< a body that may fly about a hinge is awake
+    bool has_uneven = false;                 ///< an awake body is locked along one axis of the plane only
     std::vector<EdgesOfTask> edges_of_task;
     std::vector<ContactEdge> edges;
     std::vector<std::vector<JointEdge>> joints_of_task;

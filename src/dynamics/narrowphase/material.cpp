@@ -92,6 +92,19 @@ float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float 
     return value > 0 ? std::min(value, 1.0f) : 0;
 }
 
+bool may_bounce(const SceneData& scene, int shape_a, int shape_b)
+{
+    const auto kicks = [&](int shape) { return rare_traits_of(scene.state, scene.state.shapes[shape]).kick.speed > 0; };
+    bool bounces = kicks(shape_a) || kicks(shape_b) || mixed_restitution(scene, shape_a, shape_b, 0) >= bouncing_restitution;
+    for (const int shape : {shape_a, shape_b})
+    {
+        const RestitutionCurve& curve = rare_traits_of(scene.state, scene.state.shapes[shape]).restitution_curve;
+        for (std::uint32_t i = 0; i < curve.count; ++i)
+            bounces = bounces || mixed_restitution(scene, shape_a, shape_b, curve.points[i].speed) >= bouncing_restitution;
+    }
+    return bounces;
+}
+
 KickResult kick_speed(const SceneData& scene, int shape_a, int shape_b, float speed)
 {
     const SceneState& state = scene.state;

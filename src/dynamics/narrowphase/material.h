@@ -11,6 +11,12 @@ namespace carom::internal {
 /// Restitution at an approach speed, curves included.
 [[nodiscard]] float mixed_restitution(const SceneData& scene, int shape_a, int shape_b, float approach_speed);
 
+/// With less, an impact gives back less than a tenth of its energy.
+inline constexpr float bouncing_restitution = 0.316f;
+
+/// True if an impact of the two may give back a tenth of its energy or more, at any approach speed: when it happens then matters to all that follows.
+[[nodiscard]] bool may_bounce(const SceneData& scene, int shape_a, int shape_b);
+
 /// Speed that kicks add at this approach speed, and which shapes fired.
 struct KickResult
 {

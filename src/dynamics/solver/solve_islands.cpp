@@ -55,7 +55,7 @@ void advance_free_fall(const StepContext& ctx, const Island& island)
 void solve(const StepContext& ctx, std::size_t u, IslandEnergy& energy, WorkerTeam& team)
 {
     const Island& island = ctx.scratch.solver.islands[u];
-    if (fly_whole_step(ctx, island, ctx.scratch.solver.outputs[u]))
+    if (fly_whole_step(ctx, island, ctx.scratch.solver.outputs[u], team))
         return;
     fill_island(ctx, island, team);
     solve_island(ctx, island, ctx.scratch.solver.outputs[u], energy, team);

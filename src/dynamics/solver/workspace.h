@@ -4,6 +4,7 @@
 
 #include "carom/event.h"
 #include "core/blank_array.h"
+#include "dynamics/continuous/deflected.h"
 #include "dynamics/continuous/flier.h"
 #include "dynamics/continuous/impact/reflect.h"
 #include "dynamics/continuous/path/body_path_piece.h"
@@ -98,17 +99,6 @@ struct RecordedPose
     Pose pose;
 };
 
-/// A circle that moves evenly in the world: the body stays inside from `time` to the end of the sub-step.
-struct Reach
-{
-    double x = 0; ///< at `time`
-    double y = 0;
-    double vx = 0;
-    double vy = 0;
-    double time = 0;
-    double radius = 1e300;
-};
-
 /// Energy of the rate at which a joint closed, lost when an impact stopped it.
 struct StoppedJoint
 {
@@ -144,8 +134,7 @@ struct IslandOutput : ImpactReport
     std::vector<std::int32_t> struck_lanes;     ///< lanes of the island that were struck in this sub-step
     std::vector<std::int32_t> struck_states;    ///< solver-owned bodies that fliers have struck in this sub-step
     std::vector<ImpactReport> reports_of_parts; ///< one per partition, empty except while threads report
-    std::vector<std::int32_t> deflected;        ///< fliers that have left their first path, in order
-    std::vector<Reach> reaches;                 ///< one for each of these
+    DeflectedFliers deflected;                  ///< fliers that have left their first path
     std::vector<RestingContacts> resting_sets;  ///< resting contacts of fliers
     std::vector<PathPiece> path;                ///< of traced bodies, each body's pieces in the order of time
     std::vector<std::int32_t> last_piece;       ///< by state of the island; empty before the first piece

@@ -87,6 +87,9 @@ void mix_materials(const SceneData& scene, Contact& contact)
     contact.friction = mixed_friction(scene, contact.shape_a, contact.shape_b);
     contact.rolling_resistance = a.rolling_resistance > b.rolling_resistance ? a.rolling_resistance : b.rolling_resistance;
     contact.surface_speed = a.surface_speed + b.surface_speed;
+    contact.flags &= ~contact_flag::bounces;
+    if (may_bounce(scene, contact.shape_a, contact.shape_b))
+        contact.flags |= contact_flag::bounces;
 }
 
 void link_side(SceneState& state, int index, int side)

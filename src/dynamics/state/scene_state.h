@@ -161,6 +161,7 @@ inline constexpr std::uint32_t sleeper = 8192;   ///< one or both of the bodies 
 inline constexpr std::uint32_t piece = 16384;    ///< of a chain or the like: other contacts may touch for the same public shapes
 /// Flush neighbors have turned or emptied its manifold: no points does not mean apart.
 inline constexpr std::uint32_t of_union = 32768;
+inline constexpr std::uint32_t bounces = 65536; ///< bodies part from it with much of their energy, see may_bounce
 inline constexpr std::uint32_t all_cached = cached | edge_of_b | nearest;
 /// Its constraint alone is current: normal, anchors and separations here are older than the step, see settled_manifold.
 inline constexpr std::uint32_t followed = 1024;
@@ -350,6 +351,13 @@ inline void forget_loads(JointRecord& joint)
     joint.torque = 0;
 }
 
+/// A body that has had many impacts in flight, in the last step or before.
+struct RattlingBody
+{
+    std::int32_t body = none;
+    std::int32_t impacts = 0; ///< as a multiple of those that it may have; halved in each step
+};
+
 struct SceneState
 {
     Pool<BodyRecord> bodies;
@@ -357,6 +365,7 @@ struct SceneState
     std::vector<std::uint64_t> colors;    ///< by body slot: a bit for each color of its contacts, while it is dynamic and awake
     std::vector<std::int32_t> turns;      ///< by body slot: whole turns, see turns.h
     std::vector<QuietStart> quiet_starts; ///< by body slot
+    std::vector<RattlingBody> rattling;   ///< by body
     std::vector<BodyTarget> targets;      ///< by body slot, up to the last body that has had one
     std::vector<WaitingForce> waiting_forces; ///< likewise
     Pool<ShapeRecord> shapes;

@@ -40,6 +40,8 @@ TEST(DynamicsPolicy, FromTheSeventeenthBodyOnContactsAreSolvedAsInAPile)
     EXPECT_TRUE(many.wide_contacts && many.caches_manifolds && many.caches_graph);
     EXPECT_FALSE(internal::limits_flight_to_fast_movers(16));
     EXPECT_TRUE(internal::limits_flight_to_fast_movers(17));
+    EXPECT_EQ(internal::most_impacts_of_a_step(68, 17), 16);
+    EXPECT_EQ(internal::most_impacts_of_a_step(69, 17), 4);
     EXPECT_TRUE(internal::follows_turning_contacts(16));
     EXPECT_FALSE(internal::follows_turning_contacts(17));
 }

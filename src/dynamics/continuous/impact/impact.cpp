@@ -25,6 +25,7 @@ constexpr int crowd_limit = 8;                // impacts per body in a sub-step
 constexpr double deep_in = 0.002;             // of the size
 constexpr double low_hop = 1e-3;              // of the size
 constexpr double soon_turned = 0.5;           // rad
+constexpr double lasting_restitution = 0.7;   // half of the energy or more comes back: hops are many
 
 } // namespace
 
@@ -98,16 +99,32 @@ Bounce ImpactSet::law(int index, double u)
             bounce.kick = kick(s, speed);
     }
     // Resting contacts elsewhere may press here.
-    const double resting_forces = std::max({-s.touch.acceleration, -s.touch.acceleration - gap_rate(m_resting, row), 0.0});
+    const bool parts = both_have_finite_mass(row) && bounce.restitution >= lasting_restitution;
+    const double press = parts ? std::min(-s.touch.acceleration, steady_press(row)) : -s.touch.acceleration;
+    const double resting_forces = std::max({press, press - gap_rate(m_resting, row), 0.0});
     const double rest = std::max({hop_speed(s, resting_forces), last_bounces(row, resting_forces, bounce.restitution),
-                                  both_have_finite_mass(row) ? blow_of(s) : 0}) +
+                                  both_have_finite_mass(row) ? blow_of(s, -press) : 0}) +
                         m_span.least_approach;
-    if (bounce.kick == 0 && (bounce.restitution * u <= rest || is_crowded(row)))
+    if (bounce.kick == 0 && (bounce.restitution * u <= rest || (is_crowded(row) && (m_span.island.policy.exact_impacts ||
+                                                                                    bounce.restitution < bouncing_restitution))))
     {
         s.rests = true;
         bounce.restitution = is_small_blow(row, s, u) ? 1 : 0;
     }
+    s.bounces =
+        !s.rests && row.kind == ImpactRow::Kind::Contact && (bounce.kick > 0 || bounce.restitution >= bouncing_restitution);
     return bounce;
+}
+
+// The part of the pressing acceleration that forces cause. Bodies that turn about each other's surface press as well, but where they bounce well they soon part.
+double ImpactSet::steady_press(const ImpactRow& row) const
+{
+    const auto along_normal = [&](int member, double arm_x, double arm_y)
+    {
+        const FramePath& path = m_members[static_cast<std::size_t>(member)].path;
+        return (path.center.ax - path.alpha * arm_y) * row.nx + (path.center.ay + path.alpha * arm_x) * row.ny;
+    };
+    return along_normal(row.a, row.arm_a_x, row.arm_a_y) - along_normal(row.b, row.arm_b_x, row.arm_b_y);
 }
 
 // A hop this slow counts as none: it is over within a sub-step, and low. The accelerations of a fast rotation do not last a sub-step.
@@ -130,7 +147,7 @@ double ImpactSet::last_bounces(const ImpactRow& row, double resting_forces, doub
 // Such bodies swing about each other's surface: if these micro-collisions took all speed, each would leave the bodies a little deeper.
 bool ImpactSet::is_small_blow(const ImpactRow& row, const Source& s, double u) const
 {
-    return both_have_finite_mass(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s);
+    return both_have_finite_mass(row) && s.touch.distance < -deep_in * size_of(s) && u < 2 * blow_of(s, s.touch.acceleration);
 }
 
 double ImpactSet::size_of(const Source& s) const
@@ -139,10 +156,10 @@ double ImpactSet::size_of(const Source& s) const
 }
 
 // Speed that two bodies of finite mass may reach, when pressed together, before a micro-collision.
-double ImpactSet::blow_of(const Source& s) const
+double ImpactSet::blow_of(const Source& s, double acceleration) const
 {
     const MicroCollision press = m_span.press(m_state.shapes[s.own].body, m_state.shapes[s.other].body);
-    return pressed_speed(s.touch.acceleration, press, size_of(s));
+    return pressed_speed(acceleration, press, size_of(s));
 }
 
 // Bodies that strike each other again and again, as in a collapsing pile, come to rest against each other.
@@ -188,7 +205,8 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
         return;
     if (m.flier != nullptr)
         deflect(*m.flier, now, struck);
-    else if (Flier* f = could_fly(m); f != nullptr && is_fast(m_span, *f, now.vx, now.vy, now.w))
+    else if (Flier* f = could_fly(m);
+             f != nullptr && (is_fast(m_span, *f, now.vx, now.vy, now.w) || (struck && f->joint == none && leaves_bouncing(i))))
     {
         take_off(m_span, *f, m_time);
         m.flier = f;
@@ -202,6 +220,22 @@ void ImpactSet::write_back(std::size_t i, std::vector<std::int32_t>& changed)
         defer(static_cast<int>(i));
     if (m.state != none)
         changed.push_back(m.state);
+}
+
+// Does a body bounce off that bears no load, and that the solver owns only because nothing was to meet it?
+bool ImpactSet::leaves_bouncing(std::size_t member) const
+{
+    const auto place = static_cast<std::size_t>(m_state.bodies[m_members[member].body].awake_index);
+    const GraphWorkspace& graph = m_span.scratch.graph;
+    if (graph.flight_mode[place] != solver_owned || graph.is_loaded[place] != 0 ||
+        bears_load_now(m_span, m_members[member].state))
+        return false;
+    for (std::size_t i = 0; i < m_rows.size(); ++i)
+    {
+        if (m_sources[i].bounces && (m_rows[i].a == static_cast<int>(member) || m_rows[i].b == static_cast<int>(member)))
+            return true;
+    }
+    return false;
 }
 
 // The flier of a body that is solver-owned now, but could fly.

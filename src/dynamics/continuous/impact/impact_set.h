@@ -42,6 +42,7 @@ private:
         double slide = 0; ///< speed of the own center along perp(n) before
         bool kicked = false;
         bool rests = false; ///< its bounce counts as none
+        bool bounces = false;
     };
 
     // Gathering: impact_gather.cpp
@@ -69,11 +70,13 @@ private:
     [[nodiscard]] double last_bounces(const ImpactRow& row, double resting_forces, double restitution) const;
     [[nodiscard]] bool is_small_blow(const ImpactRow& row, const Source& s, double u) const;
     [[nodiscard]] double size_of(const Source& s) const;
-    [[nodiscard]] double blow_of(const Source& s) const;
+    [[nodiscard]] double blow_of(const Source& s, double acceleration) const;
+    [[nodiscard]] double steady_press(const ImpactRow& row) const;
     [[nodiscard]] bool is_crowded(const ImpactRow& row) const;
     double kick(Source& s, float speed);
     void note_stopped_joints();
     void write_back(std::size_t i, std::vector<std::int32_t>& changed);
+    [[nodiscard]] bool leaves_bouncing(std::size_t member) const;
     [[nodiscard]] Flier* could_fly(const Member& m) const;
     void deflect(Flier& f, const ImpactBody& now, bool struck) const;
     void defer(int index) const;
@@ -116,6 +119,7 @@ private:
     SceneState& m_state;
     Flier& m_first;
     bool m_renewed; ///< the event renews a resting contact; nothing strikes
+    bool m_first_bounces = false;
     double m_time;
     Position m_origin;
     std::vector<RestingContact> m_released{};
