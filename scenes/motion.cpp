@@ -54,6 +54,42 @@ BuiltScene bullet(const SceneDef& base)
     return built;
 }
 
+/// Elastic discs and boxes in a vessel.
+BuiltScene gas(const SceneDef& base)
+{
+    SceneDef def = base;
+    def.gravity = {0, 0};
+    BuiltScene built{Scene(def)};
+    const ShapeDef elastic{.friction = 0, .restitution = 1};
+    const Chain vessel{.start = {-6, 0}, .pieces = {{{6, 0}}, {{6, 8}}, {{-6, 8}}}, .closed = true};
+    add_static(built.scene, vessel, elastic);
+    Random random(16);
+    for (int i = 0; i < 240; ++i)
+    {
+        const Position at{-5.7 + 0.6 * (i % 20), 0.35 + 0.66 * (i / 20)}; // NOLINT(bugprone-integer-division)
+        const Vec2 velocity = rotate(Rotation::from_angle(random.in(-pi, pi)), {3, 0});
+        if (i % 3 == 0)
+            add_dynamic(built.scene, at, box(0.15f, 0.15f), elastic, velocity);
+        else
+            add_dynamic(built.scene, at, Circle{.radius = 0.18f}, elastic, velocity);
+    }
+    return built;
+}
+
+/// Balls that bounce well come down like hail, all at once.
+BuiltScene hail(const SceneDef& base)
+{
+    BuiltScene built{Scene(base)};
+    const ShapeDef rubber{.friction = 0.2f, .restitution = 0.75f};
+    add_static(built.scene, Chain{.start = {-5, 40}, .pieces = {{{-5, 0}}, {{5, 0}}, {{5, 40}}}}, rubber);
+    Random random(17);
+    for (int i = 0; i < 200; ++i)
+        add_dynamic(built.scene, {-4.5 + 0.45 * (i % 20) + 0.02 * random.in(0, 1), 1 + 0.5 * (i / 20)},
+                    Circle{.radius = 0.15f}, // NOLINT(bugprone-integer-division)
+                    rubber);
+    return built;
+}
+
 /// A ball flies through a booster, meets a bumper, falls through triggers.
 BuiltScene triggers(const SceneDef& base)
 {
@@ -85,6 +121,14 @@ constexpr SceneEntry entries[] = {
      .description = "A lift, a brake and two bumpers: fields and kicks.",
      .create = triggers,
      .view = {{-10, -1}, {10, 10}}},
+    {.name = "gas",
+     .description = "240 elastic discs and boxes in a vessel keep their energy for ever.",
+     .create = gas,
+     .view = {{-7, -1}, {7, 9}}},
+    {.name = "hail",
+     .description = "200 balls that bounce well come down all at once.",
+     .create = hail,
+     .view = {{-6, -1}, {6, 9}}},
 };
 
 } // namespace
