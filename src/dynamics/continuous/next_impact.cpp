@@ -188,7 +188,7 @@ private:
     {
         if (m_span.output.deflected.empty())
             return;
-        m_made += m_span.output.deflected.for_each_near(
+        const int near = m_span.output.deflected.for_each_near(
             own_displacement().reach,
             [&](std::int32_t flier)
             {
@@ -197,6 +197,7 @@ private:
                 if (time <= m_span.h && time < m_flier.event_time && body != m_flier.body)
                     offer_all(body, time);
             });
+        m_made += near;
     }
 
     void offer_all(int body, double time)
