@@ -298,9 +298,12 @@ TEST(Row08_CollisionCallback, EventsAreSortedAndPaired)
     add_static(scene, Chain{.start = {-3, 0}, .pieces = {{.end = {3, 0}}, {.end = {3, 8}}, {.end = {-3, 8}}}, .closed = true});
     Random random(4);
     for (int i = 0; i < 80; ++i)
-        add_dynamic(scene, {random.range(-2.5, 2.5), random.range(0.5, 7)},
-                    i % 2 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.4f},
-                    random.vec(5));
+    {
+        const Position at{random.range(-2.5, 2.5), random.range(0.5, 7)};
+        const Vec2 velocity = random.vec(5);
+        add_dynamic(scene, at, i % 2 == 0 ? Geometry{Circle{.radius = 0.2f}} : Geometry{box(0.2f, 0.2f)}, {.restitution = 0.4f},
+                    velocity);
+    }
     std::map<std::pair<ShapeId, ShapeId>, int> open;
     const auto key = [](ShapeId a, ShapeId b) { return std::pair(std::min(a, b), std::max(a, b)); };
     for (int i = 0; i < 400; ++i)

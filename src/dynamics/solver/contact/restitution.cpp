@@ -146,7 +146,7 @@ private:
         const std::int32_t index = m_island.wide_store * lane_count + lane;
         ContactConstraint constraint = constraint_of_lane(m_scratch, index);
         constraint.hit = strikes ? 0 : 1;
-        if ((notes.unreported & bit) != 0)
+        if ((notes.unreported & bit) != 0 && !touches(m_ctx.state.contacts[constraint.contact])) // flight may have begun it
             begin_touch(constraint, k, report);
         notes.unreported &= ~bit;
         if (!strikes)
