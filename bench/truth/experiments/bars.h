@@ -10,7 +10,7 @@
 
 namespace truth {
 
-/// Of 1 kg and 50 mm width; bars pass each other.
+/// A bar has 1 kg and a width of 50 mm. Bars pass each other.
 struct Bar
 {
     Body body = ground;

@@ -9,7 +9,7 @@
 namespace truth {
 namespace {
 
-// Where two circles meet, on the left of the way from the first center to the second.
+// The point at which two circles meet, on the left of the way from the first center to the second.
 Vec meeting(Vec a, double from_a, Vec b, double from_b)
 {
     const Vec way = b - a;

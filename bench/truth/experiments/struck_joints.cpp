@@ -92,7 +92,7 @@ constexpr Vec hinge_arm{0.2, 0.3}; ///< from the platform's center
 
 double exact_ball_speed(const Platform& platform)
 {
-    const double inertia = Bar::mass * (bar_length * bar_length + Bar::width * Bar::width) / 12;
+    const double inertia = Bar{.length = bar_length}.inertia();
     const Vec to_hinge{-bar_length / 2, 0};
     const Vec to_ball{platform.strike - bar_length / 2, Bar::width / 2};
     const Vec n{0, 1};
@@ -146,7 +146,7 @@ void platform(const Setup& setup, const Platform& of, const std::string& name, M
 // Hanging bars, struck on the third. Exact by elimination: bars in a row have a tridiagonal system in the hinges' impulses.
 double exact_chain_speed(int bars, double length, double mass, double speed, double e)
 {
-    const double inertia = Bar::mass * (length * length + Bar::width * Bar::width) / 12;
+    const double inertia = Bar{.length = length}.inertia();
     // Across the chain, a hinge impulse p[i] between bars i - 1 and i: k p[i-1] + d p[i] + k p[i+1] = b[i].
     const double near = 1 / Bar::mass + length * length / 4 / inertia;
     const double far = 1 / Bar::mass - length * length / 4 / inertia;

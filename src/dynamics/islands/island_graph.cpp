@@ -100,7 +100,7 @@ public:
             ++tally_of(scratch, place).fliers;
     }
 
-    // Where most of a crowd bounces, all of it flies, often the whole step at once.
+    // A crowd flies as a whole if most of it bounces: often the whole step at once.
     [[nodiscard]] bool bounces(std::int32_t place) const
     {
         const IslandTally& t = tally_of(scratch, place);

@@ -77,7 +77,7 @@ struct ForcedPolicy
     std::optional<std::int32_t> direct_rows{};
 };
 
-/// In a crowd only fast movers fly: contacts of the other bodies are speculative, and one contact more or less does not decide their paths.
+/// In a crowd only fast movers and bodies that bounce fly: contacts of the others are speculative, and one contact more or less does not decide their paths.
 [[nodiscard]] inline bool limits_flight_to_fast_movers(int unloaded_bodies) { return unloaded_bodies > few_bodies; }
 
 /// Do contacts whose normals turn, and joints whose arms turn, subdivide the sub-steps of an island of so many bodies?
