@@ -288,7 +288,7 @@ void find_deflected_pairs(StepContext& ctx)
         return;
     for (const Flier& flier : ctx.scratch.flight.fliers)
     {
-        if (!flier.deflected || !is_awake(state, flier.body))
+        if (!flier.is_deflected() || !is_awake(state, flier.body))
             continue;
         const FloatBox displacement = deflected_box(ctx, flier.body);
         for_each_leaf(state, flier.body,

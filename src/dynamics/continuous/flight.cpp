@@ -55,16 +55,24 @@ Flier* earliest(const FlightSpan& span)
     return &span.fliers()[static_cast<std::size_t>(std::ranges::find(times, best) - times.begin())];
 }
 
-// A deflected body follows a new path, so its reach changes.
-void note_reach(const FlightSpan& span, std::int32_t state)
+// Deflected bodies follow new paths, so their reaches change. All are found before the first is set, which may look at all that have been deflected.
+void note_reaches(const FlightSpan& span, std::span<const std::int32_t> states)
 {
-    const std::int32_t f = span.scratch.flight.flier_of_state[static_cast<std::size_t>(state)];
-    if (f == none)
-        return;
-    find_reach(span, f);
-    const Flier& flier = span.scratch.flight.fliers[static_cast<std::size_t>(f)];
-    if (flier.deflected)
-        span.output.deflected.set(flier.deflected_index, span.scratch.flight.reaches);
+    FlightWorkspace& flight = span.scratch.flight;
+    const auto flier_of = [&](std::int32_t state) { return flight.flier_of_state[static_cast<std::size_t>(state)]; };
+    for (const std::int32_t s : states)
+    {
+        if (flier_of(s) != none)
+            find_reach(span, flier_of(s));
+    }
+    for (const std::int32_t s : states)
+    {
+        if (flier_of(s) == none)
+            continue;
+        const Flier& f = flight.fliers[static_cast<std::size_t>(flier_of(s))];
+        if (f.is_deflected())
+            span.output.deflected.set(f.deflected_index, flight.reaches);
+    }
 }
 
 // Fliers near a struck solver-owned body may now meet it sooner. Between two bodies of one shape each, only their contact is searched
@@ -106,8 +114,8 @@ void process(const FlightSpan& span, Flier& f)
     {
         ++span.scratch.flight.versions[static_cast<std::size_t>(s)];
         trace(span, s, f.time);
-        note_reach(span, s);
     }
+    note_reaches(span, changed);
     for (const std::int32_t s : changed)
     {
         if (Flier* flier = span.flier_at(s))
@@ -122,7 +130,7 @@ void note_all_reaches(const FlightSpan& span)
     for (std::int32_t f = span.island.first_flier; f < span.island.first_flier + span.island.flier_count; ++f)
     {
         const Flier& flier = span.scratch.flight.fliers[static_cast<std::size_t>(f)];
-        if (!flier.landed || flier.deflected)
+        if (!flier.landed || flier.is_deflected())
             find_reach(span, f);
     }
     span.output.deflected.set_all(span.h, span.scratch.flight.reaches);
@@ -207,29 +215,12 @@ void find_first_events(const FlightSpan& span, WorkerTeam& team)
 void note_deflected(Scratch& scratch, IslandOutput& output, std::int32_t flier)
 {
     Flier& f = scratch.flight.fliers[static_cast<std::size_t>(flier)];
-    if (f.deflected)
+    if (f.is_deflected())
         return;
-    f.deflected = true;
     f.deflected_index = output.deflected.add(flier);
 }
 
 namespace {
-
-// Visits the state on the other side of each contact constraint that bears a load and belongs to `state`.
-template <class Visit>
-void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
-{
-    const auto look = [&](std::span<const ContactConstraint> constraints)
-    {
-        for (const ContactConstraint& constraint : constraints)
-        {
-            if (bears_load(constraint) && (constraint.a == state || constraint.b == state))
-                visit(constraint.a == state ? constraint.b : constraint.a);
-        }
-    };
-    look(constraints_of(span.scratch, span.island));
-    look(span.output.late_constraints);
-}
 
 // The flier takes off together with a bat (a hinged body) that presses it: without the ball in its path the solver would swing the bat through.
 void take_off_with_bats(const FlightSpan& span, Flier& f)
@@ -263,7 +254,7 @@ void take_off_fast_movers(StepContext& ctx, const Island& island, int k, IslandO
     for (Flier& f : span.fliers())
     {
         const BodyState& s = span.state_of(f.state);
-        const bool was_struck = island.policy.exact_impacts || f.needs_wall_check || f.deflected;
+        const bool was_struck = island.policy.exact_impacts || f.needs_wall_check || f.is_deflected();
         if (f.landed && was_struck &&
             (is_fast(span, f, s.velocity.x, s.velocity.y, s.angular_velocity) || leaves_its_boxes(span, f)))
             take_off_with_bats(span, f);
@@ -307,13 +298,16 @@ bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& 
         start_flight(span, f);
     for (std::int32_t f = island.first_flier; f < island.first_flier + island.flier_count; ++f)
         find_reach(span, f);
-    const auto meets_nothing = [&](Flier& f) { return try_find_next_event(span, f) && f.event_time > span.h; };
-    if (!std::ranges::all_of(span.fliers(), meets_nothing))
+    const bool may_meet = !island.policy.exact_impacts && std::ranges::all_of(span.fliers(), moves_evenly);
+    const std::int32_t most = may_meet ? island.flier_count / dense : 0;
+    std::int32_t meeting = 0;
+    for (Flier& f : span.fliers())
     {
-        const bool are_even = !island.policy.exact_impacts && std::ranges::all_of(span.fliers(), moves_evenly);
-        const auto meets = [&](Flier& f) { return !try_find_next_event(span, f) || f.event_time <= span.h; };
-        if (!are_even || dense * std::ranges::count_if(span.fliers(), meets) > island.flier_count)
+        if (!(try_find_next_event(span, f) && f.event_time > span.h) && ++meeting > most)
             return false;
+    }
+    if (meeting > 0)
+    {
         advance_fliers(whole, island, 0, output, team);
         return true;
     }

@@ -355,7 +355,7 @@ bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
 {
     const BodySim& sim = span.sim_of(f.body);
     const BodyState& s = span.state_of(f.state);
-    if (!f.deflected && !is_led_astray(span, sim, s))
+    if (!f.is_deflected() && !is_led_astray(span, sim, s))
         return false;
     const Rotation q = s.delta_rotation * sim.rotation;
     const Pose pose{sim.center + s.delta_position - rotate(q, sim.local_center), q};
@@ -374,17 +374,13 @@ bool leaves_its_boxes(const FlightSpan& span, const Flier& f)
 
 bool bears_load_now(const FlightSpan& span, std::int32_t state)
 {
-    const auto loads_it = [state](const ContactConstraint& constraint)
-    { return (constraint.a == state || constraint.b == state) && bears_load(constraint); };
-    const auto is_loaded_lane = [&](int index)
+    bool loaded = false;
+    for_each_pressed_by(span, state, [&](std::int32_t) { loaded = true; });
+    for (const int index : contacts_of(span.state, span.scratch.solver.state_bodies[static_cast<std::size_t>(state)]))
     {
         const std::int32_t wide = span.state.contacts[index].wide;
-        return wide != none && bears_load(constraint_of_lane(span.scratch, wide));
-    };
-    bool loaded = std::ranges::any_of(constraints_of(span.scratch, span.island), loads_it) ||
-                  std::ranges::any_of(span.output.late_constraints, loads_it);
-    for (const int index : contacts_of(span.state, span.scratch.solver.state_bodies[static_cast<std::size_t>(state)]))
-        loaded = loaded || is_loaded_lane(index);
+        loaded = loaded || (wide != none && bears_load(constraint_of_lane(span.scratch, wide)));
+    }
     return loaded;
 }
 

@@ -68,7 +68,23 @@ void advance(const FlightSpan& span, Flier& f, double time);
 /// True if a body was deflected in this step and leaves the boxes in which pairs were searched: the solver would miss what is there.
 [[nodiscard]] bool leaves_its_boxes(const FlightSpan& span, const Flier& f);
 
-/// Does a constraint of a solver-owned body bear a load?
+/// Visits the state on the other side of each contact constraint outside of lanes that bears a load and belongs to `state`.
+template <class Visit>
+void for_each_pressed_by(const FlightSpan& span, std::int32_t state, const Visit& visit)
+{
+    const auto look = [&](std::span<const ContactConstraint> constraints)
+    {
+        for (const ContactConstraint& constraint : constraints)
+        {
+            if (bears_load(constraint) && (constraint.a == state || constraint.b == state))
+                visit(constraint.a == state ? constraint.b : constraint.a);
+        }
+    };
+    look(constraints_of(span.scratch, span.island));
+    look(span.output.late_constraints);
+}
+
+/// Does a constraint of a solver-owned body bear a load, in a lane or outside?
 [[nodiscard]] bool bears_load_now(const FlightSpan& span, std::int32_t state);
 
 /// Moves a body from the solver into flight at a time of the sub-step and drops its constraints.

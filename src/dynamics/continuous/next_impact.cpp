@@ -50,7 +50,7 @@ public:
         consider_limits();
         for (const int index : contacts_of(m_span.state, m_flier.body))
             offer_contact(index);
-        if (m_flier.deflected)
+        if (m_flier.is_deflected())
             look_beyond_boxes();
         look_at_deflected();
         consider_offers();
@@ -298,10 +298,10 @@ private:
     // True if the two do not meet within the step on their initial paths.
     [[nodiscard]] bool was_found_apart(int contact, int body) const
     {
-        if (m_flier.deflected)
+        if (m_flier.is_deflected())
             return false;
         const Flier* other = m_span.flier_at(m_span.state_in_island(body));
-        if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->deflected))
+        if (m_span.state.bodies[body].type == BodyType::Dynamic && (other == nullptr || other->is_deflected()))
             return false;
         return stays_apart(m_span.ctx, m_span.state.contacts[contact]);
     }

@@ -24,7 +24,8 @@ void ImpactSet::gather()
     const int first = member_of(m_first.body);
     if (m_first.event_shape != none)
         add_touches(first, m_first.event_own, m_first.event_shape, contact_between(m_first.event_own, m_first.event_shape));
-    m_first_bounces = m_first.event_shape != none && may_bounce(m_span.ctx.scene, m_first.event_own, m_first.event_shape);
+    m_gathers_touching = m_span.island.policy.exact_impacts ||
+                         (m_first.event_shape != none && may_bounce(m_span.ctx.scene, m_first.event_own, m_first.event_shape));
     std::size_t released = 0;
     for (std::size_t i = 0; i < m_members.size(); ++i)
     {
@@ -129,8 +130,8 @@ void ImpactSet::expand(int index)
     if (m.body == none || m.state == none)
         return;
     add_limits(index);
-    if (!m_span.island.policy.exact_impacts && (!m_first_bounces || m_members.size() >= most_members))
-        return; // crowds resolve impacts pair by pair
+    if (!m_gathers_touching || (!m_span.island.policy.exact_impacts && m_members.size() >= most_members))
+        return;
     if (m.flier == nullptr)
         add_joints(m.body);
     for (const int other_index : contacts_of(m_state, m.body))

@@ -13,7 +13,7 @@ bool is_recorded(const FlightSpan& span, std::int32_t state)
 {
     const std::int32_t f = span.scratch.flight.flier_of_state[static_cast<std::size_t>(state)];
     return (span.state_of(state).flags & body_flag::traced) != 0 ||
-           (f != none && span.scratch.flight.fliers[static_cast<std::size_t>(f)].deflected);
+           (f != none && span.scratch.flight.fliers[static_cast<std::size_t>(f)].is_deflected());
 }
 
 std::int32_t& last_piece_of(const FlightSpan& span, std::int32_t state)
