@@ -4,8 +4,8 @@
 
 #include "dynamics/continuous/flight.h"
 
-#include "core/float4.h"
 #include "dynamics/continuous/impact/impact.h"
+#include "dynamics/continuous/event_tournament.h"
 #include "dynamics/continuous/landing.h"
 #include "dynamics/continuous/next_impact.h"
 #include "dynamics/continuous/path/trace.h"
@@ -19,40 +19,12 @@ namespace carom::internal {
 
 namespace {
 
-// Eight independent minima: in a single chain each comparison would wait for the one before.
-double least_of(std::span<const double> times)
-{
-    constexpr std::size_t side_by_side = 4;
-    D2 least_pairs[side_by_side];
-    std::ranges::fill(least_pairs, D2(1e300));
-    std::size_t i = 0;
-    for (; i + 2 * side_by_side <= times.size(); i += 2 * side_by_side)
-    {
-        for (std::size_t k = 0; k < side_by_side; ++k)
-            least_pairs[k] = least(load2(&times[i + 2 * k]), least_pairs[k]);
-    }
-    double best = 1e300;
-    for (const D2 pair : least_pairs)
-    {
-        double two[2];
-        store2(two, pair);
-        best = std::min({best, two[0], two[1]});
-    }
-    for (; i < times.size(); ++i)
-        best = std::min(best, times[i]);
-    return best;
-}
-
-// The flier with the earliest event; at equal times, the first in the island.
+// The flier with the earliest event; null: nothing happens any more.
 Flier* earliest(const FlightSpan& span)
 {
-    const std::span<const double> times =
-        std::span(span.scratch.flight.event_times)
-            .subspan(static_cast<std::size_t>(span.island.first_flier), static_cast<std::size_t>(span.island.flier_count));
-    const double best = least_of(times);
-    if (best > span.h)
-        return nullptr;
-    return &span.fliers()[static_cast<std::size_t>(std::ranges::find(times, best) - times.begin())];
+    const EventTournament events = events_of(span);
+    const std::size_t first = events.first();
+    return events.time(first) > span.h ? nullptr : &span.fliers()[first];
 }
 
 // Deflected bodies follow new paths, so their reaches change. All are found before the first is set, which may look at all that have been deflected.
@@ -190,24 +162,35 @@ void find_first_events(const FlightSpan& span, WorkerTeam& team)
     if (count < enough_fliers)
     {
         look(0, count);
+        return;
     }
-    else
-    { // searches differ widely in cost
-        std::atomic<int> next{0};
-        team.in_parts(
-            [&](int, int)
-            {
-                for (int first = 0; (first = next.fetch_add(fliers_per_share)) < count;)
-                    look(first, first + fliers_per_share);
-            });
-    }
-    for (Flier& f : fliers)
+    std::atomic<int> next{0}; // searches differ widely in cost
+    team.in_parts(
+        [&](int, int)
+        {
+            for (int first = 0; (first = next.fetch_add(fliers_per_share)) < count;)
+                look(first, first + fliers_per_share);
+        });
+}
+
+// From the first events on, one after the other.
+void follow_events(const FlightSpan& span)
+{
+    events_of(span).start();
+    for (Flier& f : span.fliers())
     {
         if (f.passes == none)
             continue;
         span.state.contacts[f.passes].flags |= contact_flag::passing;
         find_next_event(span, f);
     }
+    for (Flier& f : span.fliers())
+        f.looks = f.union_looks = 0; // the first searches cannot be left out, so they are not charged
+    while (Flier* next = span.output.looks_left > 0 ? earliest(span) : nullptr)
+        process(span, *next);
+    stop_who_would_meet(span);
+    for (Flier& f : span.fliers())
+        finish_flight(span, f);
 }
 
 } // namespace
@@ -286,42 +269,6 @@ bool moves_evenly(const Flier& f) { return f.ax == 0 && f.ay == 0 && f.alpha == 
 
 } // namespace
 
-bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& output, WorkerTeam& team)
-{
-    if (!flies_freely(ctx, island))
-        return false;
-    StepContext whole = ctx;
-    whole.h = ctx.dt;
-    whole.substeps = 1;
-    const FlightSpan span(whole, island, 0, output);
-    for (Flier& f : span.fliers())
-        start_flight(span, f);
-    for (std::int32_t f = island.first_flier; f < island.first_flier + island.flier_count; ++f)
-        find_reach(span, f);
-    const bool may_meet = !island.policy.exact_impacts && std::ranges::all_of(span.fliers(), moves_evenly);
-    const std::int32_t most = may_meet ? island.flier_count / dense : 0;
-    std::int32_t meeting = 0;
-    for (Flier& f : span.fliers())
-    {
-        if (!(try_find_next_event(span, f) && f.event_time > span.h) && ++meeting > most)
-            return false;
-    }
-    if (meeting > 0)
-    {
-        advance_fliers(whole, island, 0, output, team);
-        return true;
-    }
-    for (Flier& f : span.fliers())
-        finish_flight(span, f);
-    return true;
-}
-
-void trace_paths(StepContext& ctx, const Island& island, int k, IslandOutput& output)
-{
-    if (island.traced)
-        trace_all(FlightSpan(ctx, island, k, output));
-}
-
 namespace {
 
 // Subdivisions of a sub-step share its budget. Once the first ones have spent it, each later one still gets its part of the same amount.
@@ -338,6 +285,34 @@ void share_budget(const StepContext& ctx, const Island& island, int k, IslandOut
 
 } // namespace
 
+bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& output, WorkerTeam& team)
+{
+    if (!flies_freely(ctx, island))
+        return false;
+    StepContext whole = ctx;
+    whole.h = ctx.dt;
+    whole.substeps = 1;
+    const FlightSpan span(whole, island, 0, output);
+    for (Flier& f : span.fliers())
+        start_flight(span, f);
+    note_all_reaches(span);
+    find_first_events(span, team);
+    const bool may_meet = !island.policy.exact_impacts && std::ranges::all_of(span.fliers(), moves_evenly);
+    const auto meets = [&](const Flier& f) { return f.passes != none || f.event_time <= span.h; };
+    if (std::ranges::count_if(span.fliers(), meets) > (may_meet ? island.flier_count / dense : 0))
+        return false;
+    share_budget(whole, island, 0, output);
+    output.struck_states.clear();
+    follow_events(span);
+    return true;
+}
+
+void trace_paths(StepContext& ctx, const Island& island, int k, IslandOutput& output)
+{
+    if (island.traced)
+        trace_all(FlightSpan(ctx, island, k, output));
+}
+
 void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput& output, WorkerTeam& team)
 {
     if (island.flier_count == 0)
@@ -350,13 +325,7 @@ void advance_fliers(StepContext& ctx, const Island& island, int k, IslandOutput&
     trace_all(span);
     note_all_reaches(span);
     find_first_events(span, team);
-    for (Flier& f : span.fliers())
-        f.looks = f.union_looks = 0; // the first searches cannot be left out, so they are not charged
-    while (Flier* next = output.looks_left > 0 ? earliest(span) : nullptr)
-        process(span, *next);
-    stop_who_would_meet(span);
-    for (Flier& f : span.fliers())
-        finish_flight(span, f);
+    follow_events(span);
 }
 
 } // namespace carom::internal

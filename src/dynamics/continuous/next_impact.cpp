@@ -430,6 +430,15 @@ void find_reach(const FlightSpan& span, std::int32_t flier)
         f.landed ? reach_of_solved(span, f.state, sim) : reach_of_flier(span, f, sim);
 }
 
+EventTournament events_of(const FlightSpan& span)
+{
+    const auto first = static_cast<std::size_t>(span.island.first_flier);
+    const auto count = static_cast<std::size_t>(span.island.flier_count);
+    FlightWorkspace& flight = span.scratch.flight;
+    return {std::span<const double>(flight.event_times).subspan(first, count),
+            std::span(flight.first_of_events).subspan(2 * first, 2 * count)};
+}
+
 namespace {
 
 bool looks_for_none(const FlightSpan& span, const Flier& f) { return f.landed || is_capped(span, f) || f.time >= span.h; }
@@ -460,6 +469,11 @@ bool try_find_next_event(const FlightSpan& span, Flier& f)
 
 namespace {
 
+void replay_event(const FlightSpan& span, const Flier& f)
+{
+    events_of(span).replay(static_cast<std::size_t>(&f - span.fliers().data()));
+}
+
 constexpr std::int64_t dearness_of_unions = 4; // least cost, in looks, of a look that asks neighbors for their cone
 
 void spend_looks(const FlightSpan& span, Flier& f)
@@ -473,6 +487,7 @@ void find_next_event(const FlightSpan& span, Flier& f)
 {
     while (!try_find_next_event(span, f))
         span.state.contacts[f.passes].flags |= contact_flag::passing;
+    replay_event(span, f);
     spend_looks(span, f);
 }
 
@@ -485,6 +500,7 @@ void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int conta
     if (!was_to_meet_it)
         Search(span, f).run_for_contact(contact);
     time_in_list(span, f) = f.event_time;
+    replay_event(span, f);
     spend_looks(span, f);
     if (was_to_meet_it || f.passes != none)
         find_next_event(span, f);

@@ -84,6 +84,7 @@ public:
     {
         set_size(m_scratch.flight.fliers, m_scratch.layout.flier_seeds.size());
         set_size(m_scratch.flight.event_times, m_scratch.flight.fliers.size());
+        set_size(m_scratch.flight.first_of_events, 2 * m_scratch.flight.fliers.size());
         set_size(m_scratch.flight.reaches, m_scratch.flight.fliers.size());
         const auto count = static_cast<std::int32_t>(m_scratch.flight.fliers.size());
         run_tasks(m_ctx.scene.def.tasks, tasks_for(count),
