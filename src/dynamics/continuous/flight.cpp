@@ -4,8 +4,8 @@
 
 #include "dynamics/continuous/flight.h"
 
+#include "core/tournament.h"
 #include "dynamics/continuous/impact/impact.h"
-#include "dynamics/continuous/event_tournament.h"
 #include "dynamics/continuous/landing.h"
 #include "dynamics/continuous/next_impact.h"
 #include "dynamics/continuous/path/trace.h"
@@ -22,7 +22,7 @@ namespace {
 // The flier with the earliest event; null: nothing happens any more.
 Flier* earliest(const FlightSpan& span)
 {
-    const EventTournament events = events_of(span);
+    const Tournament events = events_of(span);
     const std::size_t first = events.first();
     return events.time(first) > span.h ? nullptr : &span.fliers()[first];
 }

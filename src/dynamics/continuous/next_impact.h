@@ -2,8 +2,9 @@
 
 // Search for the next event of a body in flight: an impact, a hinge limit, or a resting contact to renew.
 
-#include "dynamics/continuous/event_tournament.h"
+#include "core/tournament.h"
 #include "dynamics/continuous/motion.h"
+#include "dynamics/continuous/path/reach.h"
 
 namespace carom::internal {
 
@@ -16,21 +17,12 @@ void find_next_event(const FlightSpan& span, Flier& f);
 void reconsider(const FlightSpan& span, Flier& f, std::int32_t struck, int contact);
 
 /// The event times of the island's fliers.
-[[nodiscard]] EventTournament events_of(const FlightSpan& span);
+[[nodiscard]] Tournament events_of(const FlightSpan& span);
 
 /// How often the path of a state has changed in this sub-step.
 [[nodiscard]] inline std::int32_t version_of(const FlightSpan& span, std::int32_t state)
 {
     return state == none ? 0 : span.scratch.flight.versions[static_cast<std::size_t>(state)];
 }
-
-/// Notes the reach of a flier after its path has changed.
-void find_reach(const FlightSpan& span, std::int32_t flier);
-/// Reach of a flier, or of one that has been deflected and has landed.
-[[nodiscard]] Reach reach_in_list(const FlightSpan& span, std::int32_t flier);
-/// Reach of a dynamic body of the island, in flight or not, for the rest of the sub-step.
-[[nodiscard]] Reach reach_of(const FlightSpan& span, int body);
-/// Time before which the two cannot meet; 1e300: they do not.
-[[nodiscard]] double first_meeting(const Reach& a, const Reach& b);
 
 } // namespace carom::internal

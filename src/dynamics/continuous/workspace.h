@@ -21,9 +21,9 @@ enum class Surroundings : std::uint8_t
 struct FlightWorkspace
 {
     std::vector<Flier> fliers;
-    std::vector<double> event_times; ///< by flier
-    std::vector<std::int32_t> first_of_events; ///< of each island's EventTournament: two for each flier
-    std::vector<Reach> reaches;      ///< by flier; of the landed ones only if they have been deflected
+    std::vector<double> event_times;           ///< by flier
+    std::vector<std::int32_t> first_of_events; ///< of each island's Tournament: two for each flier
+    std::vector<Reach> reaches;                ///< by flier; of the landed ones only if they have been deflected
     std::vector<std::int32_t> flier_of_state;
     std::vector<std::int32_t> versions;     ///< by state: counts changes of its path within a sub-step
     std::vector<Surroundings> surroundings; ///< by block of the moving layer

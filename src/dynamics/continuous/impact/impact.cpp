@@ -38,12 +38,12 @@ ImpactSet::ImpactSet(const FlightSpan& span, Flier& first)
 void ImpactSet::run(std::vector<std::int32_t>& changed)
 {
     gather();
-    note_before();
     ImpactWork& work = m_span.output.impact_work;
     const bool has_all_work = work.is_whole();
     work.spend(work_of_an_impact);
-    bool is_jammed =
-        !reflect(m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, work, m_blows);
+    bool is_jammed = !reflect(
+        m_bodies, m_rows, m_span.least_approach, [this](int row, double u) { return law(row, u); }, work, m_blows,
+        [this] { grow(); });
     if (is_jammed && (has_all_work || !work.is_spent()))
         is_jammed = !unite_jammed(); // the next sub-step would not get any further
     note_stopped_joints();
@@ -68,17 +68,12 @@ void ImpactSet::stop_until_next()
     m_span.output.capped = true;
 }
 
-void ImpactSet::note_before()
+// Speed, before the impact, of the center of the row's second body along perp(n).
+double ImpactSet::slide_of(const ImpactRow& row) const
 {
-    for (std::size_t i = 0; i < m_members.size(); ++i)
-        m_members[i].before = m_bodies[i];
-    for (std::size_t i = 0; i < m_rows.size(); ++i)
-    {
-        const ImpactRow& r = m_rows[i];
-        const ContactVelocities v = contact_velocities(m_bodies, r);
-        const ImpactBody& b = m_bodies[static_cast<std::size_t>(r.b)];
-        m_sources[i].slide = (b.vx - v.ax) * -r.ny + (b.vy - v.ay) * r.nx;
-    }
+    const ImpactBody& a = m_members[static_cast<std::size_t>(row.a)].before;
+    const ImpactBody& b = m_members[static_cast<std::size_t>(row.b)].before;
+    return (b.vx - a.vx + a.w * row.arm_a_y) * -row.ny + (b.vy - a.vy - a.w * row.arm_a_x) * row.nx;
 }
 
 Bounce ImpactSet::law(int index, double u)

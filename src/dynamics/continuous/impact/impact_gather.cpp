@@ -14,8 +14,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr double touching = 1e-6; // of the size: contacts this near take part
-constexpr std::size_t most_members = 16;
+constexpr double touching = 1e-6;        // of the size: contacts this near take part
+constexpr std::size_t most_members = 16; // in a crowd: beyond it, the impulse goes on as the next impact of the same moment
 
 } // namespace
 
@@ -26,13 +26,41 @@ void ImpactSet::gather()
         add_touches(first, m_first.event_own, m_first.event_shape, contact_between(m_first.event_own, m_first.event_shape));
     m_gathers_touching = m_span.island.policy.exact_impacts ||
                          (m_first.event_shape != none && may_bounce(m_span.ctx.scene, m_first.event_own, m_first.event_shape));
-    std::size_t released = 0;
+    m_members.front().is_struck = true;
+}
+
+// Before each round: the rows of all bodies that it may strike, and of those that a round has struck.
+void ImpactSet::grow()
+{
+    for (std::size_t i = 0; i < m_rows.size(); ++i)
+    {
+        const ImpactRow& row = m_rows[i];
+        if (row.kind == ImpactRow::Kind::Contact && gap_rate(m_bodies, row) < -m_span.least_approach)
+            m_members[static_cast<std::size_t>(row.a)].is_struck = m_members[static_cast<std::size_t>(row.b)].is_struck = true;
+    }
     for (std::size_t i = 0; i < m_members.size(); ++i)
     {
-        expand(static_cast<int>(i));
-        for (; released < m_released.size(); ++released)
-            look_again(m_released[released]);
+        if ((m_members[i].is_struck || m_members[i].changed) && !m_members[i].is_held)
+            hold(static_cast<int>(i));
+        if (m_gathers_touching && !m_members[i].is_expanded && (i == 0 || m_members[i].changed || has_changed(i)))
+            expand(static_cast<int>(i));
+        for (; m_looked_at < m_released.size(); ++m_looked_at)
+            look_again(m_released[m_looked_at]);
     }
+}
+
+bool ImpactSet::has_changed(std::size_t i) const
+{
+    const ImpactBody& now = m_bodies[i];
+    const ImpactBody& before = m_members[i].before;
+    return now.vx != before.vx || now.vy != before.vy || now.w != before.w;
+}
+
+// The contacts of a body that bears a load pass the blow on in the next sub-step.
+bool ImpactSet::leaves_it_to_the_solver(const Member& m) const
+{
+    return m.flier == nullptr &&
+           m_span.scratch.graph.is_loaded[static_cast<std::size_t>(m_state.bodies[m.body].awake_index)] != 0;
 }
 
 // A deflected body may rest against a shape with which it has no contact.
@@ -87,6 +115,7 @@ int ImpactSet::member_of(int body)
         b.w = m.flier != nullptr ? m.flier->w : m.path.w;
         set_masses(m, b);
     }
+    m.before = b;
     m_members.push_back(m);
     m_bodies.push_back(b);
     m_resting.push_back(resting);
@@ -99,8 +128,8 @@ int ImpactSet::member_of(int body)
         m_members[other].changed = true;
         if (const Flier* f = m_members[other].flier)
         {
-            m_bodies[other].vx = f->vx;
-            m_bodies[other].vy = f->vy;
+            m_bodies[other].vx = m_members[other].before.vx = f->vx;
+            m_bodies[other].vy = m_members[other].before.vy = f->vy;
         }
     }
     return index;
@@ -123,17 +152,27 @@ void ImpactSet::set_masses(const Member& m, ImpactBody& b) const
     b.inverse_inertia = sim.inverse_inertia;
 }
 
-// Adds everything that touches the member, if its path is computed in this island.
-void ImpactSet::expand(int index)
+// Limits and joints hold a member from the first round on.
+void ImpactSet::hold(int index)
 {
+    m_members[static_cast<std::size_t>(index)].is_held = true;
     const Member m = m_members[static_cast<std::size_t>(index)];
     if (m.body == none || m.state == none)
         return;
     add_limits(index);
-    if (!m_gathers_touching || (!m_span.island.policy.exact_impacts && m_members.size() >= most_members))
-        return;
-    if (m.flier == nullptr)
+    if (m_gathers_touching && m.flier == nullptr && (m_span.island.policy.exact_impacts || m_members.size() < most_members))
         add_joints(m.body);
+}
+
+// Adds everything that touches the member, if its path is computed in this island.
+void ImpactSet::expand(int index)
+{
+    m_members[static_cast<std::size_t>(index)].is_expanded = true;
+    const Member m = m_members[static_cast<std::size_t>(index)];
+    if (m.body == none || m.state == none)
+        return;
+    if (!m_span.island.policy.exact_impacts && (m_members.size() >= most_members || leaves_it_to_the_solver(m)))
+        return;
     for (const int other_index : contacts_of(m_state, m.body))
     {
         const Contact& contact = m_state.contacts[other_index];
@@ -156,6 +195,7 @@ void ImpactSet::add_joints(int body)
         const JointRecord& joint = m_state.joints[index];
         const int a = member_of(joint.body_a);
         const int b = member_of(joint.body_b);
+        m_members[static_cast<std::size_t>(a)].is_struck = m_members[static_cast<std::size_t>(b)].is_struck = true;
         const JointRows rows = rows_at(joint, pose_of_joint(joint, a, b));
         for (const JointRow& r : rows.holds())
         {

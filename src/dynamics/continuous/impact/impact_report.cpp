@@ -138,7 +138,7 @@ bool ImpactSet::is_worth_reporting(const Blow& blow) const
     const ImpactRow& row = m_rows[static_cast<std::size_t>(blow.row)];
     const Source& s = m_sources[static_cast<std::size_t>(blow.row)];
     const bool along_chain = m_state.shapes[s.other].owner != s.other;
-    const double shallow = along_chain ? 0.01 * std::fabs(s.slide) : 0;
+    const double shallow = along_chain ? 0.01 * std::fabs(slide_of(row)) : 0;
     const double settling = s.rests ? 2 * hop_speed(s, std::max(-s.touch.acceleration, 0.0)) : 0;
     const double pressed = both_have_finite_mass(row) ? 2 * blow_of(s, s.touch.acceleration) : 0;
     return blow.approach > std::max({static_cast<double>(m_span.ctx.scene.tolerances.rest_speed), settling, pressed, shallow});

@@ -219,7 +219,7 @@ void ImpactSet::set_resting_time(std::size_t i)
         return;
     const ImpactBody& a = m_bodies[static_cast<std::size_t>(row.a)];
     const ImpactBody& b = m_bodies[static_cast<std::size_t>(row.b)];
-    const double bend = std::fabs(s.touch.curvature * s.slide);
+    const double bend = std::fabs(s.touch.curvature * slide_of(row));
     const double turn = bend + std::fabs(a.w) + (m_state.shapes[s.own].leaf.type == LeafType::Circle ? 0 : std::fabs(b.w));
     for (const int member : {row.a, row.b})
     {

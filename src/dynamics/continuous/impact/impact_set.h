@@ -29,6 +29,9 @@ private:
         FramePath path{};
         ImpactBody before{};
         bool changed = false;
+        bool is_struck = false;   ///< or held by one that is
+        bool is_held = false;     ///< its limits and joints have rows
+        bool is_expanded = false; ///< and so has everything that touches it
     };
 
     /// Origin of a row; without shapes: a joint, or a limit of a hinge.
@@ -39,7 +42,6 @@ private:
         std::int32_t contact = none;
         std::int32_t joint = none;
         Touch touch{};
-        double slide = 0; ///< speed of the own center along perp(n) before
         bool kicked = false;
         bool rests = false; ///< its bounce counts as none
         bool bounces = false;
@@ -47,10 +49,14 @@ private:
 
     // Gathering: impact_gather.cpp
     void gather();
+    void grow();
+    [[nodiscard]] bool has_changed(std::size_t member) const;
+    [[nodiscard]] bool leaves_it_to_the_solver(const Member& m) const;
     [[nodiscard]] std::int32_t contact_between(std::int32_t own, std::int32_t other) const;
     int member_of(int body);
     void look_again(RestingContact h);
     void set_masses(const Member& m, ImpactBody& b) const;
+    void hold(int index);
     void expand(int index);
     void add_joints(int body);
     [[nodiscard]] JointPose pose_of_joint(const JointRecord& joint, int a, int b) const;
@@ -64,7 +70,6 @@ private:
 
     // Impulses, and their effect on the bodies: impact.cpp
     void stop_until_next();
-    void note_before();
     Bounce law(int index, double u);
     [[nodiscard]] double hop_speed(const Source& s, double resting_forces) const;
     [[nodiscard]] double last_bounces(const ImpactRow& row, double resting_forces, double restitution) const;
@@ -74,6 +79,7 @@ private:
     [[nodiscard]] double steady_press(const ImpactRow& row) const;
     [[nodiscard]] bool is_crowded(const ImpactRow& row) const;
     double kick(Source& s, float speed);
+    [[nodiscard]] double slide_of(const ImpactRow& row) const;
     void note_stopped_joints();
     void write_back(std::size_t i, std::vector<std::int32_t>& changed);
     [[nodiscard]] bool leaves_bouncing(std::size_t member) const;
@@ -123,6 +129,7 @@ private:
     double m_time;
     Position m_origin;
     std::vector<RestingContact> m_released{};
+    std::size_t m_looked_at = 0;     ///< of the released ones
     std::vector<Member> m_members{}; ///< parallel to m_bodies
     std::vector<ImpactBody> m_bodies{};
     std::vector<ImpactBody> m_resting{}; ///< accelerations by the resting contacts that were released

@@ -182,6 +182,7 @@ struct Impact
     double least;
     ImpactWork& work;
     std::vector<Blow>& blows;
+    const std::function<void()>& grow;
     int round = 0;
     bool is_rubbing = false; ///< impulses during friction belong to the blows before it
 };
@@ -254,6 +255,7 @@ bool reflect_once(Impact& impact, const BounceLaw& law, Asked asked = Asked::App
     const std::size_t first_blow = impact.blows.size();
     ++impact.round;
     bool approaching = false;
+    impact.grow();
     const double least = std::max(impact.least, slow * greatest_approach(impact.bodies, impact.rows));
     for (std::size_t i = 0; i < impact.rows.size(); ++i)
     {
@@ -357,9 +359,10 @@ ContactVelocities contact_velocities(const Bodies& bodies, const ImpactRow& row)
 }
 
 bool reflect(Bodies& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work,
-             std::vector<Blow>& blows)
+             std::vector<Blow>& blows, const std::function<void()>& grow)
 {
-    Impact impact{bodies, rows, least, work, blows};
+    Impact impact{bodies, rows, least, work, blows, grow};
+    grow();
     const BounceLaw still = [](int, double) { return Bounce{}; };
     stop_bilateral_rows(bodies, rows, work);
     int round = 0;

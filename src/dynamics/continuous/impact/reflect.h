@@ -106,9 +106,10 @@ struct ImpactWork
 
 /// Changes the velocities of the bodies, fills in the rows and appends the blows. Approaches slower than `least` count as none. False if the
 /// bodies are jammed, with no way to go between others that close in on them, or if the work is spent: energy has not risen, but some rows
-/// still approach.
-[[nodiscard]] bool reflect(std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law,
-                           ImpactWork& work, std::vector<Blow>& blows);
+/// still approach. `grow`, before each round, may add bodies and rows that the last one has reached.
+[[nodiscard]] bool reflect(
+    std::vector<ImpactBody>& bodies, std::vector<ImpactRow>& rows, double least, const BounceLaw& law, ImpactWork& work,
+    std::vector<Blow>& blows, const std::function<void()>& grow = [] {});
 
 /// A row that does not separate: its accelerations without the resting forces, and the forces.
 struct RestingForce

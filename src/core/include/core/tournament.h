@@ -1,6 +1,6 @@
 #pragma once
 
-// The earliest event of an island's fliers: a tournament tree over their event times. A change of one time replays its matches alone.
+// A tournament tree: the least of many times, of which one changes at a time. A change replays the matches of that one alone.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace carom::internal {
 
-class EventTournament
+class Tournament
 {
 public:
     /// times: of all contestants; winners: two for each.
-    EventTournament(std::span<const double> times, std::span<std::int32_t> winners) : m_times(times), m_winners(winners) {}
+    Tournament(std::span<const double> times, std::span<std::int32_t> winners) : m_times(times), m_winners(winners) {}
 
     /// Plays all matches.
     void start()
