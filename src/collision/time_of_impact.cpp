@@ -82,6 +82,25 @@ public:
         m_w_frame = std::fabs(m_frame.w) + duration * std::fabs(m_frame.alpha);
     }
 
+    /// Time before which the two do not touch. Exact for discs that turn about their centers and are accelerated alike; 0: unknown.
+    [[nodiscard]] double earliest_touch() const
+    {
+        const Leaf& l = *m_leaf.leaf;
+        if (l.type != LeafType::Circle || l.p0 != m_frame.local_center || m_reach != 0 || m_a.x != 0 || m_a.y != 0)
+            return 0;
+        const CenterPath& p = m_carrier.center;
+        const CenterPath& f = m_frame.center;
+        const Vector r = {p.x - f.x, p.y - f.y};
+        const Vector v = {p.vx - f.vx, p.vy - f.vy};
+        const double radius = m_probe.radius + static_cast<double>(l.r0);
+        const double apart = dot(r, r) - radius * radius;
+        const double closing = -dot(r, v);
+        if (apart <= 0)
+            return 0;
+        const double discriminant = closing * closing - dot(v, v) * apart;
+        return closing > 0 && discriminant >= 0 ? apart / (closing + std::sqrt(discriminant)) : 1e300;
+    }
+
     /// True where the surface is farther from the probe than the tolerance at t = 0, or does not answer.
     [[nodiscard]] bool starts_beyond(double tolerance) const
     {
@@ -445,7 +464,7 @@ std::optional<Touch> first_touch_of_probe(const Approach& approach, double lengt
                                           double least_approach, const MicroCollision& press, const FlushBeside& flush,
                                           std::int64_t& looks)
 {
-    double t = 0;
+    double t = approach.earliest_touch();
     for (int i = 0; i < max_looks && t <= duration; ++i)
     {
         ++looks;
