@@ -2,6 +2,7 @@
 
 #include "support/test_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -158,4 +159,47 @@ TEST(LawCompany, BodiesThatLearnToBounceKeepTheirEnergyFromThenOn)
     const double start = vessel.kinetic_energy();
     steps(vessel.scene, 240);
     EXPECT_NEAR(vessel.kinetic_energy() / start, 1, 0.002);
+}
+
+namespace {
+
+// A chain of bars on the world, flat at first. Returns the greatest error of its energy, as a share of what its swing has.
+double energy_error_of_chain(int bars, double seconds)
+{
+    constexpr float size = 0.5f;
+    Scene scene({.gravity = {0, -10}, .sleeping = false});
+    std::vector<BodyId> chain;
+    for (int i = 0; i < bars; ++i)
+    {
+        chain.push_back(add_dynamic(scene, {(i + 0.5) * 0.5, 0}, box(0.25f, 0.05f), {.filter = {.mask = 0}}).body);
+        scene.create_joint(RevoluteDef{.body_a = i > 0 ? chain[chain.size() - 2] : BodyId{},
+                                       .body_b = chain.back(),
+                                       .anchor_a = {i > 0 ? size / 2 : 0, 0},
+                                       .anchor_b = {-size / 2, 0}});
+    }
+    const auto energy = [&]
+    {
+        double sum = 0;
+        for (const BodyId id : chain)
+            sum += static_cast<double>(scene.body(id).kinetic_energy()) +
+                   static_cast<double>(scene.body(id).mass()) * 10 * scene.body(id).position().y;
+        return sum;
+    };
+    const double swing = bars * static_cast<double>(scene.body(chain[0]).mass()) * 10 * bars * 0.25;
+    const double start = energy();
+    double worst = 0;
+    for (int i = 0; i < static_cast<int>(60 * seconds); ++i)
+    {
+        scene.step(1.0f / 60);
+        worst = std::max(worst, std::fabs(energy() - start) / swing);
+    }
+    return worst;
+}
+
+} // namespace
+
+TEST(LawCompany, AChainKeepsItsEnergyHoweverLongItIs)
+{
+    for (const int bars : {2, 16, 17, 42, 43, 64, 65, 129, 300})
+        EXPECT_LT(energy_error_of_chain(bars, 3), 0.01) << bars << " bars";
 }

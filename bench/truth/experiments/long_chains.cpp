@@ -164,7 +164,7 @@ Metrics long_chains(const Setup& setup)
     {
         swinging(setup, bars, 20, 20, metrics);
     }
-    for (const int bars : {2, 5, 16})
+    for (const int bars : {2, 5, 16, 33, 65, 129})
     {
         swinging(setup, bars, 90, 20, metrics);
     }

@@ -12,6 +12,8 @@ namespace carom::internal {
 namespace {
 
 constexpr int enough_soft_joints = 8;
+constexpr int few_joints = 64;
+constexpr int few_damped_joints = 42;
 constexpr float calm_swing = 0.1f; // rad per step
 constexpr int edges_to_a_partition = 2048;
 constexpr int edges_to_a_huge_partition = 8192; // their constraints stay in a cache between solving and relaxation
@@ -37,6 +39,18 @@ bool has_soft_joints(const IslandTally& t, float dt)
     return t.joints >= enough_soft_joints && t.bodies <= most_watched_bodies && !t.hangs && t.fliers == 0 && (rests || is_damped);
 }
 
+// As in a pile of many figures, or on a bridge under a heap: one pass over joints is enough where contacts pass on most of what they bear, or where all are
+// damped. It depends on edges alone, so that the graph may be cached.
+bool lies_in_a_pile(const IslandTally& t)
+{
+    return t.contacts >= 4 * t.joints || (!t.hangs && (4 * t.contacts >= t.joints || t.damped == t.joints));
+}
+
+bool has_many_loops(const IslandTally& t) { return t.inner_joints - t.jointed > most_loops; }
+
+// Several figures whose joints all have friction: row after row loses little that friction would not take.
+bool is_damped_crowd(const IslandTally& t) { return t.joints > few_damped_joints && !t.hangs && t.damped == t.joints; }
+
 // Wide constraints do not support manifolds that change within the step, subdivided sub-steps, or the energies of joints.
 bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
 {
@@ -59,8 +73,9 @@ IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt
     const bool few = island.bodies <= few_bodies && !policy.soft_joints;
     policy.recomputes_contacts = policy.converges = policy.exact_impacts = few;
     policy.caches_manifolds = !few;
-    policy.conserves_energy = few || (!policy.soft_joints && island.bodies <= most_watched_bodies && island.joints > 0);
-    policy.caches_graph = island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints;
+    policy.conserves_energy = few || (!policy.soft_joints && island.joints > 0 && follows_swinging_joints(island));
+    policy.caches_graph = island.bodies > (island.joints > 0 ? most_watched_bodies : few_bodies) && !policy.soft_joints &&
+                          (island.joints == 0 || !follows_swinging_joints(island));
     policy.subdivisions = policy.soft_joints ? 1 : island.subdivisions;
     force(policy.recomputes_contacts, forced.recomputes_contacts);
     force(policy.converges, forced.converges);
@@ -69,20 +84,23 @@ IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt
     force(policy.caches_manifolds, forced.caches_manifolds);
     force(policy.subdivisions, forced.subdivisions);
     policy.converges &= island.bodies <= most_converging_bodies;
-    policy.conserves_energy &= island.bodies <= most_watched_bodies;
     policy.wide_contacts = may_be_wide(island, policy) && forced.wide_contacts.value_or(true);
-    policy.wide_joints =
-        policy.wide_contacts && forced.wide_joints.value_or(policy.soft_joints || island.joints > most_direct_rows / 2);
-    force(policy.direct_rows, forced.direct_rows);
+    const bool many = island.joints > few_joints && (lies_in_a_pile(island) || has_many_loops(island));
+    policy.wide_joints = policy.wide_contacts && forced.wide_joints.value_or(policy.soft_joints || many);
+    policy.direct_joints = forced.direct_joints.value_or(!has_many_loops(island) && !is_damped_crowd(island));
     force(policy.caches_graph, forced.caches_graph);
     policy.caches_graph &= policy.wide_contacts;
     return policy;
 }
 
-bool solves_all_joints_directly(const IslandPolicy& policy, int rows, bool some_in_lanes)
+bool solves_all_joints_directly(const IslandPolicy& policy, bool some_in_lanes) { return !some_in_lanes && policy.direct_joints; }
+
+bool follows_swinging_joints(const IslandTally& island)
 {
-    return !some_in_lanes && rows <= policy.direct_rows;
+    return island.bodies <= most_watched_bodies || !(lies_in_a_pile(island) || has_many_loops(island));
 }
+
+bool follows_whips(const IslandTally& island) { return island.bodies > most_watched_bodies; }
 
 int partitions_of(const IslandPolicy& policy, int bodies, int edges)
 {

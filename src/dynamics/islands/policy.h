@@ -11,7 +11,7 @@ namespace carom::internal {
 
 /// As in a break of fifteen balls: beyond it, one contact more or less does not decide a ball's path.
 inline constexpr int few_bodies = 16;
-inline constexpr int most_watched_bodies = 64;    ///< island size up to which energy is monitored: the capacity of IslandEnergy
+inline constexpr int most_watched_bodies = 64;    ///< island size up to which joints count as swinging whatever touches them
 inline constexpr int most_converging_bodies = 32; ///< number of bodies whose speeds IslandSolver can store
 /// Impacts of a body in a crowd in one step: with more, the solver owns it in the next steps. A crowd that has had more than four for each body collapses:
 /// there, most of them only pass speed to and fro.
@@ -19,7 +19,8 @@ inline constexpr int most_converging_bodies = 32; ///< number of bodies whose sp
 {
     return impacts_of_island > 4 * bodies ? 4 : 16;
 }
-inline constexpr int most_direct_rows = 128; ///< beyond it, DirectSolve takes longer than soft rows
+inline constexpr int most_loops =
+    256; ///< of joints: where more are closed, as in a sheet of hinges, the matrix of the joints fills up
 inline constexpr int most_subdivisions = 32; ///< limit where a driven body or a joint's arm turns
 
 /// Data by which the policy of an island is chosen.
@@ -31,6 +32,8 @@ struct IslandTally
     std::int32_t bouncing = 0; ///< unloaded ones that may meet something in this step that they bounce off
     std::int32_t fliers = 0;
     std::int32_t joints = 0;
+    std::int32_t inner_joints = 0; ///< between two dynamic bodies
+    std::int32_t jointed = 0;      ///< bodies that these join
     std::int32_t contacts = 0;
     std::int32_t bearing = 0;      ///< contacts that bore a load in the last step
     float swing = 0;               ///< rad/s, greatest angular speed of the joints' arms
@@ -56,8 +59,8 @@ struct IslandPolicy
     bool caches_graph = false;  ///< its layout depends on bodies and edges alone: reused where no island of the scene has changed
     bool wide_contacts = false; ///< contacts are solved in wide constraints of eight lanes
     bool wide_joints = false;   ///< so are hinges
-    std::int32_t subdivisions = 1;               ///< per sub-step
-    std::int32_t direct_rows = most_direct_rows; ///< up to so many rows, joints outside of lanes are solved all at once; 0: never
+    std::int32_t subdivisions = 1; ///< per sub-step
+    bool direct_joints = true;     ///< joints outside of lanes are solved all at once; otherwise one after the other
 };
 
 /// Choices that tests force. A choice that another one rules out is not taken, see policy.cpp.
@@ -74,7 +77,7 @@ struct ForcedPolicy
     std::optional<bool> wide_contacts{};
     std::optional<bool> wide_joints{};
     std::optional<std::int32_t> subdivisions{};
-    std::optional<std::int32_t> direct_rows{};
+    std::optional<bool> direct_joints{};
 };
 
 /// In a crowd only fast movers and bodies that bounce fly: contacts of the others are speculative, and one contact more or less does not decide their paths.
@@ -82,7 +85,9 @@ struct ForcedPolicy
 
 /// Do contacts whose normals turn, and joints whose arms turn, subdivide the sub-steps of an island of so many bodies?
 [[nodiscard]] inline bool follows_turning_contacts(int bodies) { return bodies <= few_bodies; }
-[[nodiscard]] inline bool follows_swinging_joints(int bodies) { return bodies <= most_watched_bodies; }
+[[nodiscard]] bool follows_swinging_joints(const IslandTally& island);
+/// Do waves along chains under tension subdivide them as well?
+[[nodiscard]] bool follows_whips(const IslandTally& island);
 
 /// With fewer joints in the scene, no joint is soft.
 [[nodiscard]] bool may_have_soft_joints(std::size_t joints_of_scene);
@@ -91,7 +96,7 @@ struct ForcedPolicy
 [[nodiscard]] IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced);
 
 /// Are all joints of an island solved at once, including the rows along their axes?
-[[nodiscard]] bool solves_all_joints_directly(const IslandPolicy& policy, int rows, bool some_in_lanes);
+[[nodiscard]] bool solves_all_joints_directly(const IslandPolicy& policy, bool some_in_lanes);
 
 /// Number of spatial partitions that threads solve in parallel; 0: the island is not partitioned. It does not depend on the number of threads, because it
 /// determines the order in which constraints are solved.

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace carom::internal {
 
@@ -22,6 +24,8 @@ namespace {
 
 constexpr float most_turn_of_normal = 0.02f; // rad
 constexpr float most_swing = 0.25f;          // rad, by which a joint's arm turns
+constexpr float whip_weight =
+    3; // a hanging chain of 65 bars or more that is let go flat keeps its energy within 0.4 % for 20 s by itself
 
 class Subdivisions
 {
@@ -37,14 +41,11 @@ public:
         if (may_turn)
             for_each_in_chunks(ctx.scene.def.tasks, scratch.graph.island_of.size(), bodies_per_task,
                                [&](std::size_t place) { follow_contacts_of(static_cast<std::int32_t>(place)); });
+        count_joints();
         find_swings();
         for (std::size_t i = 0; i < scratch.graph.joint_edges.size(); ++i)
         {
-            const JointEdge& j = scratch.graph.joint_edges[i];
-            IslandTally& t = tally(scratch, island_of_edge(scratch, j));
-            ++t.joints;
-            t.hangs |= j.a < 0 || j.b < 0;
-            t.damped += j.damped ? 1 : 0;
+            IslandTally& t = tally(scratch, island_of_edge(scratch, scratch.graph.joint_edges[i]));
             t.swing = std::max(t.swing, scratch.graph.swings[i]);
         }
         for (IslandTally& t : scratch.graph.tallies)
@@ -82,7 +83,26 @@ private:
         }
     }
 
-    // Swing rates of joints in small islands, on all threads.
+    void count_joints()
+    {
+        scratch.graph.is_jointed.assign(scratch.graph.joint_edges.empty() ? 0 : state.awake_bodies.size(), 0);
+        for (const JointEdge& j : scratch.graph.joint_edges)
+        {
+            IslandTally& t = tally(scratch, island_of_edge(scratch, j));
+            ++t.joints;
+            t.damped += j.damped ? 1 : 0;
+            if (j.a < 0 || j.b < 0)
+            {
+                t.hangs = true;
+                continue;
+            }
+            ++t.inner_joints;
+            for (const std::int32_t place : {j.a, j.b})
+                t.jointed += 1 - std::exchange(scratch.graph.is_jointed[static_cast<std::size_t>(place)], std::uint8_t{1});
+        }
+    }
+
+    // Swing rates of joints where they are followed, on all threads.
     void find_swings()
     {
         set_size(scratch.graph.swings, scratch.graph.joint_edges.size());
@@ -90,22 +110,33 @@ private:
                            [&](std::size_t i)
                            {
                                const JointEdge& j = scratch.graph.joint_edges[i];
-                               const bool is_followed =
-                                   follows_swinging_joints(tally(scratch, island_of_edge(scratch, j)).bodies);
-                               scratch.graph.swings[i] = is_followed ? swing_rate(state.joints[j.joint]) : 0;
+                               const IslandTally& t = tally(scratch, island_of_edge(scratch, j));
+                               const bool is_followed = follows_swinging_joints(t);
+                               scratch.graph.swings[i] = is_followed ? swing_rate(state.joints[j.joint], follows_whips(t)) : 0;
                            });
     }
 
+    // A pull on the arm lets the body oscillate at omega² = pull arm / inertia. A sub-step h loses a share of (h omega)² of such an oscillation's energy, and
+    // that energy goes with the body's rotation: the product counts, so that a chain at rest costs nothing.
+    [[nodiscard]] static float whip_rate(const BodySim& sim, Vec2 anchor, float pull)
+    {
+        const float omega = std::sqrt(pull * length(anchor - sim.local_center) * sim.inverse_inertia);
+        return whip_weight * std::sqrt(omega * std::fabs(sim.angular_velocity));
+    }
+
     // Angular speed of a joint's arms, in rad/s.
-    [[nodiscard]] float swing_rate(const JointRecord& joint) const
+    [[nodiscard]] float swing_rate(const JointRecord& joint, bool whips) const
     {
         if (joint.kind == JointType::Spring)
             return 0;
+        const float pull = whips ? length(joint.force) : 0;
         const auto spin = [&](int body, Vec2 anchor)
         {
             const bool turns = body != none && (anchor != state.sims[static_cast<std::size_t>(body)].local_center ||
                                                 joint.kind == JointType::Prismatic);
-            return turns ? std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity) : 0;
+            return turns ? std::max(std::fabs(state.sims[static_cast<std::size_t>(body)].angular_velocity),
+                                    whip_rate(state.sims[static_cast<std::size_t>(body)], anchor, pull))
+                         : 0;
         };
         return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
     }

@@ -114,6 +114,7 @@ struct GraphWorkspace
     std::vector<std::int32_t> places;         ///< awake indices as in ContactEdge, by body slot
     std::vector<std::int32_t> placed;         ///< bodies that have an index in places
     std::vector<float> swings;                ///< by index in joint_edges, see IslandTally::swing
+    std::vector<std::uint8_t> is_jointed;     ///< to another dynamic body, by awake index
     UnionFind sets;                           ///< connected bodies, by awake index; then islands that meet
     std::vector<UnionFind> more_sets;         ///< for further parts of the edges
     std::vector<std::int32_t> island_of;      ///< by awake index

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -333,12 +332,7 @@ private:
     // Where joints are solved directly and nothing touches, axes are also solved for the drift along parabolas.
     void let_drift(Island& island)
     {
-        const auto places =
-            std::span(m_scratch.layout.joints_outside_lanes).subspan(as_index(island.first_joint), as_index(island.joint_count));
-        const int rows = std::accumulate(places.begin(), places.end(), 0, [&](int sum, const SolvedJoint& place)
-                                         { return sum + rows_at(m_state.joints[place.joint], {}).count(); });
-        island.all_direct =
-            island.joint_count > 0 && solves_all_joints_directly(island.policy, rows, island.wide_joint_count > 0);
+        island.all_direct = island.joint_count > 0 && solves_all_joints_directly(island.policy, island.wide_joint_count > 0);
         island.drifts = island.all_direct && island.constraint_count == 0 && island.wide_count == 0;
         if (island.drifts)
             std::fill_n(m_scratch.layout.bound_by_joint.begin() + island.first_state, island.state_count, 0);

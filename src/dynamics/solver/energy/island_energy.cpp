@@ -92,7 +92,8 @@ void IslandEnergy::begin(const SolverView& view, const StepContext& ctx, std::sp
     m_rest_speed = ctx.rest_speed;
     m_subdivisions = island.policy.subdivisions;
     m_first = island.first_state + 1;
-    m_count = std::min(island.dynamic_count, most_bodies);
+    m_count = island.dynamic_count;
+    make_room(static_cast<std::size_t>(m_count));
     m_has_cut_speeds = false;
     m_all_driven = all_driven();
     if (m_all_driven)
@@ -104,6 +105,18 @@ void IslandEnergy::begin(const SolverView& view, const StepContext& ctx, std::sp
     add_springs(1);
     for (std::int32_t i = m_first; i < m_first + m_count; ++i)
         body(i).first = body(i).missing;
+}
+
+void IslandEnergy::make_room(std::size_t count)
+{
+    m_bodies = m_few_bodies;
+    m_groups = m_few_groups;
+    if (count <= few)
+        return;
+    m_many_bodies.resize(std::max(m_many_bodies.size(), count));
+    m_many_groups.resize(m_many_bodies.size());
+    m_bodies = m_many_bodies;
+    m_groups = m_many_groups;
 }
 
 void IslandEnergy::place_body(const StepContext& ctx, std::int32_t state)

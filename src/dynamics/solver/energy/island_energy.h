@@ -5,7 +5,9 @@
 #include "dynamics/solver/joint/joint_bodies.h"
 
 #include <array>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace carom::internal {
 
@@ -16,8 +18,6 @@ namespace carom::internal {
 class IslandEnergy
 {
 public:
-    static constexpr int most_bodies = most_watched_bodies;
-
     /// Called before the forces of a sub-step.
     void begin(const SolverView& view, const StepContext& ctx, std::span<JointWork> joints, const Island& island);
     /// Called around flight. Energy that impacts take or give stays so; the energy of a closing joint that an impact stopped is given back.
@@ -147,6 +147,7 @@ private:
     void cut_speeds(int group, double share);
     void cut_speed(std::int32_t state, float rest, bool is_carried);
     [[nodiscard]] Arm place_of(std::int32_t state);
+    void make_room(std::size_t count);
     [[nodiscard]] Drift drift_of(int group);
     [[nodiscard]] Motion frame_of(const Group& group, const Drift& drift, std::int32_t state);
 
@@ -160,10 +161,15 @@ private:
     bool m_has_cut_speeds = false;
     std::int32_t m_first = 0;
     std::int32_t m_count = 0;
-    std::int32_t m_carrier = none; ///< state of the only kinematic body that moves
-    BodyState m_carrier_before{};  ///< at the start of the sub-step
-    std::array<Body, most_bodies> m_bodies;
-    std::array<Group, most_bodies> m_groups;
+    std::int32_t m_carrier = none;         ///< state of the only kinematic body that moves
+    BodyState m_carrier_before{};          ///< at the start of the sub-step
+    static constexpr std::size_t few = 64; ///< more bodies are stored on the heap
+    std::array<Body, few> m_few_bodies;
+    std::array<Group, few> m_few_groups;
+    std::vector<Body> m_many_bodies;
+    std::vector<Group> m_many_groups;
+    std::span<Body> m_bodies;
+    std::span<Group> m_groups;
 };
 
 } // namespace carom::internal

@@ -24,7 +24,7 @@ IslandJoints::IslandJoints(SolvedIsland& work)
         return;
     if (!work.output.direct)
         work.output.direct = std::make_unique<DirectSolve>();
-    direct().set_most_rows(work.island.policy.direct_rows);
+    direct().set_wanted(work.island.policy.direct_joints);
 }
 
 void IslandJoints::begin_step()

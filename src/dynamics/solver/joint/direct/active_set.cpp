@@ -15,8 +15,8 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int rounds_of_all = 8; // in which all axes may change pieces; then one axis changes at a time, which terminates
-constexpr int most_rounds = 64;
+constexpr std::size_t rounds_of_all = 8; // in which all axes may change pieces; then one axis changes at a time, which terminates
+constexpr std::size_t most_rounds = 64;  // and one for each axis
 constexpr double yielding_compliance = 1; // relative to a row's weight
 constexpr double same_rate = 1e-6;
 constexpr double least_share = 1e-3; // share of a spring's compliance that is left where its row is softer
@@ -26,12 +26,12 @@ constexpr double least_share = 1e-3; // share of a spring's compliance that is l
 void DirectSolve::find_impulses(Stage stage)
 {
     begin_axes(stage);
-    for (int round = 0;; ++round)
+    for (std::size_t round = 0;; ++round)
     {
         solve_pieces();
         if (!take_next_pieces(round < rounds_of_all))
             return;
-        if (round == most_rounds)
+        if (round == most_rounds + m_axes.size())
             break;
     }
     give_up_on_pieces();

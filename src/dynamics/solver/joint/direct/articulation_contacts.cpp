@@ -12,6 +12,7 @@
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
 #include "core/index.h"
+#include "core/union_find.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,42 +31,39 @@ constexpr double least_answer = 1e-9;
 
 void DirectSolve::find_articulations()
 {
+    UnionFind sets;
+    sets.reset(m_nodes.size());
+    for (const Item& item : m_items)
+    {
+        if (item.a != JointMatrix::ground && item.b != JointMatrix::ground)
+            sets.link(item.a, item.b, false);
+    }
     m_articulations.clear();
     m_articulation_of.assign(m_nodes.size(), none);
-    for (std::size_t first = JointMatrix::ground + 1; first < m_nodes.size(); ++first)
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
     {
-        if (m_articulation_of[first] != none)
-            continue;
-        const int number = static_cast<int>(m_articulations.size());
-        Articulation& articulation = m_articulations.emplace_back();
-        m_articulation_of[first] = number;
-        articulation.nodes.assign(1, static_cast<int>(first));
-        for (bool grows = true; std::exchange(grows, false);)
+        const auto first = as_index(sets.root(static_cast<std::int32_t>(i)));
+        if (first == i)
         {
-            for (const Item& item : m_items)
-            {
-                if (item.a == JointMatrix::ground || item.b == JointMatrix::ground ||
-                    (m_articulation_of[as_index(item.a)] == number) == (m_articulation_of[as_index(item.b)] == number))
-                    continue;
-                const int added = m_articulation_of[as_index(item.a)] == number ? item.b : item.a;
-                m_articulation_of[as_index(added)] = number;
-                articulation.nodes.push_back(added);
-                grows = true;
-            }
+            m_articulation_of[i] = static_cast<int>(m_articulations.size());
+            m_articulations.emplace_back();
         }
-        std::ranges::sort(articulation.nodes);
-        for (std::size_t i = 0; i < m_items.size(); ++i)
-        {
-            const Item& item = m_items[i];
-            if (m_articulation_of[as_index(item.a)] != number && m_articulation_of[as_index(item.b)] != number)
-                continue;
-            articulation.items.push_back(static_cast<int>(i));
-            const Edge& edge = m_edges[i];
-            for (int r = 0; r < edge.rows(); ++r)
-                articulation.rows.push_back(item.first_row + r);
-        }
-        std::ranges::sort(articulation.rows);
+        m_articulation_of[i] = m_articulation_of[first];
+        m_articulations[as_index(m_articulation_of[i])].nodes.push_back(static_cast<int>(i));
     }
+    for (std::size_t i = 0; i < m_items.size(); ++i)
+    {
+        const Item& item = m_items[i];
+        const int node = item.a != JointMatrix::ground ? item.a : item.b;
+        if (node == JointMatrix::ground)
+            continue;
+        Articulation& articulation = m_articulations[as_index(m_articulation_of[as_index(node)])];
+        articulation.items.push_back(static_cast<int>(i));
+        for (int r = 0; r < m_edges[i].rows(); ++r)
+            articulation.rows.push_back(item.first_row + r);
+    }
+    for (Articulation& articulation : m_articulations)
+        std::ranges::sort(articulation.rows);
 }
 
 void DirectSolve::find_anchors()

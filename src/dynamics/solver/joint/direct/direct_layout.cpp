@@ -26,23 +26,20 @@ bool is_same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::
 // --- the constraint graph -----------------------------------------------------------------------------------------------------------
 
 // The graph is the same through the step, unless a body takes off or lands.
-bool DirectSolve::find_edges()
+void DirectSolve::find_edges()
 {
     m_found.clear();
-    int rows = 0;
+    if (!m_is_wanted)
+        return;
     for (std::size_t i = 0; i < m_joints.size(); ++i)
     {
         const JointWork& work = m_joints[i];
         if (work.rows.count() == 0 || is_in_flight(m_view, work))
             continue;
-        rows += work.rows.count();
-        if (rows > m_most_rows)
-            return false;
         m_found.push_back({i, moving(work.a), moving(work.b), work.rows.held_count, work.rows.axis_count});
     }
     if (m_found != m_edges)
         lay_out();
-    return true;
 }
 
 void DirectSolve::lay_out()

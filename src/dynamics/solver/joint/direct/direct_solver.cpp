@@ -60,7 +60,8 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
     m_spring_softening = 1;
     m_yields = std::ranges::any_of(joints, &JointWork::yields);
     if (std::exchange(m_looks_again, false))
-        m_fits = find_edges() && !m_edges.empty();
+        find_edges();
+    m_fits = m_is_wanted && !m_edges.empty();
     m_ready = m_fits;
     if (m_ready && place())
     {

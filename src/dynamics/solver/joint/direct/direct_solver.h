@@ -34,12 +34,12 @@ public:
 
     /// Has the constraint graph rebuilt: once per step, and after a body has taken off or landed.
     void look_again() { m_looks_again = true; }
-    /// Works at the present pose. The solve is not ready if there are no rows or too many; the soft rows of joint_solver.h are used then.
+    /// Works at the present pose. The solve is not ready if there are no rows or it is not wanted; the soft rows of joint_solver.h are used then.
     void prepare(const SolverView& view, SceneState& state, std::span<JointWork> joints, Masses masses);
     /// Once per step. Springs that share bodies swing faster together than each alone, and must damp what a sub-step cannot follow.
     void fit_springs();
-    /// Joints that have more rows in total are not solved directly.
-    void set_most_rows(int rows) { m_most_rows = rows; }
+    /// Otherwise it is never ready.
+    void set_wanted(bool wanted) { m_is_wanted = wanted; }
     [[nodiscard]] bool is_ready() const { return m_ready; }
     /// For joints that a wall or other constraints hold open. From here on all joints are as soft as their bodies are heavy, and close no faster than overlap
     /// is pushed out.
@@ -211,7 +211,7 @@ private:
     void take_pushes(const Articulation& articulation);
     void take_answers();
 
-    [[nodiscard]] bool find_edges();
+    void find_edges();
     [[nodiscard]] std::int32_t moving(std::int32_t state) const;
     [[nodiscard]] int node_of(std::int32_t state) const;
     void lay_out();
@@ -276,10 +276,10 @@ private:
     SceneState* m_state = nullptr;
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
-    bool m_fits = false;                            ///< whether there are rows to solve, and not too many
+    bool m_fits = false;                            ///< whether there are rows to solve, and it is wanted
     static constexpr double loop_compliance = 1e-3; ///< relative to a row's weight
 
-    int m_most_rows = most_direct_rows;
+    bool m_is_wanted = true;
     bool m_ready = false;
     bool m_may_contradict = false; ///< whether rows may be redundant: those of loops and of locked bodies
     Masses m_mass_kind = Masses::Own;

@@ -10,10 +10,12 @@
 #include "dynamics/solver/joint/direct/joint_matrix.h"
 
 #include "core/index.h"
+#include "core/union_find.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
+#include <utility>
 
 namespace carom::internal {
 
@@ -54,16 +56,11 @@ void JointMatrix::lay_out(std::span<const Edge> edges, int nodes)
 
 void JointMatrix::find_loops(int nodes)
 {
-    std::vector<int> tree(as_index(nodes));
-    std::iota(tree.begin(), tree.end(), 0);
+    UnionFind trees;
+    trees.reset(as_index(nodes));
     m_has_loops = false;
     for (const Edge& e : m_edges)
-    {
-        const int a = tree[as_index(e.a)];
-        const int b = tree[as_index(e.b)];
-        m_has_loops |= a == b;
-        std::replace(tree.begin(), tree.end(), b, a);
-    }
+        m_has_loops |= !trees.link(e.a, e.b, false);
 }
 
 JointMatrix::Neighbors JointMatrix::couple_edges(int nodes)
@@ -96,25 +93,28 @@ JointMatrix::Neighbors JointMatrix::couple_edges(int nodes)
 // Leaves for each edge the neighbors that are eliminated later.
 void JointMatrix::order(Neighbors& neighbors)
 {
-    std::vector<int> left(m_edges.size());
-    std::iota(left.begin(), left.end(), 0);
+    std::set<std::pair<std::size_t, int>> left; // by number of neighbors
+    const auto key = [&](int i) { return std::pair(neighbors[as_index(i)].size(), i); };
+    for (int i = 0; i < static_cast<int>(m_edges.size()); ++i)
+        left.insert(key(i));
     m_order.clear();
     while (!left.empty())
     {
-        const auto least = std::ranges::min_element(left, {}, [&](int i) { return neighbors[as_index(i)].size(); });
-        const int edge = *least;
-        left.erase(least);
+        const int edge = left.begin()->second;
+        left.erase(left.begin());
         m_order.push_back(edge);
         const std::vector<int>& later = neighbors[as_index(edge)];
         for (const int i : later)
         {
             std::vector<int>& of = neighbors[as_index(i)];
+            left.erase(key(i));
             of.erase(std::ranges::lower_bound(of, edge));
             for (const int k : later)
             {
                 if (k != i)
                     insert(of, k);
             }
+            left.insert(key(i));
         }
     }
 }
