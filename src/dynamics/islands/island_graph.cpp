@@ -127,10 +127,10 @@ public:
         return true;
     }
 
-    // Only soft joints depend on the number of contacts and of those that bear a load.
+    // The way in which joints are solved depends on the number of contacts and of those that bear a load.
     void count_contacts()
     {
-        if (!may_have_soft_joints(scratch.graph.joint_edges.size()))
+        if (scratch.graph.joint_edges.empty())
             return;
         for (const ContactEdge& l : scratch.graph.edges)
         {

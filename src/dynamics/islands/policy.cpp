@@ -60,8 +60,6 @@ bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
 
 } // namespace
 
-bool may_have_soft_joints(std::size_t joints_of_scene) { return static_cast<int>(joints_of_scene) >= enough_soft_joints; }
-
 IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced)
 {
     IslandPolicy policy;

@@ -89,9 +89,6 @@ struct ForcedPolicy
 /// Do waves along chains under tension subdivide them as well?
 [[nodiscard]] bool follows_whips(const IslandTally& island);
 
-/// With fewer joints in the scene, no joint is soft.
-[[nodiscard]] bool may_have_soft_joints(std::size_t joints_of_scene);
-
 /// is_isolated: the island's first body has nothing near. dt: the time step, s.
 [[nodiscard]] IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced);
 
