@@ -7,9 +7,9 @@
 #include "dynamics/state/turns.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace carom::internal {
 
@@ -224,15 +224,20 @@ IslandEnergy::Energy IslandEnergy::work_on(std::int32_t state)
 // True if every body is on a joint that may do work.
 bool IslandEnergy::all_driven()
 {
-    std::uint64_t driven = 0;
+    for (std::int32_t i = m_first; i < m_first + m_count; ++i)
+        body(i).is_driven = false;
+    std::int32_t driven = 0;
     for (const JointWork& work : m_joints)
     {
         if (is_passive(m_state->joints[work.joint]))
             continue;
         for (const std::int32_t i : {work.a, work.b})
-            driven |= is_ours(i) ? std::uint64_t{1} << (i - m_first) : 0;
+        {
+            if (is_ours(i))
+                driven += std::exchange(body(i).is_driven, true) ? 0 : 1;
+        }
     }
-    return std::popcount(driven) == m_count;
+    return driven == m_count;
 }
 
 // A body that has landed counts from here.

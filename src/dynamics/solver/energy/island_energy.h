@@ -73,8 +73,9 @@ private:
         Rotation rotation{};
         Vec2 position_before_impacts{};
         Rotation rotation_before_impacts{};
-        int group = 0;     ///< the lowest index of a body that it is connected with
-        bool flew = false; ///< at the start of the sub-step
+        int group = 0;          ///< the lowest index of a body that it is connected with
+        bool flew = false;      ///< at the start of the sub-step
+        bool is_driven = false; ///< a joint that may do work moves it
 
         [[nodiscard]] double twice_kinetic(const BodyState& s, const Motion& frame) const; ///< in that frame
     };
