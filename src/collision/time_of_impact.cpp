@@ -90,15 +90,8 @@ public:
             return 0;
         const CenterPath& p = m_carrier.center;
         const CenterPath& f = m_frame.center;
-        const Vector r = {p.x - f.x, p.y - f.y};
-        const Vector v = {p.vx - f.vx, p.vy - f.vy};
-        const double radius = m_probe.radius + static_cast<double>(l.r0);
-        const double apart = dot(r, r) - radius * radius;
-        const double closing = -dot(r, v);
-        if (apart <= 0)
-            return 0;
-        const double discriminant = closing * closing - dot(v, v) * apart;
-        return closing > 0 && discriminant >= 0 ? apart / (closing + std::sqrt(discriminant)) : 1e300;
+        return first_meeting_of_circles(p.x - f.x, p.y - f.y, p.vx - f.vx, p.vy - f.vy,
+                                        m_probe.radius + static_cast<double>(l.r0));
     }
 
     /// True where the surface is farther from the probe than the tolerance at t = 0, or does not answer.

@@ -18,6 +18,18 @@ namespace carom::internal {
 /// Computed by the square root, which every machine rounds alike; hypot depends on the library.
 [[nodiscard]] inline double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
+/// Two circles at constant velocity meet at the first root of |d + v t| = radius; 0 where they overlap, 1e300 where they never meet. d and v run from one center
+/// to the other; radius: the sum of both.
+[[nodiscard]] inline double first_meeting_of_circles(double dx, double dy, double vx, double vy, double radius)
+{
+    const double apart = dx * dx + dy * dy - radius * radius;
+    if (apart <= 0)
+        return 0;
+    const double closing = -(dx * vx + dy * vy);
+    const double discriminant = closing * closing - (vx * vx + vy * vy) * apart;
+    return closing > 0 && discriminant >= 0 ? apart / (closing + std::sqrt(discriminant)) : 1e300;
+}
+
 /// x + v t + a t²/2 for each coordinate.
 struct CenterPath
 {

@@ -7,7 +7,6 @@
 
 namespace carom::internal {
 
-// Two circles at constant velocity meet at the first root of |d + v t| = r.
 double first_meeting(const Reach& a, const Reach& b)
 {
     const double start = std::max(a.time, b.time);
@@ -15,15 +14,7 @@ double first_meeting(const Reach& a, const Reach& b)
     const double to_b = start - b.time;
     const double x = b.x + to_b * b.vx - a.x - to_a * a.vx;
     const double y = b.y + to_b * b.vy - a.y - to_a * a.vy;
-    const double r = a.radius + b.radius;
-    const double apart = x * x + y * y - r * r;
-    if (apart <= 0)
-        return start;
-    const double vx = b.vx - a.vx;
-    const double vy = b.vy - a.vy;
-    const double closing = -(x * vx + y * vy);
-    const double discriminant = closing * closing - (vx * vx + vy * vy) * apart;
-    return closing > 0 && discriminant >= 0 ? start + apart / (closing + std::sqrt(discriminant)) : 1e300;
+    return start + first_meeting_of_circles(x, y, b.vx - a.vx, b.vy - a.vy, a.radius + b.radius);
 }
 
 namespace {

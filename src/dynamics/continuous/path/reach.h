@@ -1,6 +1,6 @@
 #pragma once
 
-// Where bodies may come in a sub-step: circles around their paths, which tell early who cannot meet.
+// A circle around the path of a body in a sub-step tells early which other bodies it cannot meet.
 
 #include "dynamics/continuous/motion.h"
 
