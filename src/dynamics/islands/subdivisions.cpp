@@ -24,6 +24,8 @@ namespace {
 
 constexpr float most_turn_of_normal = 0.02f; // rad
 constexpr float most_swing = 0.25f;          // rad, by which a joint's arm turns
+constexpr float most_spring_turn = 0.9f;     // rad, phase of the fastest oscillation of springs
+constexpr float few_swings_damping = 0.1f;   // damping ratio
 constexpr float whip_weight =
     3; // a hanging chain of 65 bars or more that is let go flat keeps its energy within 0.4 % for 20 s by itself
 
@@ -124,11 +126,34 @@ private:
         return whip_weight * std::sqrt(omega * std::fabs(sim.angular_velocity));
     }
 
+    // omega² of a body on its springs if all else stood still and all springs pulled along one line. An oscillation that is damped within a few swings need
+    // not be followed.
+    [[nodiscard]] float spring_rate(int body) const
+    {
+        if (body == none || !is_moving_dynamic(state, body))
+            return 0;
+        const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+        const float inverse_mass = std::max(sim.inverse_mass.x, sim.inverse_mass.y);
+        float rate = 0;
+        for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
+        {
+            const JointRecord& joint = state.joints[edge >> 1];
+            if (joint.kind != JointType::Spring)
+                continue;
+            const Vec2 arm = (joint.body_a == body ? joint.anchor_a : joint.anchor_b) - sim.local_center;
+            const float own = inverse_mass + dot(arm, arm) * sim.inverse_inertia;
+            const bool fades =
+                joint.damping * joint.damping * own >= 4 * few_swings_damping * few_swings_damping * joint.stiffness;
+            rate += fades ? 0 : joint.stiffness * own;
+        }
+        return rate;
+    }
+
     // Angular speed of a joint's arms, in rad/s.
     [[nodiscard]] float swing_rate(const JointRecord& joint, bool whips) const
     {
         if (joint.kind == JointType::Spring)
-            return 0;
+            return most_swing / most_spring_turn * std::sqrt(spring_rate(joint.body_a) + spring_rate(joint.body_b));
         const float pull = whips ? length(joint.force) : 0;
         const auto spin = [&](int body, Vec2 anchor)
         {

@@ -314,9 +314,11 @@ struct JointRecord
     bool collide_connected = true;
     bool enable_limit = false;
     bool enable_motor = false;
-    bool yields = false;        ///< held open by a wall or by other bodies, see DirectSolve::yield
-    bool knows_errors = true;   ///< left_errors are valid for the current poses
-    bool only_holds = false;    ///< it has held rows and nothing else; derived, like the next one, when the definition is written
+    bool yields = false;      ///< held open by a wall or by other bodies, see DirectSolve::yield
+    bool knows_errors = true; ///< left_errors are valid for the current poses
+    bool only_holds = false;  ///< it has held rows and nothing else; derived, like the next one, when the definition is written
+    bool has_row =
+        true; ///< set at the start of each step: the joint is solved by its rows; otherwise its spring acts by kicks, see springs.h
     bool loses_energy = false;  ///< it dissipates energy in motion: by a brake, or by a spring that is damped within a few swings
     std::int32_t body_a = none; ///< none: the world
     std::int32_t body_b = none;

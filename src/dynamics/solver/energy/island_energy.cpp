@@ -345,7 +345,6 @@ void IslandEnergy::connect_constraints(std::span<const ContactConstraint> constr
 void IslandEnergy::join(std::int32_t own, std::int32_t other)
 {
     Group& group = group_of(own);
-    group.is_joined = true;
     if (is_ours(other))
         return;
     const BodyState& anchor = m_view.states[other];
@@ -393,7 +392,10 @@ void IslandEnergy::note_joint(JointWork& work)
         if (!is_ours(own))
             continue;
         if (is_at_work(joint, work))
+        {
             join(own, other);
+            group_of(own).is_joined |= joint.kind != JointType::Spring;
+        }
         group_of(own).is_passive &= is_passive(joint);
         group_of(own).may_lose |= may_lose(joint, work);
     }
@@ -430,6 +432,7 @@ void IslandEnergy::note_constraint(const ContactConstraint& constraint)
         if (!is_ours(own))
             continue;
         join(own, other);
+        group_of(own).is_joined = true;
         group_of(own).is_passive &= constraint.surface_speed == 0;
         group_of(own).may_lose = true;
         group_of(own).touches = true;

@@ -109,7 +109,7 @@ private:
         double constraint_work = 0; ///< work of joints while they correct errors that other constraints caused
         double slop_work = 0;       ///< work of the forces over a displacement by the slop
         bool touches = false;
-        bool is_joined = false;   ///< by joints or contacts
+        bool is_joined = false;   ///< by held joints or contacts: springs keep their energy by themselves
         bool is_anchored = false; ///< by something that does not move
         bool is_carried = false;  ///< by the carrier
         bool is_passive = true;   ///< only forces and springs may do work on it

@@ -6,6 +6,7 @@
 #include "dynamics/solver/joint/kinds/distance.h"
 #include "dynamics/solver/joint/kinds/prismatic.h"
 #include "dynamics/solver/joint/kinds/revolute.h"
+#include "dynamics/solver/joint/kinds/spring.h"
 #include "dynamics/solver/joint/kinds/weld.h"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ void make_equations(const JointRecord& joint, const JointPose& pose, Equations&&
 {
     switch (joint.kind)
     {
-    case JointType::Spring: break;
+    case JointType::Spring: spring(joint, pose, out); break;
     case JointType::Distance: distance(joint, pose, out); break;
     case JointType::Revolute: revolute(joint, pose, out); break;
     case JointType::Prismatic: prismatic(joint, pose, out); break;
@@ -101,6 +102,14 @@ RowErrors row_errors(const JointRecord& joint, const JointPose& pose)
     RowErrors errors;
     make_equations(joint, pose, ErrorMaker(errors));
     return errors;
+}
+
+// |g1|² - |g0|² = (g1 + g0) · (g1 - g0), so that l1 - l0 = d · (g1 - g0) with d = (g0 + g1) / (l0 + l1). It passes through both mean anchors.
+JointRow mean_line(const JointPose& before, const JointPose& after)
+{
+    const float sum = length(before.gap) + length(after.gap);
+    const Vec2 d = sum > 0 ? (1 / sum) * (before.gap + after.gap) : Vec2{1, 0};
+    return {.d = d, .arm_a = 0.5f * cross(before.ra + after.ra, d), .arm_b = 0.5f * cross(before.rb + after.rb, d)};
 }
 
 JointErrors JointWork::errors() const

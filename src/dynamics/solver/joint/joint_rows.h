@@ -73,7 +73,9 @@ using JointErrors = std::array<float, joint_errors>;
 /// State of a free axis that outlives its rows, which are made anew at each pose.
 struct AxisWork
 {
-    AxisSpring spring{};    ///< the joint's own, or that of its soft limits
+    AxisSpring spring{}; ///< the joint's own, or that of its soft limits
+    JointRow mean{};     ///< the line along which the spring's impulse acts over the sub-step
+    bool has_mean = false;
     float approach[2] = {}; ///< speeds toward the lower and upper limit, before the forces of a sub-step
     float bounce[2] = {};   ///< speeds at which the joint is to leave its limits
 };
@@ -129,6 +131,9 @@ using RowErrors = std::array<float, most_joint_rows>;
 
 /// Sets what follows from the definition of a joint, once that is written.
 void derive_traits(JointRecord& joint);
+
+/// Between two poses: the line along which a force between the anchors does the work F (l1 - l0) and keeps angular momentum, whatever the bodies do.
+[[nodiscard]] JointRow mean_line(const JointPose& before, const JointPose& after);
 
 /// A row along the world direction d through both anchors.
 [[nodiscard]] inline JointRow line_row(Vec2 d, const JointPose& pose, float error)

@@ -87,14 +87,14 @@ JointArms joint_arms(const SceneState& state, const JointRecord& joint)
 
 JointWork prepare_joint(const StepContext& ctx, const Island& island, const SolvedJoint& place)
 {
-    const JointRecord& joint = ctx.state.joints[place.joint];
+    JointRecord& joint = ctx.state.joints[place.joint];
     JointWork work;
     work.joint = place.joint;
     work.a = place.a;
     work.b = place.b;
     if (ctx.subdivisions > 1)
     {
-        for (float& impulse : ctx.state.joints[place.joint].impulses)
+        for (float& impulse : joint.impulses)
             impulse /= static_cast<float>(ctx.subdivisions);
     }
     work.yields = joint.yields;
@@ -104,6 +104,8 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Solv
     work.gap0 = arms.gap;
     work.axis0 = joint.body_a == none ? joint.axis_a
                                       : rotate(ctx.state.sims[static_cast<std::size_t>(joint.body_a)].rotation, joint.axis_a);
+    const SolverView view{ctx.scratch.solver.states.data(), ctx.scratch.solver.constants.data(), ctx.h, 1 / ctx.h, 0};
+    joint.has_row = joint.kind != JointType::Spring || (island.all_direct && !has_exact_kicks(view, ctx.state, work));
     JointPose pose{.ra = work.ra0, .rb = work.rb0, .gap = work.gap0, .axis = work.axis0};
     const JointRows rows = rows_at(joint, pose);
     const auto is_angle = [](const JointRow& row) { return row.is_angle; };
@@ -111,9 +113,10 @@ JointWork prepare_joint(const StepContext& ctx, const Island& island, const Solv
     work.needs_angle = work.wraps || std::ranges::any_of(rows.axes(), is_angle, &JointAxis::row);
     if (work.needs_angle)
         work.angle0 = work.wraps ? shortest_angle(ctx.state, joint) : hinge_angle(ctx.state, joint);
-    const SolverView view{ctx.scratch.solver.states.data(), ctx.scratch.solver.constants.data(), ctx.h, 1 / ctx.h, 0};
-    if (joint.kind == JointType::Spring)
+    if (!joint.has_row)
         fit_spring(view, ctx.state, work);
+    else if (joint.kind == JointType::Spring)
+        work.axes[0].spring = {.stiffness = joint.stiffness, .damping = joint.damping, .theta = 0.5f};
     else if (joint.hertz > 0)
         fit_axis_springs(view, joint, rows, island.all_direct, island.drifts, work);
     return work;
@@ -278,7 +281,7 @@ void finish_joint_substep(const SolverView& view, SceneState& state, std::span<J
         const JointPose& pose = work.pose;
         for (int i = 0; i < work.rows.count(); ++i)
             work.add(work.rows.row(i), impulse_of(joint, work.rows, i));
-        if (joint.kind == JointType::Spring && length(pose.gap) > 0)
+        if (!joint.has_row && length(pose.gap) > 0)
             work.force_sum += joint.impulses[slot_spring] * normalize(pose.gap);
     }
     note_stops(view, joints);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -155,16 +156,42 @@ void kick_along_axes(const SolverView& view, const JointRecord& joint, JointWork
     weigh_rows(bodies, rows);
     for (const JointAxis& axis : rows.axes())
     {
-        const AxisSpring& spring = work.axes[axis.number].spring;
-        if (!spring.acts_after())
+        AxisWork& own = work.axes[axis.number];
+        if (!own.spring.acts_after())
             continue;
-        const float impulse = spring.share_after() * joint.impulses[slot_of_axis(axis.number, slot_spring)];
-        bodies.apply_along(axis, rows.holds(), impulse);
+        const float impulse = own.spring.share_after() * joint.impulses[slot_of_axis(axis.number, slot_spring)];
+        if (std::exchange(own.has_mean, false))
+            bodies.apply(own.mean, impulse);
+        else
+            bodies.apply_along(axis, rows.holds(), impulse);
         work.add(axis.row, impulse);
     }
 }
 
+// h² k / m, summed over the springs of a body, must stay below 1.
+bool is_followed(const SolverView& view, const JointRecord& joint, float mass, int springs)
+{
+    const auto h = static_cast<double>(view.h);
+    return h * h * static_cast<double>(joint.stiffness) * springs <= 0.9 * static_cast<double>(mass);
+}
+
+// True for a body that does not move, and for one that this spring alone holds.
+bool has_no_other_joint(const SceneState& state, int body)
+{
+    if (body == none || !is_moving_dynamic(state, body))
+        return true;
+    const std::int32_t first = state.bodies[body].first_joint;
+    return state.joints[first >> 1].next[first & 1] == none;
+}
+
 } // namespace
+
+bool has_exact_kicks(const SolverView& view, const SceneState& state, const JointWork& work)
+{
+    const JointRecord& joint = state.joints[work.joint];
+    return has_no_other_joint(state, joint.body_a) && has_no_other_joint(state, joint.body_b) &&
+           is_followed(view, joint, spring_row(view, joint, work).mass, 1);
+}
 
 void fit_spring(const SolverView& view, const SceneState& state, JointWork& work)
 {
@@ -176,9 +203,7 @@ void fit_spring(const SolverView& view, const SceneState& state, JointWork& work
     const auto mass = static_cast<double>(m);
     const auto stiffness = static_cast<double>(joint.stiffness);
     const auto damping = static_cast<double>(joint.damping);
-    // h² k / m, summed over the springs of a body, must stay below 1.
-    const int springs = std::max(count_springs(state, joint.body_a), count_springs(state, joint.body_b));
-    if (h * h * stiffness * springs <= 0.9 * mass)
+    if (is_followed(view, joint, m, std::max(count_springs(state, joint.body_a), count_springs(state, joint.body_b))))
         fit_exactly(answer_of(stiffness, damping, mass, h), stiffness / mass, h, work);
     else
         fit_implicitly(stiffness, damping, mass, h, work);
@@ -204,7 +229,7 @@ void kick_springs_before(const SolverView& view, SceneState& state, std::span<Jo
     for (const JointWork& work : joints)
     {
         JointRecord& joint = state.joints[work.joint];
-        if (joint.kind == JointType::Spring)
+        if (!joint.has_row)
             joint.impulses[slot_spring] = kick(view, joint, work, work.before);
     }
 }
@@ -214,7 +239,7 @@ void kick_springs_after(const SolverView& view, SceneState& state, std::span<Joi
     for (JointWork& work : joints)
     {
         JointRecord& joint = state.joints[work.joint];
-        if (joint.kind == JointType::Spring)
+        if (!joint.has_row)
             joint.impulses[slot_spring] += kick(view, joint, work, work.after);
         else if (std::ranges::any_of(work.axes, [](const AxisWork& axis) { return axis.spring.acts_after(); }))
             kick_along_axes(view, joint, work);

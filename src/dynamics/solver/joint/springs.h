@@ -1,12 +1,16 @@
 #pragma once
 
-// Springs: a kick before the bodies move and one after. Springs along a free axis are solved with the joints (joint_axis.h), and kick only after the move.
+// Springs by kicks: one before the bodies move and one after. They are exact for a spring that alone joins its bodies. Other springs, where joints are
+// solved at once, and those along a free axis of another joint are rows (joint_axis.h), and kick only after the move.
 
 #include "dynamics/solver/joint/joint_bodies.h"
 
 #include <span>
 
 namespace carom::internal {
+
+/// Whether the kicks follow the spring exactly: it is the only joint of its bodies, and not too stiff for the sub-step.
+[[nodiscard]] bool has_exact_kicks(const SolverView& view, const SceneState& state, const JointWork& work);
 
 /// Computes the coefficients of both kicks, once per step: the effective mass changes little within it.
 void fit_spring(const SolverView& view, const SceneState& state, JointWork& work);

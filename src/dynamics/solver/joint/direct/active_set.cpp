@@ -233,6 +233,7 @@ void DirectSolve::take_impulses()
 
 void DirectSolve::take_back()
 {
+    straighten_springs();
     take_velocities(-1);
     for (const Item& item : m_items)
     {
@@ -279,6 +280,7 @@ void DirectSolve::warm_start()
 
 void DirectSolve::start_anew()
 {
+    straighten_springs();
     for (Node& n : m_nodes)
         n.change = {};
     for (const Item& item : m_items)

@@ -231,7 +231,8 @@ void DirectSolve::fit_springs()
             const Node& b = node(item.b);
             const float alone = spring.stiffness * axis.inverse_mass;
             const float rate = a.springs > 1 || b.springs > 1 ? std::max(alone, a.sprung + b.sprung) : alone;
-            spring.theta = std::max(spring.theta, least_theta(m_view.h * std::sqrt(rate)));
+            const float drag = spring.damping * axis.inverse_mass;
+            spring.theta = std::max({spring.theta, least_theta(m_view.h * std::sqrt(rate)), least_theta(m_view.h * drag)});
         });
 }
 

@@ -68,6 +68,8 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
         m_matrix.fill(m_jacobians, m_masses);
         m_factored_with = -1;
     }
+    if (m_ready && masses == Masses::Loaded)
+        find_sprung_lines();
     if (m_ready && m_may_contradict)
         m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0, most_softening);
 }
@@ -87,6 +89,8 @@ void DirectSolve::solve(bool use_bias)
     if (use_bias && !m_yields && find_pose_ahead())
         return;
     const Stage stage = use_bias && m_yields ? Stage::Soft : Stage::Now;
+    if (stage == Stage::Soft)
+        straighten_springs();
     note_speeds();
     if (stage == Stage::Soft)
         close_slowly();
@@ -140,12 +144,12 @@ bool DirectSolve::find_pose_ahead()
     }
     m_turns_too_far = false;
     double left = largest_error();
-    for (int i = 1; i < newton_steps || (i < most_newton_steps && left > converged); ++i)
+    for (int i = 1; i < newton_steps || (i < most_newton_steps && std::max(left, spring_change()) > converged); ++i)
     {
         take_step(Stage::Ahead);
         note_errors_ahead();
         const double before_this = std::exchange(left, largest_error());
-        if (i >= newton_steps && left > 0.5 * before_this)
+        if (i >= newton_steps && before_this > converged && left > 0.5 * before_this)
         { // the steps no longer converge
             take_back();
             note_errors_ahead();
@@ -186,8 +190,8 @@ void DirectSolve::give_blow(Stage stage)
 
 void DirectSolve::note_errors_ahead()
 {
-    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
-        m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
+    place_ahead();
+    turn_springs();
     for (const Item& item : m_items)
     {
         const JointWork& work = *item.work;
@@ -202,6 +206,78 @@ void DirectSolve::note_errors_ahead()
             m_speeds[as_index(item.first_row + r)] = as_double(m_view.inverse_h) * as_double(displacement);
         }
     }
+}
+
+void DirectSolve::place_ahead()
+{
+    for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
+        m_nodes[i].ahead = placed_ahead(m_view, m_nodes[i].state);
+}
+
+// Gives the impulses of springs the mean lines of the sub-step as the present velocities lead through it.
+void DirectSolve::turn_springs()
+{
+    m_spring_change = 0;
+    if (m_sprung_lines.empty())
+        return;
+    for (SprungLine& line : m_sprung_lines)
+    {
+        const Item& item = m_items[line.item];
+        JointWork& work = m_joints[item.joint];
+        AxisWork& own = work.axes[0];
+        const double impulse = as_double(item.record->impulses[slot_of_axis(0, slot_spring)]);
+        const Placement a = ahead_of(item.a, work.a);
+        const Placement b = ahead_of(item.b, work.b);
+        own.mean = mean_line(work.pose, joint_pose(work, a, b));
+        own.has_mean = true;
+        const JointRow& row = item.row(0);
+        const Vec2 turned = own.mean.d - row.d;
+        set_turn(line, impulse * as_triple(-turned, row.arm_a - own.mean.arm_a),
+                 impulse * as_triple(turned, own.mean.arm_b - row.arm_b));
+        m_spring_change =
+            std::max(m_spring_change, std::fabs(m_impulses[as_index(item.first_row)]) * as_double(item.axis(0).inverse_mass));
+    }
+    place_ahead();
+}
+
+// In arms.
+double DirectSolve::spring_change() const
+{
+    return m_longest_arm > 0 ? as_double(m_view.h) * m_spring_change / as_double(m_longest_arm) : 0;
+}
+
+// Not of sliders: their axis turns with a body.
+void DirectSolve::find_sprung_lines()
+{
+    m_sprung_lines.clear();
+    for (std::size_t i = 0; i < m_items.size(); ++i)
+    {
+        const Item& item = m_items[i];
+        if (item.held == 0 && item.axes == 1 && !item.row(0).is_angle && item.work->axes[0].spring.acts_after())
+            m_sprung_lines.push_back({.item = i});
+    }
+}
+
+void DirectSolve::straighten_springs()
+{
+    for (SprungLine& line : m_sprung_lines)
+    {
+        set_turn(line, {}, {});
+        m_joints[m_items[line.item].joint].axes[0].has_mean = false;
+    }
+}
+
+void DirectSolve::set_turn(SprungLine& line, const Triple& on_a, const Triple& on_b)
+{
+    const auto give = [this](int of, Triple& old, const Triple& now)
+    {
+        const Triple more = now - std::exchange(old, now);
+        if (of != JointMatrix::ground)
+            change_velocity(m_view.states[node(of).state], product(m_masses[as_index(of)], more));
+    };
+    const Item& item = m_items[line.item];
+    give(item.a, line.on_a, on_a);
+    give(item.b, line.on_b, on_b);
 }
 
 // All bodies of infinite mass share one node, but a kinematic body moves.

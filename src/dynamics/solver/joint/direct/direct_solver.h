@@ -138,6 +138,14 @@ private:
         Triple change{}; ///< change of its velocity
     };
 
+    /// A spring along a line between anchors. Its impulse acts along the mean line over the sub-step rather than along the row, which is that at the start.
+    struct SprungLine
+    {
+        std::size_t item = 0;
+        Triple on_a{}; ///< impulses that turn the spring's impulse from the row into the mean line
+        Triple on_b{};
+    };
+
     /// Bodies connected by joints.
     struct Articulation
     {
@@ -230,9 +238,15 @@ private:
     void soften();
     void note_speeds();
     void note_errors_ahead();
+    void place_ahead();
+    void turn_springs();
+    void straighten_springs();
+    void set_turn(SprungLine& line, const Triple& on_a, const Triple& on_b);
+    void find_sprung_lines();
     [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
     [[nodiscard]] double largest_error() const;
     [[nodiscard]] double largest_gap() const;
+    [[nodiscard]] double spring_change() const;
     [[nodiscard]] double largest_turn() const;
     void start_anew();
     [[nodiscard]] float most_speed(const JointRow& row) const;
@@ -295,6 +309,7 @@ private:
     double m_leak = 0;
     double m_softening = 1; ///< factor of the compliance of loops
     double m_spring_softening = 1;
+    double m_spring_change = 0;        ///< greatest speed along a sprung line that the last Newton step has changed
     double m_factored_with = -1;       ///< compliance in the factor; m_compliances are in it as well
     std::vector<double> m_compliances; ///< by row, like the next three
     std::vector<double> m_wanted_compliances;
@@ -316,6 +331,7 @@ private:
 
     std::vector<Item> m_items;
     std::vector<Axis> m_axes; ///< in the present stage
+    std::vector<SprungLine> m_sprung_lines;
     std::vector<JointJacobian> m_jacobians;
     std::vector<Node> m_nodes;
     std::vector<Triple> m_masses; ///< inverse masses

@@ -27,6 +27,7 @@ struct Triple
         turn += b.turn;
         return *this;
     }
+    friend Triple operator-(Triple a, const Triple& b) { return a -= b; }
     Triple& operator-=(const Triple& b)
     {
         x -= b.x;
