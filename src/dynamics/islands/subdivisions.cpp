@@ -152,8 +152,10 @@ private:
     // Angular speed of a joint's arms, in rad/s.
     [[nodiscard]] float swing_rate(const JointRecord& joint, bool whips) const
     {
-        if (joint.kind == JointType::Spring)
-            return most_swing / most_spring_turn * std::sqrt(spring_rate(joint.body_a) + spring_rate(joint.body_b));
+        const float sprung =
+            joint.kind == JointType::Spring
+                ? most_swing / most_spring_turn * std::sqrt(spring_rate(joint.body_a) + spring_rate(joint.body_b))
+                : 0;
         const float pull = whips ? length(joint.force) : 0;
         const auto spin = [&](int body, Vec2 anchor)
         {
@@ -163,7 +165,7 @@ private:
                                     whip_rate(state.sims[static_cast<std::size_t>(body)], anchor, pull))
                          : 0;
         };
-        return std::max(spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b));
+        return std::max({sprung, spin(joint.body_a, joint.anchor_a), spin(joint.body_b, joint.anchor_b)});
     }
 
     // Angular speed of the normal, in rad/s, where a driven body turns: the normal turns with the body, and around a corner of it over which a ball may slide.

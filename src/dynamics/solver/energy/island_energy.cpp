@@ -257,6 +257,7 @@ void IslandEnergy::after_impacts(std::span<const StoppedJoint> stopped)
         Body& b = body(i);
         if (flies(i))
             continue;
+        b.is_displaced = b.flew || s.delta_position != b.position_before_impacts;
         if (b.flew)
         {
             b.position = s.delta_position;
@@ -394,7 +395,9 @@ void IslandEnergy::note_joint(JointWork& work)
         if (is_at_work(joint, work))
         {
             join(own, other);
-            group_of(own).is_joined |= joint.kind != JointType::Spring;
+            const bool drifts = (m_view.states[own].flags & body_flag::unbound) != 0 && !body(own).is_displaced;
+            group_of(own).is_joined |= joint.kind != JointType::Spring || !drifts;
+            group_of(own).may_lose |= joint.kind == JointType::Spring && !drifts;
         }
         group_of(own).is_passive &= is_passive(joint);
         group_of(own).may_lose |= may_lose(joint, work);

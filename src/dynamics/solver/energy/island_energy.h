@@ -73,9 +73,10 @@ private:
         Rotation rotation{};
         Vec2 position_before_impacts{};
         Rotation rotation_before_impacts{};
-        int group = 0;          ///< the lowest index of a body that it is connected with
-        bool flew = false;      ///< at the start of the sub-step
-        bool is_driven = false; ///< a joint that may do work moves it
+        int group = 0;             ///< the lowest index of a body that it is connected with
+        bool flew = false;         ///< at the start of the sub-step
+        bool is_displaced = false; ///< by an impact in this sub-step, while its springs' impulses were those of the drift
+        bool is_driven = false;    ///< a joint that may do work moves it
 
         [[nodiscard]] double twice_kinetic(const BodyState& s, const Motion& frame) const; ///< in that frame
     };
@@ -109,7 +110,8 @@ private:
         double constraint_work = 0; ///< work of joints while they correct errors that other constraints caused
         double slop_work = 0;       ///< work of the forces over a displacement by the slop
         bool touches = false;
-        bool is_joined = false;   ///< by held joints or contacts: springs keep their energy by themselves
+        bool is_joined =
+            false; ///< by held joints or contacts; springs between bodies that drift freely keep their energy by themselves
         bool is_anchored = false; ///< by something that does not move
         bool is_carried = false;  ///< by the carrier
         bool is_passive = true;   ///< only forces and springs may do work on it

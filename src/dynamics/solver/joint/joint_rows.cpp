@@ -99,7 +99,7 @@ void place_rows(const JointRecord& joint, const JointPose& pose, JointRows& out)
 
 RowErrors row_errors(const JointRecord& joint, const JointPose& pose)
 {
-    RowErrors errors;
+    RowErrors errors{};
     make_equations(joint, pose, ErrorMaker(errors));
     return errors;
 }

@@ -19,6 +19,9 @@ namespace carom::internal {
 
 namespace {
 
+constexpr float most_line_turn =
+    0.02f; // rad, in a sub-step: the motion along a line that turns faster is not that of a mass on a spring
+
 // Response to a unit of speed after h: the displacement (B), its rate (D) and its integral (G); and A.
 struct SpringAnswer
 {
@@ -189,7 +192,12 @@ bool has_no_other_joint(const SceneState& state, int body)
 bool has_exact_kicks(const SolverView& view, const SceneState& state, const JointWork& work)
 {
     const JointRecord& joint = state.joints[work.joint];
-    return has_no_other_joint(state, joint.body_a) && has_no_other_joint(state, joint.body_b) &&
+    if (!has_no_other_joint(state, joint.body_a) || !has_no_other_joint(state, joint.body_b))
+        return false;
+    const JointBodies bodies(view, work);
+    const Vec2 across = perp(work.gap0);
+    const float speed = bodies.speed({.d = across, .arm_a = cross(work.ra0, across), .arm_b = cross(work.rb0, across)});
+    return view.h * std::fabs(speed) < most_line_turn * dot(across, across) &&
            is_followed(view, joint, spring_row(view, joint, work).mass, 1);
 }
 

@@ -9,7 +9,7 @@
 
 namespace carom::internal {
 
-/// Whether the kicks follow the spring exactly: it is the only joint of its bodies, and not too stiff for the sub-step.
+/// Whether the kicks follow the spring exactly: it is the only joint of its bodies, not too stiff for the sub-step, and its line turns slowly.
 [[nodiscard]] bool has_exact_kicks(const SolverView& view, const SceneState& state, const JointWork& work);
 
 /// Computes the coefficients of both kicks, once per step: the effective mass changes little within it.

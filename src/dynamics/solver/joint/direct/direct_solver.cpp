@@ -43,7 +43,8 @@ constexpr double most_pull = 0.25; // in arms, or rad: rows that may contradict 
 constexpr double most_contradiction = 0.5; // likewise: joints whose error stays larger yield
 constexpr int newton_steps = 2;
 constexpr int most_newton_steps = 6;
-constexpr double converged = 1e-6; // in arms, or rad: redundant rows of loops share the remaining error
+constexpr int most_spring_steps = 16; // where lines turn far
+constexpr double converged = 1e-6;    // in arms, or rad: redundant rows of loops share the remaining error
 constexpr double most_softening = 400;
 
 Triple velocity(const BodyState& s) { return as_triple(s.velocity, s.angular_velocity); }
@@ -144,7 +145,9 @@ bool DirectSolve::find_pose_ahead()
     }
     m_turns_too_far = false;
     double left = largest_error();
-    for (int i = 1; i < newton_steps || (i < most_newton_steps && std::max(left, spring_change()) > converged); ++i)
+    for (int i = 1; i < newton_steps || (i < most_newton_steps && left > converged) ||
+                    (i < most_spring_steps && spring_change() > converged);
+         ++i)
     {
         take_step(Stage::Ahead);
         note_errors_ahead();
@@ -246,15 +249,23 @@ double DirectSolve::spring_change() const
     return m_longest_arm > 0 ? as_double(m_view.h) * m_spring_change / as_double(m_longest_arm) : 0;
 }
 
-// Not of sliders: their axis turns with a body.
+// Not of sliders: their axis turns with a body. A body that turns by more than half a radian is not followed, and its spring damped.
 void DirectSolve::find_sprung_lines()
 {
     m_sprung_lines.clear();
     for (std::size_t i = 0; i < m_items.size(); ++i)
     {
         const Item& item = m_items[i];
-        if (item.held == 0 && item.axes == 1 && !item.row(0).is_angle && item.work->axes[0].spring.acts_after())
-            m_sprung_lines.push_back({.item = i});
+        if (item.held > 0 || item.axes != 1 || item.row(0).is_angle)
+            continue;
+        AxisSpring& spring = m_joints[item.joint].axes[0].spring;
+        if (!spring.acts_after())
+            continue;
+        const JointWork& work = *item.work;
+        const auto turn = [this](std::int32_t state, Vec2 arm)
+        { return arm == Vec2{} ? 0 : m_view.h * std::fabs(m_view.states[state].angular_velocity); };
+        spring.theta = std::max(spring.theta, least_theta(2 * std::max(turn(work.a, work.ra0), turn(work.b, work.rb0))));
+        m_sprung_lines.push_back({.item = i});
     }
 }
 
