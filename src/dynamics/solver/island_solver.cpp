@@ -10,10 +10,11 @@
 #include "core/index.h"
 #include "dynamics/continuous/flight.h"
 #include "dynamics/forces/force_laws.h"
+#include "dynamics/solver/bounce/bounce_limit.h"
+#include "dynamics/solver/bounce/restitution.h"
 #include "dynamics/solver/contact/contact_passes.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/recomputed_contacts.h"
-#include "dynamics/solver/contact/restitution.h"
 #include "dynamics/solver/integrate.h"
 #include "dynamics/solver/joint/island_joints.h"
 #include "dynamics/solver/solved_island.h"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace carom::internal {
 
@@ -106,6 +108,8 @@ private:
             return;
         }
         note_approaches(bouncing());
+        m_carries_approaches_on = true;
+        find_drifts();
         m_joints.note_limit_approach();
         begin_energy();
         integrate_velocities(m_work, m_contacts.begin_substep(k));
@@ -117,6 +121,41 @@ private:
             advance(k);
         bounce(k);
         finish_substep(k);
+    }
+
+    // Where joints are solved directly, free articulations drift along parabolas until a contact bears a load or may be reached.
+    void find_drifts()
+    {
+        if (!m_work.island.all_direct || m_work.island.wide_count > 0 || !m_work.has_contacts())
+            return;
+        for (int i = m_work.island.first_state + 1; i <= m_work.island.first_state + m_work.island.dynamic_count; ++i)
+        {
+            BodyState& s = m_work.view.states[i];
+            if ((s.flags & body_flag::flier) == 0 && m_joints.direct().is_in_free_articulation(i))
+                s.flags |= body_flag::unbound;
+        }
+        const auto bind = [this](std::int32_t state) { m_work.view.states[state].flags &= ~body_flag::unbound; };
+        m_work.for_each_constraint(
+            [&](const ContactConstraint& constraint)
+            {
+                if (!bears_load(constraint) && !may_meet(constraint))
+                    return;
+                bind(constraint.a);
+                bind(constraint.b);
+            });
+    }
+
+    // Within this sub-step, as far as the present speeds tell.
+    [[nodiscard]] bool may_meet(const ContactConstraint& constraint) const
+    {
+        const StateConstants* of = m_work.view.constants;
+        const float gain = m_work.ctx.h * dot(constraint.n, of[constraint.a].acceleration - of[constraint.b].acceleration);
+        const auto comes_near = [&](const ConstraintPoint& p)
+        {
+            return constraint_separation(m_work.view, constraint, p) <
+                   m_work.ctx.h * (gain - constraint_speed(m_work.view, constraint, p));
+        };
+        return std::ranges::any_of(std::span(constraint.points).first(as_index(constraint.count)), comes_near);
     }
 
     void advance(int k)
@@ -228,6 +267,12 @@ private:
             if (converges)
                 m_convergence.begin_pass();
             m_joints.solve(use_bias, pass == most);
+            if (std::exchange(m_carries_approaches_on, false))
+            {
+                carry_approaches_on(bouncing());
+                m_kinetic_before = 0;
+                note_kinetic();
+            }
             m_contacts.solve_wide(use_bias, pass == most);
             if (alternates && m_joints.direct().has_free_articulations())
                 m_joints.direct().solve_contacts(m_work.constraints, m_work.late_constraints(), use_bias,
@@ -242,6 +287,7 @@ private:
     // Works at the poses that have been reached: removes the speed that pushed overlaps out.
     void relax()
     {
+        note_kinetic();
         m_recomputed.recompute();
         m_joints.place();
         m_joints.prepare_direct(DirectSolve::Masses::Own);
@@ -253,7 +299,14 @@ private:
 
     [[nodiscard]] BouncingIsland bouncing()
     {
-        return {m_work.ctx, m_work.island, m_work.output, m_work.view, m_contacts.notes_bodies()};
+        const bool through_joints = m_joints.are_direct() && !m_joints.direct().yields() && m_work.island.wide_count == 0;
+        return {m_work.ctx,
+                m_work.island,
+                m_work.output,
+                m_work.view,
+                through_joints ? &m_joints.direct() : nullptr,
+                m_kinetic_before,
+                m_contacts.notes_bodies()};
     }
 
     void bounce(int k)
@@ -267,6 +320,13 @@ private:
         const bool kicked = m_work.output.kicked_shapes.size() != kicks;
         if (m_policy.conserves_energy)
             restore_energy(kicked);
+    }
+
+    // The energy that a bounce may not exceed. A contact may have stopped its bodies before, on the way.
+    void note_kinetic()
+    {
+        if (m_joints.are_direct() && m_work.has_contacts())
+            m_kinetic_before = std::max(m_kinetic_before, kinetic_energy(m_work.view, m_work.island));
     }
 
     void restore_energy(bool kicked)
@@ -348,6 +408,8 @@ private:
     IslandEnergy& m_energy; ///< memory that the islands of a task share
     Convergence m_convergence;
     const IslandPolicy& m_policy;
+    double m_kinetic_before = 0;
+    bool m_carries_approaches_on = false; ///< until joints have first been solved in the sub-step
 };
 
 } // namespace

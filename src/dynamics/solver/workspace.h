@@ -24,6 +24,7 @@
 namespace carom::internal {
 
 class DirectSolve;
+struct ContactBounce;
 struct RawTouch;
 
 /// Bodies, constraints and joints that are solved together through all sub-steps: an island, or several islands whose paths may meet.
@@ -54,8 +55,6 @@ struct Island
     std::int32_t flier_count = 0;
     std::int32_t first_law = 0;
     std::int32_t law_count = 0;
-    std::int32_t first_impact_constraint = 0; ///< constraints that bear no load yet and may be struck
-    std::int32_t impact_constraint_count = 0;
     std::int32_t colors = 0;
     /// Buckets of its wide contact constraints, partition by partition, in bucket_starts; one more start marks the end.
     std::int32_t first_bucket = 0;
@@ -106,6 +105,15 @@ struct StoppedJoint
     double energy;
 };
 
+/// A constraint outside of lanes that was struck in this sub-step, and how it is to bounce.
+struct StruckConstraint
+{
+    ContactConstraint* constraint = nullptr;
+    float restitution = 0;
+    float kick_speed = 0;
+    Vec2 pushed[2]{}; ///< impulses before the bounce, by point
+};
+
 /// The report of one thread on an island's impacts.
 struct ImpactReport
 {
@@ -130,7 +138,10 @@ struct IslandOutput : ImpactReport
     std::vector<ContactConstraint> late_constraints;
     std::vector<ContactConstraint> pulled_constraints; ///< see Walls
     std::vector<DeferredImpulse> deferred;
-    std::vector<StoppedJoint> stopped_joints;   ///< in this sub-step
+    std::vector<StoppedJoint> stopped_joints;         ///< in this sub-step
+    std::vector<StruckConstraint> struck_constraints; ///< that are still to bounce
+    std::vector<ContactBounce> contact_bounces;
+    std::vector<BodySpeeds> stopped_speeds;     ///< by state of the island, before contacts bounce
     std::vector<std::int32_t> struck_lanes;     ///< lanes of the island that were struck in this sub-step
     std::vector<std::int32_t> struck_states;    ///< solver-owned bodies that fliers have struck in this sub-step
     std::vector<ImpactReport> reports_of_parts; ///< one per partition, empty except while threads report
@@ -165,7 +176,6 @@ struct SolverWorkspace
     std::vector<std::int32_t> state_of;     ///< by awake index; dynamic bodies only
     std::vector<LawWork> laws;              ///< by island
     std::vector<ContactConstraint> constraints;
-    std::vector<std::int32_t> impact_constraints;
     BlankArray<WideContact> wide_contacts;
     BlankArray<WideContactNotes> wide_notes; ///< one for each block
     BlankArray<WideFeatures> wide_features;  ///< likewise

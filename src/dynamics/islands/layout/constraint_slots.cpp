@@ -36,7 +36,6 @@ public:
     void find()
     {
         m_island.first_constraint = static_cast<std::int32_t>(m_scratch.layout.constraint_edges.size());
-        m_island.first_impact_constraint = static_cast<std::int32_t>(m_scratch.solver.impact_constraints.size());
         m_island.first_wide = static_cast<std::int32_t>(m_scratch.layout.lane_edges.size()) / lane_count;
         m_island.first_core = static_cast<std::int32_t>(m_scratch.solver.cores.size());
         m_is_uniform = m_island.policy.wide_contacts && is_uniform(m_ctx, m_island);
@@ -52,8 +51,6 @@ public:
         m_island.constraint_count =
             static_cast<std::int32_t>(m_scratch.layout.constraint_edges.size()) - m_island.first_constraint;
         m_island.core_count = static_cast<std::int32_t>(m_scratch.solver.cores.size()) - m_island.first_core;
-        m_island.impact_constraint_count =
-            static_cast<std::int32_t>(m_scratch.solver.impact_constraints.size()) - m_island.first_impact_constraint;
     }
 
 private:
@@ -330,13 +327,6 @@ private:
             append_all(m_scratch.solver.cores, some.cores);
         std::ranges::sort(m_scratch.solver.cores.begin() + m_island.first_core, m_scratch.solver.cores.end(), {},
                           &WideCore::lane);
-        for (auto constraint = m_island.first_constraint;
-             constraint < static_cast<std::int32_t>(m_scratch.layout.constraint_edges.size()); ++constraint)
-        {
-            if (!m_scratch.layout.solved_edges[as_index(m_scratch.layout.constraint_edges[as_index(constraint)])].has(
-                    edge_flag::bears))
-                m_scratch.solver.impact_constraints.push_back(constraint);
-        }
     }
 
     StepContext& m_ctx;
@@ -368,7 +358,6 @@ void place_constraints_of_small_islands(StepContext& ctx)
     set_size(scratch.solver.partition_of, scratch.solver.state_bodies.size());
     scratch.layout.constraint_edges.clear();
     scratch.layout.lane_edges.clear();
-    scratch.solver.impact_constraints.clear();
     scratch.solver.cores.clear();
     scratch.solver.bucket_starts.clear();
     for (Island& island : scratch.solver.islands)

@@ -1,8 +1,10 @@
 // Lets bodies bounce off where constraints have stopped them in a sub-step, and reports the impacts. Constraints outside of
 // lanes are checked one by one; in lanes, only those are checked that the kernels have found struck while relaxing.
 
-#include "dynamics/solver/contact/restitution.h"
+#include "dynamics/solver/bounce/restitution.h"
+#include "dynamics/solver/bounce/bounce_limit.h"
 #include "dynamics/solver/effective_mass.h"
+#include "dynamics/solver/joint/direct/direct_solver.h"
 
 #include "core/grow.h"
 #include "core/index.h"
@@ -18,6 +20,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -26,35 +29,114 @@ namespace carom::internal {
 namespace {
 
 constexpr std::size_t enough_lanes = 64; // to share among threads
+constexpr float touching = 0.1f;         // of the slop
+constexpr float tiny_share = 1e-4f;      // of the rest speed: a push that changes no speed by more is left
 
 class Bounces
 {
 public:
     explicit Bounces(const BouncingIsland& of)
         : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_island(of.island), m_output(of.output), m_view(of.view),
-          m_notes_pushes(of.notes_pushes), m_wide(m_scratch.solver.wide_contacts.data() + m_island.wide_store),
+          m_notes_pushes(of.notes_pushes), m_joints(of.joints), m_kinetic_before(of.kinetic_before),
+          m_wide(m_scratch.solver.wide_contacts.data() + m_island.wide_store),
           m_notes(m_scratch.solver.wide_notes.data() + m_island.wide_store),
           m_struck(m_scratch.solver.struck.data() + m_island.wide_store)
     {}
 
     void note_approaches()
     {
-        for (int i = 0; i < m_island.impact_constraint_count; ++i)
-            note_approach(m_view, impact_constraint(i));
+        for (ContactConstraint& constraint : constraints())
+            note_approach(m_view, constraint, m_joints != nullptr);
+    }
+
+    // With a = (u1 - u0) / h while the bodies come nearer by s: u² = u0² + 2 a s. They may meet in the next sub-step only, which the relaxation foresees.
+    void carry_approaches_on()
+    {
+        for (ContactConstraint& constraint : constraints())
+        {
+            for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
+            {
+                const float now = -constraint_speed(m_view, constraint, p);
+                const float most = 0.5f * m_view.h * (p.approach + now);
+                const float way = std::min(std::max(constraint_separation(m_view, constraint, p), 0.0f), most);
+                const float square = p.approach * p.approach + 2 * (now - p.approach) * way / m_view.h;
+                if (p.approach > 0)
+                    p.approach = std::sqrt(std::max(square, 0.0f));
+            }
+        }
     }
 
     void bounce(int k, WorkerTeam& team)
     {
-        for (int i = 0; i < m_island.impact_constraint_count; ++i)
-            bounce_constraint(impact_constraint(i), k);
+        for (ContactConstraint& constraint : constraints())
+            bounce_constraint(constraint, k);
+        if (!m_output.struck_constraints.empty())
+            bounce_through_joints(k);
         bounce_lanes(k, team);
     }
 
 private:
-    [[nodiscard]] ContactConstraint& impact_constraint(int i)
+    /// Outside of lanes. Those that have come within the step do not bounce: flight has seen to that.
+    [[nodiscard]] std::span<ContactConstraint> constraints() const
     {
-        return m_scratch.solver.constraints[static_cast<std::size_t>(
-            m_scratch.solver.impact_constraints[static_cast<std::size_t>(m_island.first_impact_constraint + i)])];
+        return {m_scratch.solver.constraints.data() + m_island.first_constraint, as_index(m_island.constraint_count)};
+    }
+
+    // All contacts of the island may answer: what is struck hangs together.
+    void bounce_through_joints(int k)
+    {
+        std::vector<ContactBounce>& bounces = m_output.contact_bounces;
+        bounces.clear();
+        for (ContactConstraint& constraint : constraints())
+            note_bounce(constraint);
+        for (ContactConstraint& constraint : m_output.late_constraints)
+            note_bounce(constraint);
+        for (const StruckConstraint& struck : m_output.struck_constraints)
+        {
+            ContactBounce& bounce = *std::ranges::find(bounces, struck.constraint, &ContactBounce::constraint);
+            for (int i = 0; i < struck.constraint->count; ++i)
+            {
+                if (bounce.stopped[i] > 0)
+                    bounce.wanted[i] = wanted_speed(struck.constraint->points[i], struck.restitution, struck.kick_speed);
+                bounce.answers[i] |= bounce.wanted[i] > 0;
+            }
+        }
+        std::vector<BodySpeeds>& stopped = m_output.stopped_speeds;
+        stopped.clear();
+        for (int i = m_island.first_state; i < m_island.first_state + m_island.state_count; ++i)
+            stopped.push_back({m_view.states[i].velocity, m_view.states[i].angular_velocity});
+        m_joints->bounce_contacts(bounces, tiny_share * m_ctx.rest_speed);
+        if (gets_no_energy())
+            limit_bounce(m_view, m_island, bounces, stopped, m_kinetic_before);
+        for (const StruckConstraint& struck : m_output.struck_constraints)
+            finish_impact(*struck.constraint, struck, k, m_output);
+        m_output.struck_constraints.clear();
+    }
+
+    void note_bounce(ContactConstraint& constraint)
+    {
+        if (constraint.count == 0)
+            return;
+        ContactBounce& bounce = m_output.contact_bounces.emplace_back(ContactBounce{&constraint});
+        for (int i = 0; i < constraint.count; ++i)
+        {
+            const ConstraintPoint& p = constraint.points[i];
+            bounce.stopped[i] = p.normal_impulse;
+            bounce.answers[i] = constraint_separation(m_view, constraint, p) <= touching * m_ctx.scene.tolerances.slop;
+        }
+    }
+
+    // From a kicker, or from a body that is driven.
+    [[nodiscard]] bool gets_no_energy() const
+    {
+        const auto is_driven = [this](std::int32_t i)
+        {
+            const BodyState& s = m_view.states[i];
+            return !has_finite_mass(i) && (s.velocity != Vec2{} || s.angular_velocity != 0);
+        };
+        return std::ranges::all_of(
+            m_output.struck_constraints, [&](const StruckConstraint& struck)
+            { return struck.kick_speed == 0 && !is_driven(struck.constraint->a) && !is_driven(struck.constraint->b); });
     }
 
     // Two partitions share no body that has finite mass: threads bounce the lanes of partitions side by side, then one thread those of boundary constraints.
@@ -157,14 +239,12 @@ private:
     }
 
     // Warm starting must not push points again that have bounced off.
-    void forget_pushes(const ContactConstraint& before, const ContactConstraint& after)
+    void forget_pushes(const ContactConstraint& constraint, const StruckConstraint& struck)
     {
-        for (int i = 0; i < before.count; ++i)
+        for (int i = 0; i < constraint.count; ++i)
         {
-            if (after.points[i].normal_impulse != 0)
-                continue;
-            const ConstraintPoint& p = before.points[i];
-            note_push(before, p, p.normal_impulse * before.n + p.tangent_impulse * perp(before.n));
+            if (constraint.points[i].normal_impulse == 0)
+                note_push(constraint, constraint.points[i], struck.pushed[i]);
         }
     }
 
@@ -190,13 +270,13 @@ private:
 
     void bounce_constraint(ContactConstraint& constraint, int k)
     {
-        if (constraint.hit != 0)
+        if (constraint.hit != 0 && m_joints == nullptr)
             return;
         float approach = 0;
         float load = 0;
         for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
         {
-            if (p.approach > 0 && came_at(constraint, p) <= 0)
+            if (p.approach > 0 && approach_before(m_scratch, constraint, p) <= 0)
                 p.approach = 0; // the normal has turned away from the approach
             load += p.normal_impulse;
             if (p.normal_impulse > 0)
@@ -206,19 +286,22 @@ private:
             return;
         if (!touches(m_ctx.state.contacts[constraint.contact]))
             begin_touch(constraint, k, m_output);
-        if (approach > m_ctx.rest_speed)
+        if (approach <= m_ctx.rest_speed)
+            return;
+        if (m_joints != nullptr)
+            m_output.struck_constraints.push_back(begin_impact(constraint, approach, m_output));
+        else
             resolve_impact(constraint, approach, k, m_output);
     }
 
-    // The approach speed when the sub-step began, along the present normal of the constraint.
-    [[nodiscard]] float came_at(const ContactConstraint& constraint, const ConstraintPoint& p) const
+    void resolve_impact(ContactConstraint& constraint, float approach, int k, ImpactReport& report)
     {
-        const BodySpeeds& a = m_scratch.solver.speeds[as_index(constraint.a)];
-        const BodySpeeds& b = m_scratch.solver.speeds[as_index(constraint.b)];
-        return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), constraint.n);
+        const StruckConstraint struck = begin_impact(constraint, approach, report);
+        bounce_points(constraint, struck.restitution, struck.kick_speed);
+        finish_impact(constraint, struck, k, report);
     }
 
-    void resolve_impact(ContactConstraint& constraint, float approach, int k, ImpactReport& report)
+    [[nodiscard]] StruckConstraint begin_impact(ContactConstraint& constraint, float approach, ImpactReport& report) const
     {
         constraint.hit = 1;
         const Contact& contact = m_ctx.state.contacts[constraint.contact];
@@ -228,16 +311,23 @@ private:
             report.kicked_shapes.push_back(contact.shape_a);
         if (kick.b_fired)
             report.kicked_shapes.push_back(contact.shape_b);
-        auto event = event_of<ImpactEvent>(m_ctx.state, contact);
-        const ContactConstraint before = constraint;
-        bounce_points(constraint, e, kick.speed);
+        StruckConstraint struck{&constraint, e, kick.speed, {}};
+        for (int i = 0; i < constraint.count; ++i)
+            struck.pushed[i] =
+                constraint.points[i].normal_impulse * constraint.n + constraint.points[i].tangent_impulse * perp(constraint.n);
+        return struck;
+    }
+
+    void finish_impact(ContactConstraint& constraint, const StruckConstraint& struck, int k, ImpactReport& report)
+    {
+        auto event = event_of<ImpactEvent>(m_ctx.state, m_ctx.state.contacts[constraint.contact]);
         event.time = m_ctx.h * static_cast<float>(k + 1);
-        event.restitution = e;
+        event.restitution = struck.restitution;
         event.friction = constraint.friction;
-        event.kick_speed = kick.speed;
+        event.kick_speed = struck.kick_speed;
         fill_impact(constraint, event);
-        take_impulses(constraint, e, kick.speed);
-        forget_pushes(before, constraint);
+        take_impulses(constraint, struck.restitution, struck.kick_speed);
+        forget_pushes(constraint, struck);
         ++report.bulk_impacts;
         if (event.impulse > 0 && is_finite(event.energy_lost)) // others may have parted the bodies, or speeds overflowed
             append(report.impacts, event);
@@ -390,6 +480,8 @@ private:
     IslandOutput& m_output;
     const SolverView& m_view;
     bool m_notes_pushes;
+    DirectSolve* m_joints;
+    double m_kinetic_before;
     const WideContact* m_wide;
     WideContactNotes* m_notes;
     const std::uint8_t* m_struck; ///< bits of lanes, for each block
@@ -398,6 +490,8 @@ private:
 } // namespace
 
 void note_approaches(const BouncingIsland& island) { Bounces(island).note_approaches(); }
+
+void carry_approaches_on(const BouncingIsland& island) { Bounces(island).carry_approaches_on(); }
 
 void bounce(const BouncingIsland& island, int k, WorkerTeam& team) { Bounces(island).bounce(k, team); }
 

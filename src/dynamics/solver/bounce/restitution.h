@@ -14,11 +14,16 @@ struct BouncingIsland
     const Island& island;
     IslandOutput& output;
     const SolverView& view;
-    bool notes_pushes; ///< it warm starts by body: impulses beside the constraints must not count as theirs
+    DirectSolve* joints;   ///< through which contacts bounce; null if no joints are solved directly, or they yield
+    double kinetic_before; ///< energy of the island before it was stopped, J; where contacts bounce through joints
+    bool notes_pushes;     ///< it warm starts by body: impulses beside the constraints must not count as theirs
 };
 
 /// Notes the approach speeds of constraints that bear no load yet, before the sub-step.
 void note_approaches(const BouncingIsland& island);
+
+/// Called once forces and joints, but no contacts yet, have changed the speeds: an approach is that at which the bodies meet within the sub-step.
+void carry_approaches_on(const BouncingIsland& island);
 
 /// Called at the end of sub-step k.
 void bounce(const BouncingIsland& island, int k, WorkerTeam& team);

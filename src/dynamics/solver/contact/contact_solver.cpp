@@ -170,10 +170,18 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
     }
 }
 
-void note_approach(const SolverView& view, ContactConstraint& constraint)
+void note_approach(const SolverView& view, ContactConstraint& constraint, bool each_point)
 {
-    for (int i = 0; i < constraint.count; ++i)
-        constraint.points[i].approach = -constraint_speed(view, constraint, constraint.points[i]);
+    const bool bears = bears_load(constraint);
+    for (ConstraintPoint& p : std::span(constraint.points).first(static_cast<std::size_t>(constraint.count)))
+        p.approach = (each_point ? p.normal_impulse > 0 : bears) ? 0 : -constraint_speed(view, constraint, p);
+}
+
+float approach_before(const Scratch& scratch, const ContactConstraint& constraint, const ConstraintPoint& p)
+{
+    const BodySpeeds& a = scratch.solver.speeds[static_cast<std::size_t>(constraint.a)];
+    const BodySpeeds& b = scratch.solver.speeds[static_cast<std::size_t>(constraint.b)];
+    return dot(a.velocity + cross(a.angular_velocity, p.ra) - b.velocity - cross(b.angular_velocity, p.rb), constraint.n);
 }
 
 } // namespace carom::internal

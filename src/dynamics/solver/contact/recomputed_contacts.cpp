@@ -2,6 +2,7 @@
 
 #include "dynamics/solver/contact/recomputed_contacts.h"
 
+#include "core/index.h"
 #include "dynamics/narrowphase/contact_update.h"
 #include "dynamics/solver/contact/contact_solver.h"
 #include "dynamics/solver/contact/prepare.h"
@@ -9,6 +10,7 @@
 #include "dynamics/state/contact_store.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,13 +20,15 @@ namespace {
 
 constexpr float follow_turn = 0.03f; // rad
 
-// Each new point takes over the impulses of the old point with the same feature; impulses of the others count in the sum over the step.
-void carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint& constraint)
+// Each new point takes over the impulses of the old point with the same feature; impulses of the others count in the sum over the step. Says which points are new.
+std::array<bool, 2> carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint& constraint)
 {
     ConstraintPoint points[2];
+    std::array<bool, 2> is_new{};
     bool taken[2] = {};
     for (int i = 0; i < fresh.count; ++i)
     {
+        is_new[as_index(i)] = true;
         for (int j = 0; j < constraint.count; ++j)
         {
             const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && constraint.count == 1);
@@ -32,6 +36,7 @@ void carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint&
                 continue;
             points[i] = constraint.points[j];
             taken[j] = true;
+            is_new[as_index(i)] = false;
             break;
         }
     }
@@ -43,6 +48,7 @@ void carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint&
         points[0].total_tangent += constraint.points[j].total_tangent;
     }
     std::copy(std::begin(points), std::end(points), std::begin(constraint.points));
+    return is_new;
 }
 
 } // namespace
@@ -143,8 +149,13 @@ void RecomputedContacts::follow(ContactConstraint& constraint)
         !has_turned(constraint.turn_b, b.delta_rotation, least))
         return;
     Manifold fresh = manifold_of(constraint.contact, constraint, 0);
-    carry_points(m_work.ctx.state.contacts[constraint.contact].manifold, fresh, constraint);
+    const auto is_new = carry_points(m_work.ctx.state.contacts[constraint.contact].manifold, fresh, constraint);
     set_constraint_geometry(m_work.scratch, constraint, fresh);
+    for (int i = 0; i < constraint.count; ++i)
+    {
+        if (is_new[as_index(i)])
+            constraint.points[i].approach = approach_before(m_work.scratch, constraint, constraint.points[i]);
+    }
     m_work.ctx.state.contacts[constraint.contact].manifold = fresh;
     impulses_of(m_work.ctx.state, constraint.contact) = {}; // the constraint holds them
 }

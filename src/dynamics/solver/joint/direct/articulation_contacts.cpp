@@ -80,7 +80,7 @@ void DirectSolve::find_anchors()
 }
 
 // None if the body belongs to no articulation that may be pushed as a whole.
-int DirectSolve::free_articulation_of(std::int32_t state) const
+int DirectSolve::articulation_of(std::int32_t state, Anchored anchored) const
 {
     if (moving(state) == none)
         return none;
@@ -88,7 +88,7 @@ int DirectSolve::free_articulation_of(std::int32_t state) const
     if (at >= m_nodes.size() || m_nodes[at].state != state)
         return none;
     const int articulation = m_articulation_of[at];
-    return m_articulations[as_index(articulation)].anchored ? none : articulation;
+    return anchored == Anchored::No && m_articulations[as_index(articulation)].anchored ? none : articulation;
 }
 
 // --- responses ----------------------------------------------------------------------------------------------------------------------
@@ -102,9 +102,9 @@ void DirectSolve::Response::add(const Triple& inverse_mass, const Triple& jacobi
     turn += (inverse_mass.turn * jacobian.turn) * answers;
 }
 
-DirectSolve::Side DirectSolve::side_of(std::int32_t state)
+DirectSolve::Side DirectSolve::side_of(std::int32_t state, Anchored anchored)
 {
-    const int articulation = free_articulation_of(state);
+    const int articulation = articulation_of(state, anchored);
     if (articulation == none)
         return {state};
     const int n = node_of(state);
@@ -164,14 +164,25 @@ void DirectSolve::find_responses(PushedBody& body)
     body.responds = true;
 }
 
-Triple DirectSolve::response(const Side& side, const Triple& impulse)
+// The velocity that one body gains by an impulse on the other, or on itself.
+Triple DirectSolve::response(const Side& of, const Side& pushed, const Triple& impulse)
 {
-    if (side.body == none)
-        return response_alone(side, impulse);
-    PushedBody& body = m_pushed[as_index(side.body)];
+    if (pushed.body == none)
+        return of.state == pushed.state ? response_alone(pushed, impulse) : Triple{};
+    PushedBody& body = m_pushed[as_index(pushed.body)];
     if (!body.responds)
         find_responses(body);
-    return m_responses[body.first_response + body.place].to(impulse);
+    if (of.articulation != pushed.articulation)
+        return {};
+    return m_responses[body.first_response + m_pushed[as_index(of.body)].place].to(impulse);
+}
+
+// The speed along a line per unit impulse along the other.
+double DirectSolve::mobility(const Contact& contact, const PushedLine& along, const PushedLine& by)
+{
+    const auto& [constraint, a, b] = contact;
+    return dot(along.ja, response(a, a, by.ja)) + dot(along.ja, response(a, b, by.jb)) + dot(along.jb, response(b, a, by.ja)) +
+           dot(along.jb, response(b, b, by.jb));
 }
 
 Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) const
@@ -184,9 +195,11 @@ Triple DirectSolve::response_alone(const Side& side, const Triple& impulse) cons
 DirectSolve::PushedLine DirectSolve::pushed_line(const Contact& contact, const Triple& ja, const Triple& jb)
 {
     const auto& [constraint, a, b] = contact;
-    const double k = dot(ja, response(a, ja)) + dot(jb, response(b, jb));
+    PushedLine line{a, b, ja, jb};
+    const double k = mobility(contact, line, line);
     const double alone = dot(ja, response_alone(a, ja)) + dot(jb, response_alone(b, jb));
-    return {a, b, ja, jb, k > least_answer * alone ? static_cast<float>(1 / k) : 0};
+    line.mass = k > least_answer * alone ? static_cast<float>(1 / k) : 0;
+    return line;
 }
 
 void DirectSolve::push_whole(const PushedLine& line, float impulse)
@@ -222,7 +235,7 @@ void DirectSolve::solve_contacts(std::span<ContactConstraint> constraints, std::
     for (const std::span<ContactConstraint> some : {constraints, late_constraints})
     {
         for (ContactConstraint& constraint : some)
-            m_contacts.push_back({&constraint, side_of(constraint.a), side_of(constraint.b)});
+            m_contacts.push_back({&constraint, side_of(constraint.a, Anchored::No), side_of(constraint.b, Anchored::No)});
     }
     for (int sweep = 0; sweep < most_sweeps; ++sweep)
     {
@@ -329,13 +342,18 @@ void DirectSolve::take_pushes(const Articulation& articulation)
 
 void DirectSolve::take_answers()
 {
-    for (std::size_t i = 0; i < m_impulses.size(); ++i)
-        m_impulses[i] += m_answered[i];
     for (const Item& item : m_items)
     {
         for (int r = 0; r < item.held; ++r)
             item.impulse(r) += static_cast<float>(m_answered[as_index(item.first_row + r)]);
     }
+    answer_along_axes();
+}
+
+void DirectSolve::answer_along_axes()
+{
+    for (std::size_t i = 0; i < m_impulses.size(); ++i)
+        m_impulses[i] += m_answered[i];
     // A motor may have answered with more than its maximum: the next solve takes the excess back.
     for (const Axis& axis : m_axes)
     {

@@ -22,6 +22,15 @@ inline void change_velocity(BodyState& s, const Triple& by)
     s.angular_velocity += static_cast<float>(by.turn);
 }
 
+/// A contact when something bounces: the speeds at which its points are to separate. 0: the point was not struck.
+struct ContactBounce
+{
+    ContactConstraint* constraint = nullptr;
+    float wanted[2] = {};
+    float stopped[2] = {}; ///< impulses by which they were stopped
+    bool answers[2] = {};  ///< whether it is struck or touches: one that is still apart does not answer
+};
+
 /// Solves all joint rows of an island at once. It is reused from step to step for its memory, and for the layout where the joints are the same.
 class DirectSolve
 {
@@ -50,9 +59,15 @@ public:
     /// Whether an articulation is free, that is, not anchored to an immovable body. Its contacts are solved here, with the response of the joints;
     /// see articulation_contacts.cpp.
     [[nodiscard]] bool has_free_articulations() const { return m_ready && m_has_free_articulations; }
+    [[nodiscard]] bool is_in_free_articulation(std::int32_t state) const
+    {
+        return m_ready && articulation_of(state, Anchored::No) != none;
+    }
     /// A few sweeps over all contacts of the island, right after solve(). They end once no contact changes a speed by more than `tiny`, m/s.
     void solve_contacts(std::span<ContactConstraint> constraints, std::span<ContactConstraint> late_constraints, bool use_bias,
                         float tiny);
+    /// Makes struck contacts separate, through the joints. `bounces` are all contacts that may answer; a push that changes a speed by less than `tiny` is left.
+    void bounce_contacts(std::span<const ContactBounce> bounces, float tiny);
     /// Removes speeds that joints forbid and that the bodies got outside the solver, before any load is known.
     void take_forbidden_speeds();
     /// Makes joints leave their stops at the speeds JointWork::bounce.
@@ -206,10 +221,16 @@ private:
 
     void find_articulations();
     void find_anchors();
-    [[nodiscard]] int free_articulation_of(std::int32_t state) const;
+    enum class Anchored
+    {
+        No, ///< articulations that hang on an immovable body do not count
+        Too
+    };
+    [[nodiscard]] int articulation_of(std::int32_t state, Anchored anchored) const;
     void find_responses(PushedBody& body);
-    [[nodiscard]] Side side_of(std::int32_t state);
-    [[nodiscard]] Triple response(const Side& side, const Triple& impulse);
+    [[nodiscard]] Side side_of(std::int32_t state, Anchored anchored);
+    [[nodiscard]] Triple response(const Side& of, const Side& pushed, const Triple& impulse);
+    [[nodiscard]] double mobility(const Contact& contact, const PushedLine& along, const PushedLine& by);
     [[nodiscard]] Triple response_alone(const Side& side, const Triple& impulse) const;
     [[nodiscard]] PushedLine pushed_line(const Contact& contact, const Triple& ja, const Triple& jb);
     void begin_pushes();
@@ -218,6 +239,9 @@ private:
     void solve_contact(const Contact& contact, bool use_bias);
     void take_pushes(const Articulation& articulation);
     void take_answers();
+    void answer_along_axes();
+    void bounce_contact(const Contact& contact, const ContactBounce& bounce);
+    void report_answers();
 
     void find_edges();
     [[nodiscard]] std::int32_t moving(std::int32_t state) const;
