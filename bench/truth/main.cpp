@@ -20,6 +20,7 @@ void ask_stop(int) { stop_asked = 1; }
 struct Options
 {
     double hz = 60;
+    int subdivisions = 32;
     double share = 1;
     std::vector<int> only{};
     bool json = false;
@@ -104,6 +105,7 @@ bool wanted(const Options& options, int number)
 std::vector<truth::Engine> chosen_engines(const Options& options)
 {
     std::vector<truth::Engine> engines = truth::engines();
+    engines.front() = truth::carom_engine(options.subdivisions);
     engines.resize(options.peers ? engines.size() : 1);
     return engines;
 }
@@ -194,6 +196,9 @@ int main(int argc, char** argv)
         "Experiments with known answers: exact value, ours, how far off it may be, and the engines installed beside it."};
     app.add_option("--hz", options.hz, "steps per second")->check(CLI::Range(10.0, 100000.0))->capture_default_str();
     app.add_option("--only", options.only, "numbers of experiments, as in 1,9")->delimiter(',')->check(check_number);
+    app.add_option("--subdivisions", options.subdivisions, "most subdivisions of a sub-step (SceneDef::most_subdivisions)")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
     app.add_option("--share", options.share, "fraction of the cases to run")->check(CLI::Range(0.01, 1.0))->capture_default_str();
     app.add_flag("--json", options.json, "print a list of {experiment, metric, exact, value, bound, ok}");
     app.add_flag("!--no-peers", options.peers, "run Carom alone");

@@ -206,7 +206,8 @@ struct Engine
     int most_threads = 1; ///< that one world can use
 };
 
-[[nodiscard]] Engine carom_engine();
+/// With carom::SceneDef::most_subdivisions.
+[[nodiscard]] Engine carom_engine(int most_subdivisions = 32);
 /// Carom first, then the peers that were found when this was built.
 [[nodiscard]] std::vector<Engine> engines();
 

@@ -70,7 +70,10 @@ struct SceneDef
     /// by that much. Overlap of what rests does not come from it but from the load on soft contacts (contact_hertz): with boxes of 1 m,
     /// 0.06 mm under one and 4.3 mm under nine. It grows with the load's acceleration, not with length_scale.
     float length_scale = 1;
-    int substeps = 4;             ///< per step, 1 to 64; a step of more than 1/30 s has as many for each 1/30 s of it
+    int substeps = 4; ///< per step, 1 to 64; a step of more than 1/30 s has as many for each 1/30 s of it
+    /// Bodies whose joints, springs or driven surfaces turn or swing too fast for a sub-step get shorter ones for themselves: it is divided into as many parts as
+    /// they need, but no more than this, 1 to 64. 1 is fastest; what is not followed is damped or, on joints, loses phase and some energy (docs/accuracy.md).
+    int most_subdivisions = 32;
     float fixed_step = 1.0f / 60; ///< what update() steps by, s, 1e-5 to 10
     float max_frame_time = 0.25f; ///< most that update() catches up in one call, s
     MixRule friction_rule = MixRule::GeometricMean;

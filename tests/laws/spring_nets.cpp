@@ -172,6 +172,26 @@ TEST(LawSpringNets, HangAtRestWhereTheirWeightPutsThem)
     }
 }
 
+// With one part to a sub-step, as many as there are, stiff springs are damped; with enough they are not.
+TEST(LawSpringNets, SubdivisionsAreForTheUserToChoose)
+{
+    const auto kept = [](int most_subdivisions)
+    {
+        SceneDef def = weightless();
+        def.most_subdivisions = most_subdivisions;
+        Net net{.scene = Scene(def)};
+        for (int i = 0; i < 3; ++i)
+            net.add({static_cast<float>(i), i == 1 ? 0.9f : 0.0f}, Circle{.radius = 0.3f});
+        for (std::size_t i = 0; i < 3; ++i)
+            net.join(net.bodies[i], net.bodies[(i + 1) % 3], 1e5, 1.1);
+        const double before = net.totals().energy;
+        steps(net.scene, 300);
+        return net.totals().energy / before;
+    };
+    EXPECT_LT(kept(1), 0.5);
+    EXPECT_NEAR(kept(32), 1, 0.002);
+}
+
 // However stiff and damped, nothing flies apart or rings.
 TEST(LawSpringNets, AreStableHoweverStiffAndDamped)
 {

@@ -58,9 +58,12 @@ carom::ShapeDef shape_def(const Material& material)
 class CaromWorld final : public World
 {
 public:
-    explicit CaromWorld(const WorldDef& def)
-        : m_scene(
-              {.gravity = narrow(def.gravity), .substeps = def.substeps, .sleeping = def.sleeping, .continuous = def.continuous})
+    CaromWorld(const WorldDef& def, int most_subdivisions)
+        : m_scene({.gravity = narrow(def.gravity),
+                   .substeps = def.substeps,
+                   .most_subdivisions = most_subdivisions,
+                   .sleeping = def.sleeping,
+                   .continuous = def.continuous})
     {}
 
     Body add_body(const BodyDef& def) override
@@ -192,9 +195,11 @@ private:
 
 } // namespace
 
-Engine carom_engine()
+Engine carom_engine(int most_subdivisions)
 {
-    return {.name = "Carom", .make_world = [](const WorldDef& def) { return std::make_unique<CaromWorld>(def); }, .key = "carom"};
+    return {.name = "Carom",
+            .make_world = [=](const WorldDef& def) { return std::make_unique<CaromWorld>(def, most_subdivisions); },
+            .key = "carom"};
 }
 
 } // namespace truth

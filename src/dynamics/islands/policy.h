@@ -19,8 +19,7 @@ inline constexpr int most_converging_bodies = 32; ///< number of bodies whose sp
 {
     return impacts_of_island > 4 * bodies ? 4 : 16;
 }
-inline constexpr int most_loops = 256;       ///< closed by joints: in a sheet of hinges, the matrix of the joints fills up
-inline constexpr int most_subdivisions = 32; ///< limit where a driven body or a joint's arm turns
+inline constexpr int most_loops = 256; ///< closed by joints: in a sheet of hinges, the matrix of the joints fills up
 
 /// Data by which the policy of an island is chosen.
 struct IslandTally

@@ -57,7 +57,8 @@ public:
 private:
     [[nodiscard]] std::int32_t subdivisions_for(float rate, float most_turn) const
     {
-        return static_cast<std::int32_t>(std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(most_subdivisions))));
+        return static_cast<std::int32_t>(
+            std::ceil(std::min(ctx.h * rate / most_turn, static_cast<float>(ctx.scene.def.most_subdivisions))));
     }
 
     // Follows contacts of bodies in small islands.
