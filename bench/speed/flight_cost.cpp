@@ -46,12 +46,6 @@ void build_drum(Scene& scene)
                   {.restitution = 0.5f});
 }
 
-double median(std::vector<double>& values)
-{
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
 struct Side
 {
     Scene scene;

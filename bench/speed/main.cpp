@@ -1,6 +1,7 @@
 // carom-bench: the ten scenes of Box2D's benchmark program, timed on Carom and on the engines installed beside it, with the quality of
 // the same run.
 
+#include "speed/company.h"
 #include "speed/flight_cost.h"
 #include "speed/report.h"
 #include "speed/scaling.h"
@@ -34,6 +35,7 @@ struct Options
     bool list = false;
     bool verify = false;
     bool flight = false;
+    bool company = false;
     int scaling = 0; ///< most bodies; 0: not asked for
     std::string plot;
 };
@@ -240,6 +242,25 @@ int show_flight_costs(const Options& options)
     return 0;
 }
 
+int show_company_costs(const Options& options)
+{
+    std::printf("Truth in company, medians of a step's time\n%-28s", "");
+    for (const std::string& engine : options.engines)
+        std::printf(" %12s", engine.c_str());
+    std::printf("   ms\n");
+    speed::company_costs(options.run, options.engines,
+                         [](const speed::CompanyCost& c)
+                         {
+                             clear_progress();
+                             std::printf("%-28s", c.what.c_str());
+                             for (const double ms : c.ms)
+                                 std::printf(" %12.3f", ms);
+                             std::printf("\n");
+                             std::fflush(stdout);
+                         });
+    return 0;
+}
+
 int list_all()
 {
     std::cout << "Engines\n";
@@ -284,6 +305,7 @@ void add_options(CLI::App& app, Options& o)
     app.add_option("--plot", o.plot, "with --scaling: also draw scaling.svg into this folder")->check(CLI::ExistingDirectory);
     app.add_flag("--flight", o.flight,
                  "no scenes: what impacts at their own time cost a pile at rest, with a fast ball, and one that tumbles");
+    app.add_flag("--company", o.company, "no scenes: what crowds in flight, landings, small islands and long joint graphs cost");
     app.add_flag("--list", o.list, "engines and scenes");
 }
 
@@ -302,6 +324,7 @@ int main(int argc, char** argv)
         return options.list          ? list_all()
                : options.scaling > 0 ? show_scaling(options)
                : options.flight      ? show_flight_costs(options)
+               : options.company     ? show_company_costs(options)
                : options.verify      ? verify(options)
                                      : benchmark(options);
     }

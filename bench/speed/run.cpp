@@ -227,4 +227,10 @@ std::vector<std::uint64_t> hashes(const carom::scenes::SceneEntry& entry, const 
     return list;
 }
 
+double median(std::vector<double>& values)
+{
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
 } // namespace speed

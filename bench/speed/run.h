@@ -55,4 +55,7 @@ struct Result
                                                 const RunOptions& options);
 inline constexpr int hash_interval = 20;
 
+/// Of at least one value; reorders them.
+[[nodiscard]] double median(std::vector<double>& values);
+
 } // namespace speed
