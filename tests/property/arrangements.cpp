@@ -31,6 +31,8 @@ std::span<const Arrangement> arrangements()
         {"PendulumStruck", 3000, pendulum_struck},
         {"JointsInRoom", 3000, joints_in_room},
         {"SpringsInRoom", 1000, springs_in_room},
+        {"Company", 300, company},
+        {"LinkageInRoom", 1700, linkage_in_room},
     };
     return list;
 }

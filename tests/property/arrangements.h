@@ -58,5 +58,7 @@ void ball_through_trigger(Trial& trial);
 void pendulum_struck(Trial& trial);
 void joints_in_room(Trial& trial);
 void springs_in_room(Trial& trial);
+void company(Trial& trial); ///< of 17 to 200
+void linkage_in_room(Trial& trial);
 
 } // namespace carom::shots

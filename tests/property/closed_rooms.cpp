@@ -170,13 +170,16 @@ void tube(Trial& trial)
     expect_order(trial, bodies);
 }
 
-void crowd(Trial& trial)
+namespace {
+
+// One ball among others at rest.
+void shot_in_crowd(Trial& trial, int least, int most)
 {
     Random& random = trial.random;
     const double size = pick_size(random);
     const Point gravity = pick_gravity(random);
     trial.open(size, gravity);
-    const int count = 3 + random.below(10);
+    const int count = least + random.below(most - least + 1);
     const std::vector<Point> places = grid(random, count, 2 * size * random.range(1.001, 1.5));
     double reach = 0;
     for (const Point p : places)
@@ -191,6 +194,11 @@ void crowd(Trial& trial)
                       add_piece(trial, make_ball(size), BodyType::Dynamic, places[static_cast<std::size_t>(i)], 0,
                                 i == shot ? speed * pick_direction(random) : Point{}, 0));
 }
+
+} // namespace
+
+void crowd(Trial& trial) { shot_in_crowd(trial, 3, 12); }
+void company(Trial& trial) { shot_in_crowd(trial, 17, 200); }
 
 void pile(Trial& trial)
 {

@@ -4,6 +4,8 @@
 #include "property/rooms.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace carom::shots {
 
@@ -85,6 +87,38 @@ void linked_row(Trial& trial, bool springs)
     expect_inside(trial, room, shot);
 }
 
+// Balls in a ring, each hinged to the next one halfway; a shot comes from the side.
+void hinged_ring(Trial& trial)
+{
+    Random& random = trial.random;
+    const double size = log_uniform(random, 0.005, 0.3);
+    Scene& scene = trial.open(size, pick_gravity(random));
+    const int count = 4 + random.below(9);
+    const double pitch = 2 * size * random.range(1.05, 1.5);
+    const double radius = 0.5 * pitch / std::sin(pi / count);
+    const Room room = pick_polygon_room(random, 1.5 * (radius + 4 * size));
+    build_walls(trial, room);
+    std::vector<BodyId> bodies;
+    std::vector<Point> places;
+    for (int i = 0; i < count; ++i)
+    {
+        places.push_back(radius * direction(2 * pi * i / count));
+        bodies.push_back(add_piece(trial, pick_piece(random, size), BodyType::Dynamic, places.back(), 0, {}, 0));
+        expect_inside(trial, room, bodies.back());
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+    {
+        const std::size_t next = (i + 1) % bodies.size();
+        link(trial, Link::Hinge, bodies[i], places[i], bodies[next], places[next],
+             static_cast<double>(scene.body(bodies[i]).mass()));
+    }
+    const double speed = pick_speed(random);
+    const double gap = pick_gap(trial, speed, 0.5 * size);
+    pick_steps(trial, gap, speed, 12);
+    const double x = random.range(-0.5, 0.5) * radius;
+    expect_inside(trial, room, shoot(trial, make_ball(0.5 * size), {x, radius + 1.51 * size + gap}, {0, -speed}));
+}
+
 } // namespace
 
 void pendulum_struck(Trial& trial)
@@ -126,5 +160,6 @@ void pendulum_struck(Trial& trial)
 
 void joints_in_room(Trial& trial) { linked_row(trial, false); }
 void springs_in_room(Trial& trial) { linked_row(trial, true); }
+void linkage_in_room(Trial& trial) { hinged_ring(trial); }
 
 } // namespace carom::shots

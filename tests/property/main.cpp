@@ -1,11 +1,11 @@
-// 100,000 random shots. Every arrangement is a test; every shot has a number.
+// 102,000 random shots. Every arrangement is a test; every shot has a number.
 //
 //   carom-test-property --shot N    replays one shot, with its arrangement and the state after every step
 //   carom-test-property --program N prints it as a program of its own
 //   carom-test-property --survey [arrangement]
 //                                   runs everything and prints how many fail; of one arrangement, all that fail
 //
-// CAROM_SHOT_SEED=n in the environment takes another 100,000 shots; what it finds is replayed with the same n.
+// CAROM_SHOT_SEED=n in the environment takes others; what it finds is replayed with the same n.
 // CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 5th.
 
 #include "property/arrangements.h"
@@ -32,7 +32,7 @@ int divisor()
 
 std::uint64_t seed_of(int number)
 {
-    constexpr std::uint64_t apart = 100'000;
+    constexpr std::uint64_t apart = 1'000'000;
     const char* text = std::getenv("CAROM_SHOT_SEED");
     return static_cast<std::uint64_t>(number) + apart * (text ? std::strtoull(text, nullptr, 10) : 0);
 }
