@@ -139,9 +139,9 @@ TEST(LawSpringNets, KeepEnergyAndMomenta)
     for (const double stiffness : {1e3, 1e4, 1e5})
     {
         const std::string at = " at " + std::to_string(stiffness) + " N/m";
-        for (const int masses : {2, 3, 5, 17, 70})
-            expect_kept(truss(masses, stiffness), 300, std::to_string(masses) + " masses" + at);
-        expect_kept(bars(stiffness), 300, "bars" + at);
+        for (const int masses : {2, 3, 5, 17, 40})
+            expect_kept(truss(masses, stiffness), 120, std::to_string(masses) + " masses" + at);
+        expect_kept(bars(stiffness), 120, "bars" + at);
     }
 }
 
@@ -206,7 +206,7 @@ TEST(LawSpringNets, AreStableHoweverStiffAndDamped)
                                                  .stiffness = stiffness,
                                                  .damping = damping,
                                                  .length = 1.01f * static_cast<float>(t.length) / 1.1f});
-            steps(net.scene, 200);
+            steps(net.scene, 100);
             EXPECT_FALSE(net.scene.report().has(StepFlag::BodyQuarantined));
             for (const Net::Thread& t : net.threads)
                 EXPECT_NEAR(net.distance(t) * 1.1 / t.length, 1.01, 0.05) << stiffness << " N/m, " << damping << " N s/m";

@@ -32,7 +32,7 @@ std::span<const Arrangement> arrangements()
         {"JointsInRoom", 3000, joints_in_room},
         {"SpringsInRoom", 1000, springs_in_room},
         {"Company", 300, company},
-        {"LinkageInRoom", 1700, linkage_in_room},
+        {"LinkageInRoom", 1000, linkage_in_room},
     };
     return list;
 }

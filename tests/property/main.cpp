@@ -1,4 +1,4 @@
-// 102,000 random shots. Every arrangement is a test; every shot has a number.
+// 101,300 random shots. Every arrangement is a test; every shot has a number.
 //
 //   carom-test-property --shot N    replays one shot, with its arrangement and the state after every step
 //   carom-test-property --program N prints it as a program of its own
