@@ -95,14 +95,14 @@ void hinged_ring(Trial& trial)
     Scene& scene = trial.open(size, pick_gravity(random));
     const int count = 4 + random.below(9);
     const double pitch = 2 * size * random.range(1.05, 1.5);
-    const double radius = 0.5 * pitch / std::sin(pi / count);
+    const double radius = 0.5 * pitch / std::sin(d(pi) / count);
     const Room room = pick_polygon_room(random, 1.5 * (radius + 4 * size));
     build_walls(trial, room);
     std::vector<BodyId> bodies;
     std::vector<Point> places;
     for (int i = 0; i < count; ++i)
     {
-        places.push_back(radius * direction(2 * pi * i / count));
+        places.push_back(radius * direction(2 * d(pi) * i / count));
         bodies.push_back(add_piece(trial, pick_piece(random, size), BodyType::Dynamic, places.back(), 0, {}, 0));
         expect_inside(trial, room, bodies.back());
     }
