@@ -14,7 +14,7 @@ namespace speed {
 struct CompanyCost
 {
     std::string what{};
-    std::vector<double> ms{}; ///< medians of a step's time, by contender; negative: that engine cannot run it
+    std::vector<double> ms{}; ///< medians of a step's time, by contender
 };
 
 /// All contenders step the same scene in turn. Each scene is told as soon as it is known.

@@ -55,7 +55,7 @@ struct Result
                                                 const RunOptions& options);
 inline constexpr int hash_interval = 20;
 
-/// Of at least one value; reorders them.
+/// The median of at least one value; the values are reordered.
 [[nodiscard]] double median(std::vector<double>& values);
 
 } // namespace speed

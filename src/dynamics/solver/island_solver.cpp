@@ -123,7 +123,7 @@ private:
         finish_substep(k);
     }
 
-    // Where joints are solved directly, free articulations drift along parabolas until a contact bears a load or may be reached.
+    // Free articulations whose joints are solved directly drift along parabolas until a contact bears a load or may be reached.
     void find_drifts()
     {
         if (!m_work.island.all_direct || m_work.island.wide_count > 0 || !m_work.has_contacts())

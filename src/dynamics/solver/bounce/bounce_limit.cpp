@@ -57,6 +57,13 @@ double kinetic_energy(const SolverView& view, const Island& island)
     return sum;
 }
 
+void take_speeds(const SolverView& view, const Island& island, std::vector<BodySpeeds>& out)
+{
+    out.clear();
+    for (int i = island.first_state; i < island.first_state + island.state_count; ++i)
+        out.push_back(now_of(view.states[i]));
+}
+
 // With the change d of the speeds v and its share s: v·v + 2 s v·d + s² d·d = 2 most, products taken with the masses.
 void limit_bounce(const SolverView& view, const Island& island, std::span<const ContactBounce> bounces,
                   std::span<const BodySpeeds> stopped, double most)

@@ -10,10 +10,13 @@
 
 namespace carom::internal {
 
-/// Of the dynamic bodies of an island, J.
+/// The kinetic energy of the dynamic bodies of an island, J.
 [[nodiscard]] double kinetic_energy(const SolverView& view, const Island& island);
 
-/// Cuts a bounce to this kinetic energy, J. `stopped` are the speeds of the island's states before it.
+/// The present speeds of an island's states, in their order.
+void take_speeds(const SolverView& view, const Island& island, std::vector<BodySpeeds>& out);
+
+/// Cuts a bounce to this kinetic energy, J. `stopped` are the speeds that take_speeds found before it.
 void limit_bounce(const SolverView& view, const Island& island, std::span<const ContactBounce> bounces,
                   std::span<const BodySpeeds> stopped, double most);
 

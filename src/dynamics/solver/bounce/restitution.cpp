@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// Outside of lanes. Those that have come within the step do not bounce: flight has seen to that.
+    /// The constraints outside of lanes. Those that have come within the step do not bounce: flight has seen to that.
     [[nodiscard]] std::span<ContactConstraint> constraints() const
     {
         return {m_scratch.solver.constraints.data() + m_island.first_constraint, as_index(m_island.constraint_count)};
@@ -101,13 +101,10 @@ private:
                 bounce.answers[i] |= bounce.wanted[i] > 0;
             }
         }
-        std::vector<BodySpeeds>& stopped = m_output.stopped_speeds;
-        stopped.clear();
-        for (int i = m_island.first_state; i < m_island.first_state + m_island.state_count; ++i)
-            stopped.push_back({m_view.states[i].velocity, m_view.states[i].angular_velocity});
+        take_speeds(m_view, m_island, m_output.stopped_speeds);
         m_joints->bounce_contacts(bounces, tiny_share * m_ctx.rest_speed);
         if (gets_no_energy())
-            limit_bounce(m_view, m_island, bounces, stopped, m_kinetic_before);
+            limit_bounce(m_view, m_island, bounces, m_output.stopped_speeds, m_kinetic_before);
         for (const StruckConstraint& struck : m_output.struck_constraints)
             finish_impact(*struck.constraint, struck, k, m_output);
         m_output.struck_constraints.clear();
@@ -126,7 +123,7 @@ private:
         }
     }
 
-    // From a kicker, or from a body that is driven.
+    // Kickers and driven bodies give energy.
     [[nodiscard]] bool gets_no_energy() const
     {
         const auto is_driven = [this](std::int32_t i)

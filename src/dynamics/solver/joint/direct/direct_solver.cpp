@@ -249,7 +249,7 @@ double DirectSolve::spring_change() const
     return m_longest_arm > 0 ? as_double(m_view.h) * m_spring_change / as_double(m_longest_arm) : 0;
 }
 
-// Not of sliders: their axis turns with a body. A body that turns by more than half a radian is not followed, and its spring damped.
+// A slider's spring is none of them: its axis turns with a body. A body that turns by more than half a radian is not followed, and its spring damped.
 void DirectSolve::find_sprung_lines()
 {
     m_sprung_lines.clear();
