@@ -320,8 +320,7 @@ struct Target
     void wake_neighbours() const
     {
         for_each_contact(data.state, slot, [&](int contact) { wake_body(data, other_body(data.state.contacts[contact], slot)); });
-        for (int edge = record().first_joint; edge != none; edge = data.state.joints[edge >> 1].next[edge & 1])
-            wake_body(data, other_body(data.state.joints[edge >> 1], slot));
+        for_each_joint(data.state, slot, [&](int joint) { wake_body(data, other_body(data.state.joints[joint], slot)); });
     }
 };
 

@@ -127,8 +127,17 @@ private:
         return whip_weight * std::sqrt(omega * std::fabs(sim.angular_velocity));
     }
 
-    // omega² of a body on its springs if all else stood still and all springs pulled along one line. An oscillation that is damped within a few swings need
-    // not be followed.
+    // omega² of a body on one spring; 0 for an oscillation that is damped within a few swings, which need not be followed.
+    [[nodiscard]] static float followed_rate(const JointRecord& spring, const BodySim& sim, float inverse_mass, Vec2 anchor)
+    {
+        const Vec2 arm = anchor - sim.local_center;
+        const float own = inverse_mass + dot(arm, arm) * sim.inverse_inertia;
+        const bool fades =
+            spring.damping * spring.damping * own >= 4 * few_swings_damping * few_swings_damping * spring.stiffness;
+        return fades ? 0 : spring.stiffness * own;
+    }
+
+    // omega² of a body on its springs if all else stood still and all springs pulled along one line.
     [[nodiscard]] float spring_rate(int body) const
     {
         if (body == none || !is_moving_dynamic(state, body))
@@ -136,17 +145,14 @@ private:
         const BodySim& sim = state.sims[static_cast<std::size_t>(body)];
         const float inverse_mass = std::max(sim.inverse_mass.x, sim.inverse_mass.y);
         float rate = 0;
-        for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
-        {
-            const JointRecord& joint = state.joints[edge >> 1];
-            if (joint.kind != JointType::Spring)
-                continue;
-            const Vec2 arm = (joint.body_a == body ? joint.anchor_a : joint.anchor_b) - sim.local_center;
-            const float own = inverse_mass + dot(arm, arm) * sim.inverse_inertia;
-            const bool fades =
-                joint.damping * joint.damping * own >= 4 * few_swings_damping * few_swings_damping * joint.stiffness;
-            rate += fades ? 0 : joint.stiffness * own;
-        }
+        for_each_joint(state, body,
+                       [&](int index)
+                       {
+                           const JointRecord& joint = state.joints[index];
+                           if (joint.kind == JointType::Spring)
+                               rate += followed_rate(joint, sim, inverse_mass,
+                                                     joint.body_a == body ? joint.anchor_a : joint.anchor_b);
+                       });
         return rate;
     }
 

@@ -121,11 +121,12 @@ void keep_carried_awake(SceneState& state, int body)
                          if (kind == contact_flag::touching)
                              state.sims[static_cast<std::size_t>(other_body(contact, body))].sleep_time = 0;
                      });
-    for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
-    {
-        if (const int other = other_body(state.joints[edge >> 1], body); other != none)
-            state.sims[static_cast<std::size_t>(other)].sleep_time = 0;
-    }
+    for_each_joint(state, body,
+                   [&](int joint)
+                   {
+                       if (const int other = other_body(state.joints[joint], body); other != none)
+                           state.sims[static_cast<std::size_t>(other)].sleep_time = 0;
+                   });
 }
 
 // A target applies to one step, in which it has been reached.

@@ -3,6 +3,7 @@
 // Sleep and waking. An island sleeps and wakes as a whole. While it sleeps, its boxes are in the resting layer and its contacts keep their manifolds and
 // impulses untouched.
 
+#include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/state/scene_data.h"
 
@@ -44,10 +45,7 @@ void for_each_neighbour(const SceneState& state, int body, Visit&& visit)
         if ((contact.flags & (contact_flag::touching | contact_flag::trigger)) == contact_flag::touching)
             look_at(other_body(contact, body));
     }
-    for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
-    {
-        look_at(other_body(state.joints[edge >> 1], body));
-    }
+    for_each_joint(state, body, [&](int joint) { look_at(other_body(state.joints[joint], body)); });
 }
 
 /// Appends the bodies connected with this one, itself first, as far as belongs(other) holds, and marks them as seen (by body slot).

@@ -21,6 +21,14 @@ void for_each_leaf(const SceneState& state, int body, Visit&& visit)
     }
 }
 
+/// Calls visit(joint slot) for every joint of the body.
+template <class Visit>
+void for_each_joint(const SceneState& state, int body, Visit&& visit)
+{
+    for (int edge = state.bodies[body].first_joint; edge != none; edge = state.joints[edge >> 1].next[edge & 1])
+        visit(edge >> 1);
+}
+
 [[nodiscard]] inline LeafView leaf_view(const SceneState& state, int shape)
 {
     return view(state.shapes[shape].leaf, state.leaf_store);

@@ -10,6 +10,7 @@
 #include "dynamics/solver/joint/springs.h"
 
 #include "core/trigonometry.h"
+#include "dynamics/state/body_store.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,9 +114,8 @@ void fit_implicitly(double stiffness, double damping, double mass, double h, Joi
 int count_springs(const SceneState& state, int body)
 {
     int count = 0;
-    for (int edge = body == none ? none : state.bodies[body].first_joint; edge != none;
-         edge = state.joints[edge >> 1].next[edge & 1])
-        count += state.joints[edge >> 1].kind == JointType::Spring ? 1 : 0;
+    if (body != none)
+        for_each_joint(state, body, [&](int joint) { count += state.joints[joint].kind == JointType::Spring ? 1 : 0; });
     return count;
 }
 
