@@ -206,10 +206,12 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const bool turns = !p.held && !p.jointed && lever_arm(p, effective) > 0;
     const std::string sum = v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign + number(impulse) + "/" +
                             number(effective) + " = ";
+    // Of two numbers that digits cannot tell apart, the one to which the sum is rounded, unless that is what a difference leaves.
+    const float shown = is_alone && std::abs(by_formula) > 0.5f * scale ? by_formula : after;
     const char* sentence = is_alone ? (turns ? "change of spot" : "change") : turns ? "change of spot from" : "change from";
     story.push_back(
         {Kind::Formula,
-         say(sentence, {{"name", p.name}, {"way", sum}, {"v", v}, {"before", number(before)}, {"after", number(after)}})});
+         say(sentence, {{"name", p.name}, {"way", sum}, {"v", v}, {"before", number(before)}, {"after", number(shown)}})});
     if (turns && undisturbed)
         story.push_back({Kind::Formula, say("centre", {{"name", p.name},
                                                        {"impulse", number(impulse)},
