@@ -12,6 +12,7 @@
 #include "dynamics/forces/force_laws.h"
 #include "dynamics/solver/bounce/bounce_limit.h"
 #include "dynamics/solver/bounce/restitution.h"
+#include "dynamics/solver/bounce/strikes.h"
 #include "dynamics/solver/contact/contact_passes.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/recomputed_contacts.h"
@@ -160,16 +161,47 @@ private:
 
     void advance(int k)
     {
-        solve(true);
+        solve_motion();
         note_pressed();
         integrate_positions(m_work);
+        if (m_strikes.are_met())
+            m_strikes.go_back();
         m_joints.close_gaps();
         m_joints.kick_springs_after();
         m_contacts.walls().guard_cores();
-        if (m_policy.exact_impacts && m_work.has_fliers())
+        if (m_policy.exact_impacts && m_work.has_fliers() && !m_strikes.are_met())
             relax(); // fliers must not meet the speed that pushes overlaps out
         fly(k);
-        relax();
+        if (m_strikes.are_met())
+            strike();
+        else
+            relax();
+    }
+
+    // Where contacts converge: the momentum of bodies that do not meet is then known.
+    [[nodiscard]] bool may_strike() const { return m_policy.converges && m_work.joints.empty() && m_work.has_contacts(); }
+
+    void solve_motion()
+    {
+        if (may_strike())
+            find_strikes();
+        solve(true);
+    }
+
+    void find_strikes()
+    {
+        m_strikes.expect();
+        if (!m_strikes.are_expected())
+            return;
+        solve(false);
+        m_strikes.meet();
+    }
+
+    void strike()
+    {
+        m_recomputed.recompute();
+        m_strikes.begin_impacts();
+        solve(false);
     }
 
     // True if all constraints are in lanes, and nothing comes between solving and relaxing.
@@ -260,7 +292,7 @@ private:
     {
         const std::size_t contacts = m_work.constraints.size() + m_work.late_constraints().size();
         const bool alternates = m_joints.are_direct() && contacts > 0 && m_work.island.wide_count == 0;
-        const bool converges = m_policy.converges && contacts > 0 && contacts + m_work.joints.size() > 1;
+        const bool converges = m_policy.converges && contacts > 0 && (contacts + m_work.joints.size() > 1 || m_strikes.are_met());
         const int most = converges ? most_passes : alternates ? passes_in_turns : 1;
         for (int pass = 1; pass <= most; ++pass)
         {
@@ -291,7 +323,10 @@ private:
         m_recomputed.recompute();
         m_joints.place();
         m_joints.prepare_direct(DirectSolve::Masses::Own);
+        if (may_strike())
+            m_strikes.expect(); // of the next sub-step: they are not to be stopped before
         solve(false);
+        m_strikes.end_waiting();
         m_contacts.relax_deep_overlaps();
     }
 
@@ -316,10 +351,19 @@ private:
         const int impacts = m_work.output.bulk_impacts;
         const std::size_t kicks = m_work.output.kicked_shapes.size();
         internal::bounce(bouncing(), k, m_work.team);
+        if (m_strikes.are_met())
+            go_on_from_strikes();
         m_joints.bounce_off_limits(m_work.output.bulk_impacts != impacts);
         const bool kicked = m_work.output.kicked_shapes.size() != kicks;
         if (m_policy.conserves_energy)
             restore_energy(kicked);
+    }
+
+    void go_on_from_strikes()
+    {
+        m_strikes.begin_next();
+        solve(false);
+        m_strikes.finish();
     }
 
     // The energy that a bounce may not exceed. A contact may have stopped its bodies before, on the way.
@@ -405,6 +449,7 @@ private:
     ContactPasses m_contacts;
     RecomputedContacts m_recomputed;
     IslandJoints m_joints;
+    Strikes m_strikes{m_work};
     IslandEnergy& m_energy; ///< memory that the islands of a task share
     Convergence m_convergence;
     const IslandPolicy& m_policy;

@@ -46,7 +46,7 @@ public:
     void note_approaches()
     {
         for (ContactConstraint& constraint : constraints())
-            note_approach(m_view, constraint, m_joints != nullptr);
+            note_approach(m_view, constraint);
     }
 
     // With a = (u1 - u0) / h while the bodies come nearer by s: u² = u0² + 2 a s. They may meet in the next sub-step only, which the relaxation foresees.

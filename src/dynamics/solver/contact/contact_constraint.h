@@ -27,6 +27,9 @@ struct ConstraintPoint
     float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear no load yet
     float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
+    Vec2 ra_other{}; ///< lever arms at another time of a sub-step with strikes; else 0
+    Vec2 rb_other{};
+    bool waits = false; ///< for its strike: it neither bears nor stops anything
 };
 
 struct ContactConstraint

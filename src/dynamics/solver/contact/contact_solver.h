@@ -40,8 +40,8 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
 /// The speed of b's surface relative to a's along perp(n), less the surface speed, m/s.
 [[nodiscard]] float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
-/// Notes the approach speeds of points that bear no load yet, before the sub-step's forces: of each point, or only of constraints none of whose points does.
-void note_approach(const SolverView& view, ContactConstraint& constraint, bool each_point);
+/// Notes the approach speeds of points that bear no load yet, before the sub-step's forces.
+void note_approach(const SolverView& view, ContactConstraint& constraint);
 
 /// The approach speed when the sub-step began, along the present normal of the constraint.
 [[nodiscard]] float approach_before(const Scratch& scratch, const ContactConstraint& constraint, const ConstraintPoint& point);

@@ -18,7 +18,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr float follow_turn = 0.03f; // rad
+constexpr float follow_turn = 0.0002f; // rad
 
 // Each new point takes over the impulses of the old point with the same feature; impulses of the others count in the sum over the step. Says which points are new.
 std::array<bool, 2> carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint& constraint)
