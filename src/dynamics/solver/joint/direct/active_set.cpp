@@ -40,7 +40,7 @@ void DirectSolve::find_impulses(Stage stage)
 
 void DirectSolve::begin_axes(Stage stage)
 {
-    m_compliance = !m_may_contradict ? 0 : stage == Stage::Ahead ? loop_compliance * m_softening : loop_compliance;
+    m_compliance = !m_may_contradict ? 0 : loop_compliance * (stage == Stage::Ahead ? m_softening : m_least_softening);
     m_leak = stage == Stage::Ahead ? m_compliance : 0;
     if (m_yields && stage != Stage::Held)
         m_compliance = m_leak = std::max(m_compliance, yielding_compliance);

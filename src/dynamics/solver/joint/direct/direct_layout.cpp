@@ -116,13 +116,30 @@ bool DirectSolve::place()
     double stretch = 1;
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
         stretch = std::max(stretch, as_double(m_nodes[i].stretch));
-    m_softening = stretch * stretch * stretch;
+    m_least_softening = std::clamp(softening_of_error * present_error(), least_softening, 1.0);
+    m_softening = stretch > 1 ? stretch * stretch * stretch : m_least_softening;
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
     {
         const Triple old = std::exchange(m_masses[i], inverse_mass(m_nodes[i]));
         changed |= m_masses[i] != old;
     }
     return changed;
+}
+
+// The widest gap in arms, or rad.
+double DirectSolve::present_error() const
+{
+    float length = 0;
+    float angle = 0;
+    for (const Item& item : m_items)
+    {
+        for (int r = 0; r < item.held; ++r)
+        {
+            float& largest = item.row(r).is_angle ? angle : length;
+            largest = std::max(largest, std::fabs(item.row(r).error));
+        }
+    }
+    return as_double(std::max(m_longest_arm > 0 ? length / m_longest_arm : 0, angle));
 }
 
 // How far the rows have yielded, per impulse that they bear.

@@ -14,8 +14,9 @@
 // taut chain stretches without bound, yield instead: their compliance grows with the third power of the stretch, because the pull falls with that power.
 // The compliance then falls by at most half per sub-step, so that the gap that it has left is not closed at once.
 //
-// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. The compliance bounds the impulses that they bear, if
-// the error that they act on is bounded: an error that is large compared with the arms turns bodies to where it is a different one.
+// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. Where they agree, a compliance of 1e-5 of a row's
+// weight shares the load among redundant rows, and none is seen. With the error that they act on it grows, up to 1e-3: that bounds the impulses that they
+// bear, if the error is bounded; one that is large compared with the arms turns bodies to where it is a different one.
 //
 // No impulse is right where a wall holds a body that joints pull: joints and contacts would outbid each other without end. The joints then yield, as they do
 // where they stay far apart. Their compliance is then as great as their bodies' inverse masses. With that, alternating passes over joints and contacts
@@ -72,7 +73,8 @@ void DirectSolve::prepare(const SolverView& view, SceneState& state, std::span<J
     if (m_ready && masses == Masses::Loaded)
         find_sprung_lines();
     if (m_ready && m_may_contradict)
-        m_softening = std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), 1.0, most_softening);
+        m_softening =
+            std::clamp(std::max(m_softening, 0.5 * present_compliance() / loop_compliance), m_least_softening, most_softening);
 }
 
 // --- passes -------------------------------------------------------------------------------------------------------------------------
@@ -93,6 +95,7 @@ void DirectSolve::solve(bool use_bias)
     if (stage == Stage::Soft)
         straighten_springs();
     note_speeds();
+    soften_to(largest_error());
     if (stage == Stage::Soft)
         close_slowly();
     take_step(stage);
@@ -117,6 +120,7 @@ bool DirectSolve::find_pose_ahead()
         note_errors_ahead();
     }
     const double before = largest_error();
+    soften_to(before);
     m_turns_too_far = (before > 1 && !m_may_contradict) || largest_gap() > most_gap;
     if (m_turns_too_far)
         return false;
@@ -127,7 +131,8 @@ bool DirectSolve::find_pose_ahead()
         const double turn = largest_turn();
         note_errors_ahead();
         const double after = largest_error();
-        m_turns_too_far = after > 0.5 * std::max(before, turn) && after > 1e-3;
+        const bool parts = m_may_contradict && m_softening < 1 && after > before; // the rows are next to contradicting each other
+        m_turns_too_far = after > 1e-3 && (parts || after > 0.5 * std::max(before, turn));
         const bool contradicts = m_may_contradict && after > most_contradiction;
         if (!m_turns_too_far || (m_may_contradict && !contradicts && !may_soften()))
             break;
@@ -170,6 +175,13 @@ bool DirectSolve::may_soften() const
     return (m_may_contradict && m_softening < most_softening) || (has_springs && m_spring_softening < most_softening);
 }
 
+// The impulse that closes an error is then bounded, however little the joints agree.
+void DirectSolve::soften_to(double error)
+{
+    m_least_softening = std::max(m_least_softening, std::min(softening_of_error * error, 1.0));
+    m_softening = std::max(m_softening, m_least_softening);
+}
+
 void DirectSolve::soften()
 {
     m_softening = std::min(16 * m_softening, most_softening);
@@ -184,6 +196,7 @@ void DirectSolve::bounce() { give_blow(Stage::Now); }
 void DirectSolve::give_blow(Stage stage)
 {
     note_speeds();
+    soften_to(largest_error());
     find_impulses(stage);
     take_velocities();
     report_as_blow();

@@ -259,6 +259,7 @@ private:
     [[nodiscard]] double present_compliance() const;
     [[nodiscard]] bool find_pose_ahead();
     [[nodiscard]] bool may_soften() const;
+    void soften_to(double error);
     void soften();
     void note_speeds();
     void note_errors_ahead();
@@ -268,6 +269,7 @@ private:
     void set_turn(SprungLine& line, const Triple& on_a, const Triple& on_b);
     void find_sprung_lines();
     [[nodiscard]] Placement ahead_of(int node, std::int32_t state) const;
+    [[nodiscard]] double present_error() const;
     [[nodiscard]] double largest_error() const;
     [[nodiscard]] double largest_gap() const;
     [[nodiscard]] double spring_change() const;
@@ -314,8 +316,10 @@ private:
     SceneState* m_state = nullptr;
     std::span<JointWork> m_joints;
     bool m_looks_again = true;
-    bool m_fits = false;                            ///< whether there are rows to solve, and it is wanted
-    static constexpr double loop_compliance = 1e-3; ///< relative to a row's weight
+    bool m_fits = false;                             ///< whether there are rows to solve, and it is wanted
+    static constexpr double loop_compliance = 1e-3;  ///< relative to a row's weight, where joints contradict each other
+    static constexpr double least_softening = 0.01;  ///< factor of it where they agree
+    static constexpr double softening_of_error = 70; ///< per arm or rad that joints are apart
 
     bool m_is_wanted = true;
     bool m_ready = false;
@@ -331,7 +335,8 @@ private:
     bool m_is_new = false;   ///< whether the layout is new and the matrix still empty
     double m_compliance = 0; ///< compliance of loops and of yielding joints, in the present stage
     double m_leak = 0;
-    double m_softening = 1; ///< factor of the compliance of loops
+    double m_softening = 1;       ///< factor of the compliance of loops
+    double m_least_softening = 1; ///< that of the errors that this sub-step has seen
     double m_spring_softening = 1;
     double m_spring_change = 0;        ///< greatest speed along a sprung line that the last Newton step has changed
     double m_factored_with = -1;       ///< compliance in the factor; m_compliances are in it as well
