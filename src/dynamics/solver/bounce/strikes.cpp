@@ -8,6 +8,8 @@ namespace carom::internal {
 
 namespace {
 
+constexpr float least_approach = 0.5f; // of the rest speed: what gravity gives in a sub-step
+
 BodySpeeds between(const BodySpeeds& from, const BodyState& to, float share)
 {
     return {from.velocity + share * (to.velocity - from.velocity),
@@ -40,7 +42,7 @@ void Strikes::for_each_body(const Visit& visit)
     {
         const int i = m_work.island.first_state + 1 + k;
         if ((m_work.view.states[i].flags & body_flag::flier) == 0)
-            visit(i, m_noted_speeds[as_index(k)]);
+            visit(i, m_work.output.noted_speeds[as_index(k)]);
     }
 }
 
@@ -51,7 +53,7 @@ void Strikes::expect()
         [&](const ContactConstraint& constraint, ConstraintPoint& p)
         {
             p.waits = p.normal_impulse == 0 && is_met(constraint, p) &&
-                      -constraint_speed(m_work.view, constraint, p) > 0.5f * m_work.ctx.rest_speed;
+                      -constraint_speed(m_work.view, constraint, p) > least_approach * m_work.ctx.rest_speed;
             m_are_expected |= p.waits;
         });
 }
@@ -93,7 +95,7 @@ void Strikes::go_back()
             set_speeds_of(s, momentum);
             set_speeds_of(s, between(m_work.scratch.solver.speeds[as_index(i)], s, m_time + 0.5f));
         });
-    auto noted = m_noted_impulses.begin();
+    auto noted = m_work.output.noted_impulses.begin();
     m_work.for_each_constraint([&](ContactConstraint& constraint) { set_impulses(constraint, *noted++); });
 }
 
@@ -159,18 +161,19 @@ void Strikes::note_arms()
 
 void Strikes::note_speeds()
 {
-    m_noted_speeds.clear();
+    m_work.output.noted_speeds.clear();
     for (int i = m_work.island.first_state + 1; i <= m_work.island.first_state + m_work.island.dynamic_count; ++i)
-        m_noted_speeds.push_back({m_work.view.states[i].velocity, m_work.view.states[i].angular_velocity});
+        m_work.output.noted_speeds.push_back({m_work.view.states[i].velocity, m_work.view.states[i].angular_velocity});
 }
 
 void Strikes::note_impulses()
 {
-    m_noted_impulses.clear();
+    m_work.output.noted_impulses.clear();
     m_work.for_each_constraint(
         [&](const ContactConstraint& constraint)
         {
-            Impulses& noted = m_noted_impulses.emplace_back(Impulses{{}, {}, constraint.rolling_impulse});
+            ConstraintImpulses& noted =
+                m_work.output.noted_impulses.emplace_back(ConstraintImpulses{{}, {}, constraint.rolling_impulse});
             for (int i = 0; i < constraint.count; ++i)
             {
                 noted.normal[i] = constraint.points[i].normal_impulse;
@@ -189,7 +192,7 @@ void Strikes::lay_impulses_aside()
         });
 }
 
-void Strikes::set_impulses(ContactConstraint& constraint, const Impulses& impulses)
+void Strikes::set_impulses(ContactConstraint& constraint, const ConstraintImpulses& impulses)
 {
     constraint.rolling_impulse = impulses.rolling;
     for (int i = 0; i < constraint.count; ++i)

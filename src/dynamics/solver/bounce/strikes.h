@@ -10,8 +10,6 @@
 
 #include "dynamics/solver/solved_island.h"
 
-#include <vector>
-
 namespace carom::internal {
 
 class Strikes
@@ -37,13 +35,6 @@ public:
     [[nodiscard]] bool are_met() const { return m_are_met; }
 
 private:
-    struct Impulses
-    {
-        float normal[2];
-        float tangent[2];
-        float rolling;
-    };
-
     [[nodiscard]] bool is_met(const ContactConstraint& constraint, const ConstraintPoint& p) const;
     template <class Visit>
     void for_each_point(const Visit& visit) const;
@@ -54,13 +45,11 @@ private:
     void note_speeds();
     void note_impulses();
     void lay_impulses_aside();
-    static void set_impulses(ContactConstraint& constraint, const Impulses& impulses);
+    static void set_impulses(ContactConstraint& constraint, const ConstraintImpulses& impulses);
     static void add_to_sums(ContactConstraint& constraint, float sign);
 
     SolvedIsland& m_work;
-    std::vector<BodySpeeds> m_noted_speeds; ///< of dynamic bodies
-    std::vector<Impulses> m_noted_impulses; ///< of constraints
-    float m_time = 0;                       ///< of the fastest strike, as a share of the sub-step
+    float m_time = 0; ///< of the fastest strike, as a share of the sub-step
     bool m_are_expected = false;
     bool m_are_met = false;
 };

@@ -56,6 +56,14 @@ struct ContactConstraint
     ConstraintPoint points[2];
 };
 
+/// The impulses of a constraint, laid aside.
+struct ConstraintImpulses
+{
+    float normal[2] = {};
+    float tangent[2] = {};
+    float rolling = 0;
+};
+
 /// The sum of its normal impulses, which limits rolling.
 [[nodiscard]] inline float load_of(const ContactConstraint& constraint)
 {
