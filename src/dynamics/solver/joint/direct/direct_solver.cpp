@@ -14,7 +14,7 @@
 // taut chain stretches without bound, yield instead: their compliance grows with the third power of the stretch, because the pull falls with that power.
 // The compliance then falls by at most half per sub-step, so that the gap that it has left is not closed at once.
 //
-// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. Where they agree, a compliance of 1e-5 of a row's
+// Joints of a loop may contradict each other, and so may those of a body that is locked along a line. Where they agree, a compliance of 2e-5 of a row's
 // weight shares the load among redundant rows, and none is seen. With the error that they act on it grows, up to 1e-3: that bounds the impulses that they
 // bear, if the error is bounded; one that is large compared with the arms turns bodies to where it is a different one.
 //

@@ -318,7 +318,7 @@ private:
     bool m_looks_again = true;
     bool m_fits = false;                             ///< whether there are rows to solve, and it is wanted
     static constexpr double loop_compliance = 1e-3;  ///< relative to a row's weight, where joints contradict each other
-    static constexpr double least_softening = 0.01;  ///< factor of it where they agree
+    static constexpr double least_softening = 0.02;  ///< factor of it where they agree
     static constexpr double softening_of_error = 70; ///< per arm or rad that joints are apart
 
     bool m_is_wanted = true;
