@@ -206,7 +206,7 @@ void tell_change(std::vector<StoryLine>& story, const ImpactParty& p, float effe
     const bool turns = !p.held && !p.jointed && lever_arm(p, effective) > 0;
     const std::string sum = v + sign + "j/" + with_index("m", first) + " = " + number(before) + sign + number(impulse) + "/" +
                             number(effective) + " = ";
-    // Of two numbers that digits cannot tell apart, the one to which the sum is rounded, unless that is what a difference leaves.
+    // The engine's number may round to another last digit than the sum. A sum that is a small difference has lost its own digits.
     const float shown = is_alone && std::abs(by_formula) > 0.5f * scale ? by_formula : after;
     const char* sentence = is_alone ? (turns ? "change of spot" : "change") : turns ? "change of spot from" : "change from";
     story.push_back(

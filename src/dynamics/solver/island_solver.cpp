@@ -178,7 +178,7 @@ private:
             relax();
     }
 
-    // Where contacts converge: the momentum of bodies that do not meet is then known.
+    // Strikes need the momentum of bodies that do not meet, which is known where contacts converge.
     [[nodiscard]] bool may_strike() const { return m_policy.converges && m_work.joints.empty() && m_work.has_contacts(); }
 
     void solve_motion()

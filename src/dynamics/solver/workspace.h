@@ -142,7 +142,7 @@ struct IslandOutput : ImpactReport
     std::vector<StruckConstraint> struck_constraints; ///< that are still to bounce
     std::vector<ContactBounce> contact_bounces;
     std::vector<BodySpeeds> stopped_speeds; ///< by state of the island, before contacts bounce
-    std::vector<BodySpeeds> noted_speeds;   ///< of dynamic bodies, see Strikes
+    std::vector<BodySpeeds> noted_speeds;   ///< likewise, see Strikes
     std::vector<ConstraintImpulses> noted_impulses;
     std::vector<std::int32_t> struck_lanes;     ///< lanes of the island that were struck in this sub-step
     std::vector<std::int32_t> struck_states;    ///< solver-owned bodies that fliers have struck in this sub-step

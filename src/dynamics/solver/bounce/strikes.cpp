@@ -1,6 +1,7 @@
 #include "dynamics/solver/bounce/strikes.h"
 
 #include "core/index.h"
+#include "dynamics/solver/bounce/bounce_limit.h"
 
 #include <utility>
 
@@ -38,11 +39,11 @@ void Strikes::for_each_point(const Visit& visit) const
 template <class Visit>
 void Strikes::for_each_body(const Visit& visit)
 {
-    for (int k = 0; k < m_work.island.dynamic_count; ++k)
+    const int first = m_work.island.first_state;
+    for (int i = first + 1; i <= first + m_work.island.dynamic_count; ++i)
     {
-        const int i = m_work.island.first_state + 1 + k;
         if ((m_work.view.states[i].flags & body_flag::flier) == 0)
-            visit(i, m_work.output.noted_speeds[as_index(k)]);
+            visit(i, m_work.output.noted_speeds[as_index(i - first)]);
     }
 }
 
@@ -79,7 +80,7 @@ void Strikes::meet()
         });
     if (m_are_met)
     {
-        note_speeds();
+        take_speeds(m_work.view, m_work.island, m_work.output.noted_speeds);
         note_impulses();
         note_arms();
     }
@@ -125,7 +126,7 @@ void Strikes::begin_next()
             p.ra = std::exchange(p.ra_other, {});
             p.rb = std::exchange(p.rb_other, {});
         });
-    note_speeds();
+    take_speeds(m_work.view, m_work.island, m_work.output.noted_speeds);
     for_each_body(
         [&](int i, const BodySpeeds&)
         {
@@ -157,13 +158,6 @@ void Strikes::note_arms()
             p.ra_other = p.ra;
             p.rb_other = p.rb;
         });
-}
-
-void Strikes::note_speeds()
-{
-    m_work.output.noted_speeds.clear();
-    for (int i = m_work.island.first_state + 1; i <= m_work.island.first_state + m_work.island.dynamic_count; ++i)
-        m_work.output.noted_speeds.push_back({m_work.view.states[i].velocity, m_work.view.states[i].angular_velocity});
 }
 
 void Strikes::note_impulses()

@@ -42,7 +42,6 @@ private:
     void for_each_body(const Visit& visit);
     void take_arms_of_meeting(ConstraintPoint& p) const;
     void note_arms();
-    void note_speeds();
     void note_impulses();
     void lay_impulses_aside();
     static void set_impulses(ContactConstraint& constraint, const ConstraintImpulses& impulses);

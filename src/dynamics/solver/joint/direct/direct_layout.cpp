@@ -116,7 +116,7 @@ bool DirectSolve::place()
     double stretch = 1;
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
         stretch = std::max(stretch, as_double(m_nodes[i].stretch));
-    m_least_softening = std::clamp(softening_of_error * present_error(), least_softening, 1.0);
+    m_least_softening = m_may_contradict ? std::clamp(softening_of_error * present_error(), least_softening, 1.0) : 1;
     m_softening = stretch > 1 ? stretch * stretch * stretch : m_least_softening;
     for (std::size_t i = JointMatrix::ground + 1; i < m_nodes.size(); ++i)
     {

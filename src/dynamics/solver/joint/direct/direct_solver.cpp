@@ -95,7 +95,8 @@ void DirectSolve::solve(bool use_bias)
     if (stage == Stage::Soft)
         straighten_springs();
     note_speeds();
-    soften_to(largest_error());
+    if (m_may_contradict)
+        soften_to(largest_error());
     if (stage == Stage::Soft)
         close_slowly();
     take_step(stage);
@@ -196,7 +197,8 @@ void DirectSolve::bounce() { give_blow(Stage::Now); }
 void DirectSolve::give_blow(Stage stage)
 {
     note_speeds();
-    soften_to(largest_error());
+    if (m_may_contradict)
+        soften_to(largest_error());
     find_impulses(stage);
     take_velocities();
     report_as_blow();
