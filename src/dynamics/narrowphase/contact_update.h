@@ -5,6 +5,8 @@
 #include "collision/manifold.h"
 #include "dynamics/state/body_store.h"
 
+#include <array>
+
 namespace carom::internal {
 
 /// Pose of a body within the step.
@@ -26,7 +28,11 @@ struct BodyPose
 [[nodiscard]] Manifold world_manifold(const SceneState& state, const Contact& contact, const BodyPose& a, const BodyPose& b,
                                       float margin);
 
-/// Warm starting: a point takes over the impulses of the old point with the same feature. A single point also takes over those of a single old point.
+/// For each point of a fresh manifold its index in the old one, or none. A point is the same as the old one with the same feature, or, once the reference
+/// edge is the other shape's, as the nearest one; a single point always is the same as a single old one.
+[[nodiscard]] std::array<int, 2> match_points(const Manifold& old, const Manifold& fresh);
+
+/// Warm starting: points take over the impulses of those that they match.
 void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impulses);
 
 [[nodiscard]] inline BodyPose pose_at_start(const SceneState& state, int body)

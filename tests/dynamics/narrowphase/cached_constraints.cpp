@@ -68,7 +68,7 @@ TEST(DynamicsKeptRows, AreThoseFilledAnew)
 TEST(DynamicsKeptRows, FallAsleepAsTheyAre)
 {
     PilePair pair(true);
-    pair.run(900);
+    pair.run(1500);
     EXPECT_EQ(pair.followed().scene.report().awake_bodies, 0);
     pair.both([](World& w) { w.scene.body(w.bodies[3]).apply_impulse({0, 300}); });
     pair.run(60);

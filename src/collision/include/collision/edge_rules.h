@@ -77,4 +77,8 @@ template <class Point>
            is_left_of_chain(piece, center.x, center.y) != (side > 0);
 }
 
+/// Whether two points were clipped to edges of different hulls. Then their places tell whether they are the same, and not their features: a choice between
+/// faces that are nearly parallel names all points anew.
+[[nodiscard]] inline bool is_reference_changed(std::uint32_t before, std::uint32_t now) { return ((before ^ now) >> 31) != 0; }
+
 } // namespace carom::internal

@@ -20,25 +20,21 @@ namespace {
 
 constexpr float follow_turn = 0.0002f; // rad
 
-// Each new point takes over the impulses of the old point with the same feature; impulses of the others count in the sum over the step. Says which points are new.
+// Each point takes over all of the old one that it matches; the impulses of others count in the sum over the step. Says which points are new.
 std::array<bool, 2> carry_points(const Manifold& old, const Manifold& fresh, ContactConstraint& constraint)
 {
     ConstraintPoint points[2];
     std::array<bool, 2> is_new{};
     bool taken[2] = {};
+    const std::array<int, 2> from = match_points(old, fresh);
     for (int i = 0; i < fresh.count; ++i)
     {
-        is_new[as_index(i)] = true;
-        for (int j = 0; j < constraint.count; ++j)
-        {
-            const bool same = fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && constraint.count == 1);
-            if (!same || taken[j])
-                continue;
-            points[i] = constraint.points[j];
-            taken[j] = true;
-            is_new[as_index(i)] = false;
-            break;
-        }
+        const int j = from[as_index(i)];
+        is_new[as_index(i)] = j == none;
+        if (j == none)
+            continue;
+        points[i] = constraint.points[j];
+        taken[j] = true;
     }
     for (int j = 0; j < constraint.count; ++j)
     {
