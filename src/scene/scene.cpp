@@ -27,6 +27,8 @@ bool check_def(const SceneDef& def)
     return check.finite("SceneDef::gravity", def.gravity) && check.positive("SceneDef::length_scale", def.length_scale) &&
            check.holds(def.substeps >= 1 && def.substeps <= 64, "SceneDef::substeps", std::to_string(def.substeps),
                        "must be from 1 to 64") &&
+           check.holds(def.most_passes >= 1 && def.most_passes <= 16, "SceneDef::most_passes", std::to_string(def.most_passes),
+                       "must be from 1 to 16") &&
            check.holds(def.most_subdivisions >= 1 && def.most_subdivisions <= 64, "SceneDef::most_subdivisions",
                        std::to_string(def.most_subdivisions), "must be from 1 to 64") &&
            check.in_range("SceneDef::fixed_step", def.fixed_step, 1e-5f, longest_step) &&

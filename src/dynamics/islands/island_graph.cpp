@@ -156,7 +156,7 @@ public:
         for (const IslandTally& t : scratch.graph.tallies)
         {
             const bool is_isolated = t.bodies == 1 && scratch.graph.is_isolated[static_cast<std::size_t>(t.first)] != 0;
-            const IslandPolicy policy = choose_policy(t, is_isolated, ctx.dt, ctx.scene.forced_policy);
+            const IslandPolicy policy = choose_policy(t, is_isolated, ctx.dt, ctx.scene.def.most_passes, ctx.scene.forced_policy);
             Batch* batch = policy.soft_joints ? &soft : policy.free_fall ? &isolated : nullptr;
             if (batch == nullptr || batch->island == none || batch->bodies >= enough_bodies)
             {

@@ -58,9 +58,16 @@ bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
            (!policy.recomputes_contacts && policy.subdivisions == 1 && (t.joints == 0 || !policy.conserves_energy));
 }
 
+// Where joints are solved row by row, a pass over contacts would need one over joints.
+int passes_of(const IslandTally& t, const IslandPolicy& policy, int most)
+{
+    const bool joint_rows = t.joints > 0 && (policy.wide_joints || !policy.direct_joints);
+    return joint_rows ? 1 : std::clamp(bodies_in_all_passes / t.bodies, 1, most);
+}
+
 } // namespace
 
-IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced)
+IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, int most_passes, const ForcedPolicy& forced)
 {
     IslandPolicy policy;
     policy.subdivisions = island.subdivisions;
@@ -81,12 +88,12 @@ IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt
     force(policy.conserves_energy, forced.conserves_energy);
     force(policy.caches_manifolds, forced.caches_manifolds);
     force(policy.subdivisions, forced.subdivisions);
-    policy.converges &= island.bodies <= most_converging_bodies;
     policy.wide_contacts = may_be_wide(island, policy) && forced.wide_contacts.value_or(true);
     const bool many = island.joints > few_joints && (lies_in_a_pile(island) || has_many_loops(island));
     policy.wide_joints = policy.wide_contacts && forced.wide_joints.value_or(policy.soft_joints || many);
     policy.direct_joints = forced.direct_joints.value_or(!has_many_loops(island) && !is_damped_crowd(island));
     force(policy.caches_graph, forced.caches_graph);
+    policy.passes = forced.passes.value_or(passes_of(island, policy, most_passes));
     policy.caches_graph &= policy.wide_contacts;
     return policy;
 }

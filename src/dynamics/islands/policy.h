@@ -11,8 +11,7 @@ namespace carom::internal {
 
 /// As in a break of fifteen balls: beyond it, one contact more or less does not decide a ball's path.
 inline constexpr int few_bodies = 16;
-inline constexpr int most_watched_bodies = 64;    ///< island size up to which joints count as swinging whatever touches them
-inline constexpr int most_converging_bodies = 32; ///< number of bodies whose speeds IslandSolver can store
+inline constexpr int most_watched_bodies = 64; ///< island size up to which joints count as swinging whatever touches them
 /// Impacts of a body in a crowd in one step: with more, the solver owns it in the next steps. A crowd that has had more than four for each body collapses:
 /// there, most of them only pass speed to and fro.
 [[nodiscard]] inline int most_impacts_of_a_step(int impacts_of_island, int bodies)
@@ -20,6 +19,8 @@ inline constexpr int most_converging_bodies = 32; ///< number of bodies whose sp
     return impacts_of_island > 4 * bodies ? 4 : 16;
 }
 inline constexpr int most_loops = 256; ///< closed by joints: in a sheet of hinges, the matrix of the joints fills up
+
+inline constexpr int bodies_in_all_passes = 512; ///< of a sub-step: larger islands take fewer
 
 /// Data by which the policy of an island is chosen.
 struct IslandTally
@@ -58,6 +59,7 @@ struct IslandPolicy
     bool wide_contacts = false; ///< contacts are solved in wide constraints of eight lanes
     bool wide_joints = false;   ///< so are hinges
     std::int32_t subdivisions = 1; ///< per sub-step
+    std::int32_t passes = 1;       ///< over contacts, which are as many times as stiff, see set_softness() in step.cpp
     bool direct_joints = true;     ///< joints outside of lanes are solved all at once; otherwise one after the other
 };
 
@@ -75,6 +77,7 @@ struct ForcedPolicy
     std::optional<bool> wide_contacts{};
     std::optional<bool> wide_joints{};
     std::optional<std::int32_t> subdivisions{};
+    std::optional<std::int32_t> passes{};
     std::optional<bool> direct_joints{};
 };
 
@@ -88,7 +91,8 @@ struct ForcedPolicy
 [[nodiscard]] bool follows_whips(const IslandTally& island);
 
 /// is_isolated: the island's first body has nothing near. dt: the time step, s.
-[[nodiscard]] IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, const ForcedPolicy& forced);
+[[nodiscard]] IslandPolicy choose_policy(const IslandTally& island, bool is_isolated, float dt, int most_passes,
+                                         const ForcedPolicy& forced);
 
 /// Are all joints of an island solved at once, including the rows along their axes?
 [[nodiscard]] bool solves_all_joints_directly(const IslandPolicy& policy, bool some_in_lanes);

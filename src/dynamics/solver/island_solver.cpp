@@ -22,7 +22,6 @@
 #include "dynamics/state/scene_data.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -41,25 +40,32 @@ public:
 
     void begin_pass()
     {
-        for (int i = 0; i < m_work.island.dynamic_count; ++i)
+        for (std::int32_t i = m_first; i < m_end; ++i)
         {
-            const BodyState& s = state(i);
-            m_before[as_index(i)] = {s.velocity, s.angular_velocity};
+            const BodyState& s = m_work.view.states[i];
+            before(i) = {s.velocity, s.angular_velocity};
         }
     }
 
     // A hundredth of the slop per sub-step.
     [[nodiscard]] float tiny_speed() const { return 0.01f * m_work.ctx.scene.tolerances.slop * m_work.view.inverse_h; }
 
-    [[nodiscard]] bool is_reached() const
+    // Before `least` passes, another one must change next to nothing: arches sway for ever with what passes leave, unless it is damped.
+    [[nodiscard]] bool is_reached(int pass, int least) const
     {
-        const float tiny = tiny_speed();
-        for (int i = 0; i < m_work.island.dynamic_count; ++i)
+        const float share = pass >= least ? 1 : m_work.island.policy.caches_manifolds ? 0.02f : 0.003f;
+        return changes_less_than(share * tiny_speed());
+    }
+
+private:
+    [[nodiscard]] bool changes_less_than(float tiny) const
+    {
+        for (std::int32_t i = m_first; i < m_end; ++i)
         {
-            const BodyState& s = state(i);
-            const StateConstants& c = m_work.view.constants[m_work.island.first_state + 1 + i];
-            const Vec2 dv = s.velocity - m_before[as_index(i)].linear;
-            const float dw = s.angular_velocity - m_before[as_index(i)].angular;
+            const BodyState& s = m_work.view.states[i];
+            const StateConstants& c = m_work.view.constants[i];
+            const Vec2 dv = s.velocity - before(i).velocity;
+            const float dw = s.angular_velocity - before(i).angular_velocity;
             const float turning = c.inverse_inertia > 0 ? dw * dw * c.inverse_mass.x / c.inverse_inertia : 0;
             if (dot(dv, dv) + turning > tiny * tiny)
                 return false;
@@ -67,17 +73,14 @@ public:
         return true;
     }
 
-private:
-    struct Speeds
+    [[nodiscard]] BodySpeeds& before(std::int32_t state) const
     {
-        Vec2 linear;
-        float angular;
-    };
-
-    [[nodiscard]] const BodyState& state(int i) const { return m_work.view.states[m_work.island.first_state + 1 + i]; }
+        return m_work.scratch.solver.speeds_before_pass[as_index(state)];
+    }
 
     const SolvedIsland& m_work;
-    std::array<Speeds, most_converging_bodies> m_before{};
+    const std::int32_t m_first = m_work.island.first_state + 1;
+    const std::int32_t m_end = m_first + m_work.island.dynamic_count;
 };
 
 class IslandSolver
@@ -178,8 +181,11 @@ private:
             relax();
     }
 
-    // Strikes need the momentum of bodies that do not meet, which is known where contacts converge.
-    [[nodiscard]] bool may_strike() const { return m_policy.converges && m_work.joints.empty() && m_work.has_contacts(); }
+    // Strikes need the momentum of bodies that do not meet, which is known where contacts converge, and until something else strikes them in flight.
+    [[nodiscard]] bool may_strike() const
+    {
+        return m_policy.converges && m_work.joints.empty() && m_work.has_contacts() && !m_work.has_fliers();
+    }
 
     void solve_motion()
     {
@@ -286,17 +292,19 @@ private:
         solve_in_turns(use_bias);
     }
 
-    // With few bodies, joints and contacts alternate. Contacts of a few bodies are solved until they converge: a
-    // body that a wall stops last still stops its neighbors, and overlap is pushed out against the forces.
+    // With few bodies, joints and contacts alternate. Small islands have several passes over contacts, and those of a few bodies are solved until they
+    // converge: a body that a wall stops last still stops its neighbors, and overlap is pushed out against the forces.
     void solve_in_turns(bool use_bias)
     {
         const std::size_t contacts = m_work.constraints.size() + m_work.late_constraints().size();
         const bool alternates = m_joints.are_direct() && contacts > 0 && m_work.island.wide_count == 0;
-        const bool converges = m_policy.converges && contacts > 0 && (contacts + m_work.joints.size() > 1 || m_strikes.are_met());
-        const int most = converges ? most_passes : alternates ? passes_in_turns : 1;
+        const bool affect_each_other =
+            m_work.has_contacts() && (m_work.island.wide_count > 0 || contacts + m_work.joints.size() > 1 || m_strikes.are_met());
+        const int several = affect_each_other ? std::max(m_policy.passes, alternates ? passes_in_turns : 1) : 1;
+        const int most = affect_each_other && m_policy.converges ? most_passes : several;
         for (int pass = 1; pass <= most; ++pass)
         {
-            if (converges)
+            if (most > 1)
                 m_convergence.begin_pass();
             m_joints.solve(use_bias, pass == most);
             if (std::exchange(m_carries_approaches_on, false))
@@ -305,13 +313,13 @@ private:
                 m_kinetic_before = 0;
                 note_kinetic();
             }
-            m_contacts.solve_wide(use_bias, pass == most);
+            m_contacts.solve_wide(use_bias, pass > 1);
             if (alternates && m_joints.direct().has_free_articulations())
                 m_joints.direct().solve_contacts(m_work.constraints, m_work.late_constraints(), use_bias,
                                                  m_convergence.tiny_speed());
             else
                 m_contacts.solve_others(use_bias);
-            if (converges && m_convergence.is_reached() && (!alternates || pass >= passes_in_turns))
+            if (most > 1 && m_convergence.is_reached(pass, several))
                 break;
         }
     }

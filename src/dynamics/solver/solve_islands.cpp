@@ -151,6 +151,7 @@ void solve_islands(StepContext& ctx)
     mark_traced(ctx);
     set_size(scratch.solver.unpushed, scratch.solver.states.size());
     set_size(scratch.solver.speeds, scratch.solver.states.size());
+    set_size(scratch.solver.speeds_before_pass, scratch.solver.states.size());
     form_batches(scratch);
     const TaskHooks& tasks = ctx.scene.def.tasks;
     const int batches = static_cast<int>(scratch.order.size()) - 1;

@@ -188,7 +188,8 @@ struct SolverWorkspace
     std::vector<WideJoint> wide_joints;
     std::vector<JointWork> joints;
     std::vector<WideCore> cores;
-    std::vector<BodySpeeds> speeds; ///< by state: at the start of the sub-step
+    std::vector<BodySpeeds> speeds;             ///< by state: at the start of the sub-step
+    std::vector<BodySpeeds> speeds_before_pass; ///< by state, of islands with several passes
     std::vector<BodySpeeds>
         unpushed; ///< by state, of islands that may warm start by body: speeds without the constraints' impulses in the sub-step
     std::vector<IslandOutput> outputs;

@@ -14,7 +14,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int passes_of_deep_overlaps = 7;
+constexpr int passes_of_deep_overlaps = 10;
 
 } // namespace
 
@@ -48,9 +48,10 @@ void ContactPasses::warm_start()
     internal::warm_start(m_work.view, m_work.late_constraints());
 }
 
-void ContactPasses::solve_wide(bool use_bias, bool is_last)
+void ContactPasses::solve_wide(bool use_bias, bool again)
 {
-    m_softness.share = is_last ? 1 : 0;
+    if (again && !use_bias)
+        take_from_sums();
     m_partitions.by_color(m_work.team,
                           [&](int first, int last) { use_bias ? solve_lanes(first, last) : relax_lanes(first, last); });
 }
@@ -117,8 +118,8 @@ void ContactPasses::take_from_sums(int first, int last) const
         {
             for (int i = 0; i < lane_count; ++i)
             {
-                p.total_impulse.v[i] -= m_softness.share * p.normal_impulse.v[i];
-                p.total_tangent.v[i] -= m_softness.share * p.tangent_impulse.v[i];
+                p.total_impulse.v[i] -= p.normal_impulse.v[i];
+                p.total_tangent.v[i] -= p.tangent_impulse.v[i];
             }
         }
     }
@@ -149,7 +150,7 @@ void ContactPasses::relax_deep_overlaps()
 {
     if (std::exchange(m_is_deep, 0) == 0 || m_work.island.partitions > 0)
         return;
-    for (int i = 0; i < passes_of_deep_overlaps; ++i)
+    for (int i = 0; i < passes_of_deep_overlaps * m_work.island.policy.passes; ++i)
     {
         m_partitions.by_color(m_work.team, [this](int first, int last) { relax_again(first, last); });
         solve_others(false);

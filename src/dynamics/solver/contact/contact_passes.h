@@ -20,9 +20,9 @@ public:
     /// Applies the impulses of the last sub-step, unless velocities have them already.
     void warm_start();
 
-    /// One pass over the wide contact constraints. is_last: the last of several passes in
-    /// the sub-step; only that one adds impulses to the sums over the step.
-    void solve_wide(bool use_bias, bool is_last);
+    /// One pass over the wide contact constraints, the first one or another one. Without bias it adds impulses to the sums over the step, for those of the
+    /// last pass.
+    void solve_wide(bool use_bias, bool again);
     /// One pass over the constraints outside of lanes.
     void solve_others(bool use_bias);
     /// Called after a relaxation: runs more passes where many bodies overlap far.

@@ -90,7 +90,6 @@ struct WideSoftness
     Softness contact;
     Softness stiff;   ///< against bodies of infinite mass
     float rest_speed; ///< a slower approach is no impact
-    float share = 1;  ///< of the impulses, added to the sums by relaxing
 };
 
 } // namespace carom::internal

@@ -308,13 +308,13 @@ CAROM_INLINE F8 relax_block(WideContact& constraint, const Features& features, B
     else
         solve_normal(g, constraint.points[0], t);
     for (int i = 0; i < points; ++i)
-        write(constraint.points[i].total_impulse, read<F>(constraint.points[i].total_impulse) + s.share * read<F>(constraint.points[i].normal_impulse));
+        write(constraint.points[i].total_impulse, read<F>(constraint.points[i].total_impulse) + read<F>(constraint.points[i].normal_impulse));
     features.roll(g, constraint, points);
     const F friction = read<F>(constraint.friction);
     for (int i = 0; i < points; ++i)
     {
         const F tangent = solve_friction(g, constraint.points[i], friction, features.template surface_speed<F>());
-        write(constraint.points[i].total_tangent, read<F>(constraint.points[i].total_tangent) + s.share * tangent);
+        write(constraint.points[i].total_tangent, read<F>(constraint.points[i].total_tangent) + tangent);
     }
     g.finish(constraint, states);
     const F separation = read<F>(constraint.points[0].separation);
