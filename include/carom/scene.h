@@ -68,14 +68,15 @@ struct SceneDef
     /// Size of a typical moving object, m, > 0. Sets every tolerance: a tenth to ten times this size simulates well.
     /// The slop is 0.005 of it, 5 mm at 1: shapes nearer than that touch (and part at twice that), and what flies freely may overlap
     /// by that much. Overlap of what rests does not come from it but from the load on soft contacts (contact_hertz): with boxes of 1 m,
-    /// 0.06 mm under one and 4.3 mm under nine. It grows with the load's acceleration, not with length_scale.
+    /// 0.015 mm under one and 1.1 mm under nine. It grows with the load's acceleration, not with length_scale.
     float length_scale = 1;
     int substeps = 4; ///< per step, 1 to 64; a step of more than 1/30 s has as many for each 1/30 s of it
     /// Bodies whose joints, springs or driven surfaces turn or swing too fast for a sub-step get shorter ones for themselves: it is divided into as many parts as
     /// they need, but no more than this, 1 to 64. 1 is fastest; what is not followed is damped or, on joints, loses phase and some energy (docs/accuracy.md).
     int most_subdivisions = 32;
-    /// Contacts of small islands are solved so many times in a sub-step, 1 to 16, and are as many times as stiff: up to 128 bodies with 4, up to 170 three
-    /// times, up to 256 twice. It costs little where bodies rest, since passes end that would change nothing. Up to 16 bodies are solved until they agree.
+    /// Contacts of small islands are solved so many times in a sub-step, 1 to 16, but no more than 512 times over the number of bodies, and are as many times
+    /// as stiff: with 4, islands of up to 128 bodies; up to 170 three times, up to 256 twice. It costs little where bodies rest, since passes end that would
+    /// change nothing. Once only: crowds of jointed figures and large structures whose joints are solved one by one.
     int most_passes = 4;
     float fixed_step = 1.0f / 60; ///< what update() steps by, s, 1e-5 to 10
     float max_frame_time = 0.25f; ///< most that update() catches up in one call, s
@@ -86,7 +87,7 @@ struct SceneDef
     // bodies rests with 5.9 mm of mean overlap, a column of a hundred boxes stands, and a pyramid of a hundred rows comes to rest. Stiffer it swings on, softer
     // it sags by half as much again. Damped by half as much, what a blow presses together is shot apart and heaps that move overlap by up to a tenth more; one
     // at rest overlaps a little less.
-    float contact_hertz = 60;        ///< stiffness of overlap recovery, 1/s, > 0
+    float contact_hertz = 60;        ///< frequency of contacts that are solved in one pass, 1/s, > 0
     float contact_damping_ratio = 9; ///< > 0
     float contact_push_speed = 3;    ///< overlap is removed no faster than this times length_scale, 1/s, >= 0
     bool sleeping = true;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float longest_step = 1.0f / 30; // s
 
-// The frequency of contacts is at most 0.15 / (longest recent sub-step), twice that against bodies of infinite mass. If it followed the present sub-step,
+// The frequency of contacts is at most 0.15 sqrt(passes) / (longest recent sub-step), twice that against bodies of infinite mass. If it followed the present sub-step,
 // steps of changing length would change the stiffness, and stacks would rise and sink.
 // A load travels by one contact in a pass. On the way it swings, and dies down as long as a contact gives way to it faster than overlap is pushed out: at
 // 1 / (h^2 w (2 z + h w)) against w / (2 z + h w), so while h w < 1, or < sqrt(passes). A pyramid of a hundred layers, solved in one pass, after 4 to 8 s:

@@ -81,7 +81,7 @@ struct StepContext
     int substeps;
     int subdivisions = 1; ///< per sub-step of the scene, in islands whose contacts turn fast
     Softness contact_softness{};
-    Softness static_softness{}; ///< against bodies of infinite mass: twice as stiff
+    Softness static_softness{}; ///< against bodies of infinite mass: twice the frequency
     float joint_hertz = 0;
     float rest_speed = 0; ///< slower approach is rest, not an impact: what gravity gives in two sub-steps
 };

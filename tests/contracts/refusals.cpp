@@ -41,6 +41,8 @@ TEST(ContractScene, EveryFieldOfItsDefinition)
     scene_refused({.substeps = 65}, "substeps");
     scene_refused({.most_subdivisions = 0}, "most_subdivisions");
     scene_refused({.most_subdivisions = 65}, "most_subdivisions");
+    scene_refused({.most_passes = 0}, "most_passes");
+    scene_refused({.most_passes = 17}, "most_passes");
     scene_refused({.fixed_step = 0}, "fixed_step");
     scene_refused({.contact_hertz = 0}, "contact_hertz");
     scene_refused({.contact_push_speed = -1}, "contact_push_speed");

@@ -2,9 +2,12 @@
 
 #include "support/test_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace carom;
@@ -127,6 +130,12 @@ TEST(LawStanding, ContactsAreAsManyTimesAsStiffAsThereArePasses)
         const double w = 2 * std::numbers::pi * 0.15 * 240;
         const double sinks = (1.25 * 2 * 190 + 1.25 * 20 / 4.0) * 9.81 / (w * w * passes);
         EXPECT_NEAR(s.strayed(), sinks, 0.03 * sinks);
+        double load = 0;
+        for (const ContactInfo& contact : s.scene.contacts())
+            for (int i = 0; i < contact.point_count; ++i)
+                load += static_cast<double>(contact.points[i].normal_impulse);
+        const double weights = 20 * 21 / 2 * static_cast<double>(s.scene.body(s.bodies[0]).mass()) * 9.81 / 60;
+        EXPECT_NEAR(load, weights, 1e-4 * weights) << "the sums over the step are those of the last pass of each sub-step";
     }
 }
 

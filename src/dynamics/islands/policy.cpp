@@ -58,7 +58,7 @@ bool may_be_wide(const IslandTally& t, const IslandPolicy& policy)
            (!policy.recomputes_contacts && policy.subdivisions == 1 && (t.joints == 0 || !policy.conserves_energy));
 }
 
-// Where joints are solved row by row, a pass over contacts would need one over joints.
+// Joints that are solved row by row are soft as in one pass: stiffer contacts would have the better of them.
 int passes_of(const IslandTally& t, const IslandPolicy& policy, int most)
 {
     const bool joint_rows = t.joints > 0 && (policy.wide_joints || !policy.direct_joints);

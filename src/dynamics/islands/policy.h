@@ -49,7 +49,7 @@ struct IslandPolicy
     bool soft_joints = false;
     /// Manifolds are recomputed within the step, and chain pieces that a body may come to face have constraints.
     bool recomputes_contacts = false;
-    bool converges = false; ///< contacts are solved until they converge, in up to 16 passes; otherwise in one pass
+    bool converges = false; ///< contacts are solved until they converge, in up to 16 passes
     /// All contacts of an impact reflect at once, and a body that becomes fast takes off; otherwise impacts are solved in pairs.
     bool exact_impacts = false;
     bool conserves_energy = false; ///< speeds are held to the energy that loads leave, see IslandEnergy

@@ -48,6 +48,8 @@ Manifold world_manifold(const SceneState& state, const Contact& contact, const B
 
 namespace {
 
+constexpr float nearly_parallel = 0.9f; // cosine of the angle between normals
+
 // The nearer of the old points, if the reference edge has changed.
 int nearest_point(const Manifold& old, const ManifoldPoint& p)
 {
@@ -77,7 +79,7 @@ std::array<int, 2> match_points(const Manifold& old, const Manifold& fresh)
             if (fresh.points[i].feature == old.points[j].feature || (fresh.count == 1 && old.count == 1))
                 from[as_index(i)] = j;
         }
-        if (from[as_index(i)] == none)
+        if (from[as_index(i)] == none && dot(old.normal, fresh.normal) > nearly_parallel)
             from[as_index(i)] = nearest_point(old, fresh.points[i]);
     }
     const bool both = fresh.count == 2 && from[0] == from[1] && from[0] != none;

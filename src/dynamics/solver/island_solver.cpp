@@ -53,7 +53,8 @@ public:
     // Before `least` passes, another one must change next to nothing: arches sway for ever with what passes leave, unless it is damped.
     [[nodiscard]] bool is_reached(int pass, int least) const
     {
-        const float share = pass >= least ? 1 : m_work.island.policy.caches_manifolds ? 0.02f : 0.003f;
+        const bool damps_rest = m_work.island.policy.caches_manifolds;
+        const float share = pass >= least ? 1 : damps_rest ? 0.02f : 0.003f;
         return changes_less_than(share * tiny_speed());
     }
 
@@ -172,7 +173,7 @@ private:
         m_joints.close_gaps();
         m_joints.kick_springs_after();
         m_contacts.walls().guard_cores();
-        if (m_policy.exact_impacts && m_work.has_fliers() && !m_strikes.are_met())
+        if (m_policy.exact_impacts && m_work.has_fliers())
             relax(); // fliers must not meet the speed that pushes overlaps out
         fly(k);
         if (m_strikes.are_met())
@@ -215,8 +216,8 @@ private:
     [[nodiscard]] bool goes_by_partition() const
     {
         const Island& island = m_work.island;
-        return island.partitions > 0 && m_work.joints.empty() && island.wide_joint_count == 0 && m_work.constraints.empty() &&
-               m_work.late_constraints().empty() && !island.traced &&
+        return island.partitions > 0 && m_policy.passes == 1 && m_work.joints.empty() && island.wide_joint_count == 0 &&
+               m_work.constraints.empty() && m_work.late_constraints().empty() && !island.traced &&
                (exceeds_shared_cache(island.partitions) || !m_work.has_fliers());
     }
 
@@ -302,9 +303,11 @@ private:
             m_work.has_contacts() && (m_work.island.wide_count > 0 || contacts + m_work.joints.size() > 1 || m_strikes.are_met());
         const int several = affect_each_other ? std::max(m_policy.passes, alternates ? passes_in_turns : 1) : 1;
         const int most = affect_each_other && m_policy.converges ? most_passes : several;
+        const bool may_end =
+            most > 1 && m_work.island.wide_joint_count == 0; // hinges in lanes add to their sums in the last pass
         for (int pass = 1; pass <= most; ++pass)
         {
-            if (most > 1)
+            if (may_end)
                 m_convergence.begin_pass();
             m_joints.solve(use_bias, pass == most);
             if (std::exchange(m_carries_approaches_on, false))
@@ -319,7 +322,7 @@ private:
                                                  m_convergence.tiny_speed());
             else
                 m_contacts.solve_others(use_bias);
-            if (most > 1 && m_convergence.is_reached(pass, several))
+            if (may_end && m_convergence.is_reached(pass, several))
                 break;
         }
     }

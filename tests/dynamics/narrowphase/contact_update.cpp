@@ -54,6 +54,17 @@ TEST(MatchPoints, GoesByPlaceOnceTheReferenceIsTheOtherShapes)
     EXPECT_EQ(match_points(old, manifold_of({{0.9f, feature_id(true, 0, 2)}})), (Matches{1, none}));
 }
 
+TEST(MatchPoints, TakesAnotherFaceForAnotherPlace)
+{
+    const Manifold old = manifold_of({{-1, feature_id(false, 2, 0)}, {1, feature_id(false, 2, 1)}});
+    Manifold side = manifold_of({{1, feature_id(true, 0, 2)}});
+    side.normal = {1, 0};
+    EXPECT_EQ(match_points(old, side), (Matches{none, none}));
+    constexpr std::uint32_t of_corner = 0x4000u << 16;
+    EXPECT_EQ(match_points(manifold_of({{-1, of_corner}, {1, 7}}), manifold_of({{1, feature_id(true, 0, 2)}, {2, 9}})),
+              (Matches{1, none}));
+}
+
 TEST(MatchPoints, GivesNoOldPointToTwoNewOnes)
 {
     const Manifold old = manifold_of({{1, feature_id(false, 2, 0)}});

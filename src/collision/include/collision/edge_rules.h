@@ -79,6 +79,10 @@ template <class Point>
 
 /// Whether two points were clipped to edges of different hulls. Then their places tell whether they are the same, and not their features: a choice between
 /// faces that are nearly parallel names all points anew.
-[[nodiscard]] inline bool is_reference_changed(std::uint32_t before, std::uint32_t now) { return ((before ^ now) >> 31) != 0; }
+[[nodiscard]] inline bool is_reference_changed(std::uint32_t before, std::uint32_t now)
+{
+    constexpr std::uint32_t of_corner = 1u << 30; // the nearest point of a corner: clipped to none
+    return ((before ^ now) >> 31) != 0 && ((before | now) & of_corner) == 0;
+}
 
 } // namespace carom::internal

@@ -14,7 +14,7 @@ namespace carom::internal {
 
 namespace {
 
-constexpr int passes_of_deep_overlaps = 10;
+constexpr int passes_of_deep_overlaps = 10; // for each that has pushed
 
 } // namespace
 
