@@ -151,7 +151,7 @@ bool offer_corners(const Hull& surface, const Hull& corners, bool corners_are_a,
         const Vec2 n = {s.nx, s.ny};
         const Vec2 on_surface = c - s.distance * n;
         const Vec2 on_corner = c - corners.radius(i) * n;
-        const std::uint32_t feature = (0x4000u << 16) | (corners_are_a ? 0x8000u : 0u) |
+        const std::uint32_t feature = corner_feature | (corners_are_a ? 0x8000u : 0u) |
                                       (static_cast<std::uint32_t>(s.feature & 0x7f) << 8) | static_cast<std::uint32_t>(i & 0xff);
         nearest = corners_are_a ? Nearest{separation, -n, on_corner, on_surface, feature, i, s.feature, true}
                                 : Nearest{separation, n, on_surface, on_corner, feature, i, s.feature, false};

@@ -10,6 +10,7 @@
 #include <initializer_list>
 
 using namespace carom;
+using internal::corner_feature;
 using internal::feature_id;
 using internal::Manifold;
 using internal::match_points;
@@ -60,8 +61,7 @@ TEST(MatchPoints, TakesAnotherFaceForAnotherPlace)
     Manifold side = manifold_of({{1, feature_id(true, 0, 2)}});
     side.normal = {1, 0};
     EXPECT_EQ(match_points(old, side), (Matches{none, none}));
-    constexpr std::uint32_t of_corner = 0x4000u << 16;
-    EXPECT_EQ(match_points(manifold_of({{-1, of_corner}, {1, 7}}), manifold_of({{1, feature_id(true, 0, 2)}, {2, 9}})),
+    EXPECT_EQ(match_points(manifold_of({{-1, corner_feature}, {1, 7}}), manifold_of({{1, feature_id(true, 0, 2)}, {2, 9}})),
               (Matches{1, none}));
 }
 

@@ -77,12 +77,14 @@ template <class Point>
            is_left_of_chain(piece, center.x, center.y) != (side > 0);
 }
 
+/// Bit of features of the nearest point of a corner, which is clipped to no edge.
+inline constexpr std::uint32_t corner_feature = 1u << 30;
+
 /// Whether two points were clipped to edges of different hulls. Then their places tell whether they are the same, and not their features: a choice between
 /// faces that are nearly parallel names all points anew.
 [[nodiscard]] inline bool is_reference_changed(std::uint32_t before, std::uint32_t now)
 {
-    constexpr std::uint32_t of_corner = 1u << 30; // the nearest point of a corner: clipped to none
-    return ((before ^ now) >> 31) != 0 && ((before | now) & of_corner) == 0;
+    return ((before ^ now) >> 31) != 0 && ((before | now) & corner_feature) == 0;
 }
 
 } // namespace carom::internal
