@@ -5,7 +5,7 @@
 
 #include "collision/brute_force.h"
 #include "collision/manifold.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 
 #include <string>
 

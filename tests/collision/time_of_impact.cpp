@@ -2,7 +2,7 @@
 
 #include "collision/time_of_impact.h"
 #include "collision/brute_force.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 
 using namespace carom;
 using namespace carom::test;

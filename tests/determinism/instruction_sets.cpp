@@ -3,7 +3,7 @@
 #include "carom/carom.h"
 #include "dynamics/solver/simd/kernels.h"
 #include "scenes/scenes.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/threads.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace carom;
 
 namespace {
 
-constexpr int steps = test::slow_build ? 3 : 60;
+const int steps = test::part_of(60);
 
 std::uint64_t hash_after(const scenes::SceneEntry& entry, int workers)
 {
@@ -45,7 +45,7 @@ TEST_P(TenScenes, EndInTheSameBits)
         EXPECT_EQ(hash_after(*entry, 1), want) << kernels->name << " against " << best.name;
     }
     internal::use_wide_kernels(best);
-    for (const int workers : test::slow_build ? std::vector{3} : std::vector{2, 3, 8})
+    for (const int workers : test::does_whole_tests() ? std::vector{2, 3, 8} : std::vector{3})
         EXPECT_EQ(hash_after(*entry, workers), want) << workers << " threads";
 }
 

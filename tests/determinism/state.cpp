@@ -1,6 +1,6 @@
 // All state is copied, stepped, restored and stepped again: the same hashes. The same scene twice, on any threads: the same hashes.
 
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 #include "support/threads.h"
 

@@ -5,6 +5,7 @@
 #include "pinball/headless/run.h"
 #include "pinball/table/checker.h"
 #include "pinball/table/loader.h"
+#include "support/effort.h"
 
 #include <bit>
 #include <gtest/gtest.h>
@@ -56,7 +57,7 @@ TEST(NewTable, IsPlayable)
     {
         const Table table = *load_table(new_table("Test", set_of(bits))).table;
         HeadlessRun run(table, 5);
-        while (run.stats().balls() < 20)
+        while (run.stats().balls() < carom::test::part_of(20))
             run.step();
         EXPECT_EQ(run.stats().escaped(), 0);
         EXPECT_EQ(run.stats().stuck(), 0);

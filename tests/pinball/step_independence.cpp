@@ -4,7 +4,7 @@
 
 #include "bench_table.h"
 #include "pinball/table/loader.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using carom::test::Random;
 
-constexpr int shots_per_kind = carom::test::slow_build ? 50 : 500;
+const int shots_per_kind = carom::test::part_of(500);
 constexpr double common_time = 0.025; // s
 constexpr float millisecond = 0.001f;
 

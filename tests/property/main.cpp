@@ -9,7 +9,7 @@
 // CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 5th.
 
 #include "property/arrangements.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,7 +22,7 @@ using namespace carom::shots;
 
 namespace {
 
-constexpr int usual_divisor = carom::test::slow_build ? 8 : 1;
+constexpr int usual_divisor = carom::test::slow_build ? 16 : 1;
 
 int divisor()
 {

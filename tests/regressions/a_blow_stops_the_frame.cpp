@@ -2,7 +2,7 @@
 // is left over waits for the next one, and the report says so.
 
 #include "regressions/numbers.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Symptom: the spring of a hinge exploded from a quarter of the sub-step rate on (one bar at 60 Hz: 1,591 J in 2 kg), at any damping from a half on.
 
 #include "regressions/numbers.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>
@@ -146,7 +146,7 @@ TEST(HingeSprings, AreStableAtAnyStiffnessDampingStepAndNumberOfLinks)
                         SprungBars chain(count, {hertz, damping}, is_free, bend, acts, is_free ? weightless() : sleepless());
                         const double start = chain.stored(hertz) + chain.height();
                         double most = 0; // beyond what springs and gravity give
-                        const int steps = (count > 12 ? 60 : 300) / (slow_build ? 10 : 1);
+                        const int steps = part_of(count > 12 ? 60 : 300);
                         for (int i = 0; i < steps; ++i)
                         {
                             chain.scene.step(step);
@@ -176,7 +176,7 @@ TEST(HingeSprings, WhipWithoutGainingEnergy)
                     SprungBars chain(count, {hertz, 0}, false, bend, true);
                     const double start = chain.stored(hertz) + chain.height();
                     double most = 0;
-                    for (int k = 0; k < rate * (slow_build ? 1 : 10); ++k)
+                    for (int k = 0; k < part_of(10 * rate); ++k)
                     {
                         chain.scene.step(1 / static_cast<float>(rate));
                         most = std::max(most, chain.kinetic() + chain.stored(hertz) + chain.height() - start);

@@ -3,7 +3,7 @@
 
 #include "regressions/numbers.h"
 #include "regressions/shapes.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // but no sub-step found a way for them to go. 15 of 600 hollow bodies with one to three boxes and balls in them.
 
 #include "regressions/numbers.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>

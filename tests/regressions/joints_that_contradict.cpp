@@ -2,7 +2,7 @@
 // far apart, a triangle of rods of 1, 1 and 5 m, two hands that part: speeds up to 1e30 m/s, forces that grew step by step until they were infinite.
 
 #include "regressions/numbers.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>

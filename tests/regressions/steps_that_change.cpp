@@ -1,7 +1,7 @@
 // Symptom: steps of 1/60 s in turn with steps of 1e-5 s shook a resting stack at 0.6 m/s, and in steps of 0.1 s ten boxes sank by 0.8 m.
 
 #include "regressions/numbers.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 
 #include <gtest/gtest.h>

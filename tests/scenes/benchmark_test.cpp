@@ -1,7 +1,7 @@
 // The ten benchmark scenes have the bodies, shapes and joints that Box2D 3.2's program counts at its last step, and run.
 
 #include "scene_run.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 
 #include <algorithm>
 #include <variant>

@@ -5,7 +5,7 @@
 #include "pinball/table/loader.h"
 #include "scenes/scenes.h"
 #include "stories/story_reader.h"
-#include "support/slow_build.h"
+#include "support/effort.h"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(SmallScenes, StoriesOfScenes, testing::ValuesIn(small()
 TEST(StoriesOfGames, AreTrue)
 {
     using namespace pinball;
-    const int games = test::slow_build ? 5 : 100;
+    const int games = test::part_of(100);
     int read = 0;
     int told = 0;
     for (int seed = 1; seed <= games; ++seed)

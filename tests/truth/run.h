@@ -3,7 +3,7 @@
 /// @file
 /// Runs an experiment on Carom and checks what it gives.
 
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "truth/experiment.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Force laws: when they are called, that their loads act as forces do, and that nothing is passed through for their sake.
 
-#include "support/slow_build.h"
+#include "support/effort.h"
 #include "support/test_scene.h"
 #include "support/threads.h"
 
