@@ -297,7 +297,7 @@ bool fly_whole_step(const StepContext& ctx, const Island& island, IslandOutput& 
         start_flight(span, f);
     note_all_reaches(span);
     find_first_events(span, team);
-    const bool may_meet = !island.policy.exact_impacts && std::ranges::all_of(span.fliers(), moves_evenly);
+    const bool may_meet = std::ranges::all_of(span.fliers(), moves_evenly);
     const auto meets = [&](const Flier& f) { return f.passes != none || f.event_time <= span.h; };
     if (std::ranges::count_if(span.fliers(), meets) > (may_meet ? island.flier_count / dense : 0))
         return false;
