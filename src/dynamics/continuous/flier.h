@@ -87,7 +87,7 @@ struct Flier
     std::int32_t passes = none;          ///< contact with a one-way shape that it passes through, not yet noted
     std::int32_t event_version = 0;      ///< of that state when the event was computed
     std::int32_t deflected_index = none; ///< in IslandOutput::deflected; none: it has not been deflected
-    bool needs_wall_check = false;       ///< struck in a crowd: its path is checked against static shapes at the end of the step
+    bool needs_wall_check = false;       ///< struck: its path is checked against static shapes at the end of the step
     bool constrained = false;            ///< its accelerations are those of a resting contact or limit
     bool landed = false;                 ///< not in flight: solver-owned until an impact makes it fast
 

@@ -100,8 +100,7 @@ Bounce ImpactSet::law(int index, double u)
     const double rest = std::max({hop_speed(s, resting_forces), last_bounces(row, resting_forces, bounce.restitution),
                                   both_have_finite_mass(row) ? blow_of(s, -press) : 0}) +
                         m_span.least_approach;
-    if (bounce.kick == 0 && (bounce.restitution * u <= rest || (is_crowded(row) && (m_span.island.policy.exact_impacts ||
-                                                                                    bounce.restitution < bouncing_restitution))))
+    if (bounce.kick == 0 && (bounce.restitution * u <= rest || (is_crowded(row) && bounce.restitution < bouncing_restitution)))
     {
         s.rests = true;
         bounce.restitution = is_small_blow(row, s, u) ? 1 : 0;
@@ -251,7 +250,7 @@ void ImpactSet::deflect(Flier& f, const ImpactBody& now, bool struck) const
     note_deflected(m_span.scratch, m_span.output, m_span.scratch.flight.flier_of_state[static_cast<std::size_t>(f.state)]);
     if (m_renewed)
         return;
-    f.needs_wall_check |= !m_span.island.policy.exact_impacts || f.impacts >= crowd_limit;
+    f.needs_wall_check = true;
     ++f.impacts;
     m_span.output.capped |= is_capped(m_span, f);
 }

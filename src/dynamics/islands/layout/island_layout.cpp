@@ -218,7 +218,7 @@ private:
                 forget_impulses(m_state.joints[mode]);
             m_scratch.layout.flier_seeds.push_back({s, body, mode, false});
         }
-        else if (could != solver_owned && (island.policy.exact_impacts || may_take_off(place, could)))
+        else if (could != solver_owned && may_take_off(place, could))
         {
             m_scratch.layout.flier_seeds.push_back({s, body, could, true});
         }
