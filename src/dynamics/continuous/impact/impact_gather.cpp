@@ -24,8 +24,6 @@ void ImpactSet::gather()
     const int first = member_of(m_first.body);
     if (m_first.event_shape != none)
         add_touches(first, m_first.event_own, m_first.event_shape, contact_between(m_first.event_own, m_first.event_shape));
-    m_gathers_touching = m_span.island.policy.exact_impacts ||
-                         (m_first.event_shape != none && may_bounce(m_span.ctx.scene, m_first.event_own, m_first.event_shape));
     m_members.front().is_struck = true;
 }
 
@@ -42,7 +40,7 @@ void ImpactSet::grow()
     {
         if ((m_members[i].is_struck || m_members[i].changed) && !m_members[i].is_held)
             hold(static_cast<int>(i));
-        if (m_gathers_touching && !m_members[i].is_expanded && (i == 0 || m_members[i].changed || has_changed(i)))
+        if (!m_members[i].is_expanded && (i == 0 || m_members[i].changed || has_changed(i)))
             expand(static_cast<int>(i));
         for (; m_looked_at < m_released.size(); ++m_looked_at)
             look_again(m_released[m_looked_at]);
@@ -160,7 +158,7 @@ void ImpactSet::hold(int index)
     if (m.body == none || m.state == none)
         return;
     add_limits(index);
-    if (m_gathers_touching && m.flier == nullptr && m_members.size() < most_members)
+    if (m.flier == nullptr && m_members.size() < most_members)
         add_joints(m.body);
 }
 

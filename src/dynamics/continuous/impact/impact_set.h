@@ -124,8 +124,7 @@ private:
     const FlightSpan& m_span;
     SceneState& m_state;
     Flier& m_first;
-    bool m_renewed;                  ///< the event renews a resting contact; nothing strikes
-    bool m_gathers_touching = false; ///< otherwise, in a crowd, the impact is that of a pair
+    bool m_renewed; ///< the event renews a resting contact; nothing strikes
     double m_time;
     Position m_origin;
     std::vector<RestingContact> m_released{};
