@@ -50,7 +50,8 @@ struct IslandPolicy
     /// Manifolds are recomputed within the step, and chain pieces that a body may come to face have constraints.
     bool recomputes_contacts = false;
     bool converges = false; ///< contacts are solved until they converge, in up to 16 passes
-    /// All contacts of an impact reflect at once, and a body that becomes fast takes off; otherwise impacts are solved in pairs.
+    /// All that touches takes part in an impact, a body has up to 64 impacts in a sub-step, and one that becomes fast takes off. Otherwise 16
+    /// bodies without those under load, 16 impacts, and only what was struck takes off.
     bool exact_impacts = false;
     bool conserves_energy = false; ///< speeds are held to the energy that loads leave, see IslandEnergy
     /// Manifolds are cached from step to step, and bodies that have been slow for long enough lose their speed (rest damping).

@@ -158,7 +158,7 @@ void ImpactSet::hold(int index)
     if (m.body == none || m.state == none)
         return;
     add_limits(index);
-    if (m.flier == nullptr && m_members.size() < most_members)
+    if (m.flier == nullptr && (m_span.island.policy.exact_impacts || m_members.size() < most_members))
         add_joints(m.body);
 }
 
