@@ -57,3 +57,10 @@ stop_running()
     exit 130
 }
 trap stop_running INT TERM
+
+# By the name of a preset.
+build() { local preset="$1"; shift; run "build $preset" cmake --build "build/$preset" -j "$jobs" "$@"; }
+configure() { local preset="$1"; shift; run "configure $preset" cmake --preset "$preset" "$@"; }
+test_with() { run "tests $1" ctest --preset "$1" -j "$jobs"; }
+ASAN_SYMBOLIZER_PATH="$(command -v llvm-symbolizer-22 || command -v llvm-symbolizer-19 || true)"
+export ASAN_SYMBOLIZER_PATH

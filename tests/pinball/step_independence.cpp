@@ -1,4 +1,4 @@
-// The same shot at steps of 1/120, 1/240 and 1/1000 s leaves with the same speed and angle. 2,000 shots, each with one moving element of
+// The same shot at steps of 1/120, 1/240 and 1/1000 s leaves with the same speed and angle. 2,000 shots at full length, each with one moving element of
 // Momentum on a table of its own, so that nothing else is hit. Speeds are read where the steps of all three end together: at multiples of
 // 25 ms.
 

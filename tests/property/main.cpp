@@ -6,7 +6,7 @@
 //                                   runs everything and prints how many fail; of one arrangement, all that fail
 //
 // CAROM_SHOT_SEED=n in the environment takes others; what it finds is replayed with the same n.
-// CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 5th.
+// CAROM_SHOT_DIVISOR=n in the environment runs every nth shot; builds with sanitizers or structure walks run every 16th.
 
 #include "property/arrangements.h"
 #include "support/effort.h"

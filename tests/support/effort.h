@@ -25,15 +25,14 @@ inline constexpr bool slow_build = false;
 inline bool does_whole_tests()
 {
     const char* wish = std::getenv("CAROM_TESTS");
-    return wish != nullptr && std::string_view(wish) == "whole";
+    return !slow_build && wish != nullptr && std::string_view(wish) == "whole";
 }
 
 /// That part of so many runs, steps or bodies.
 inline int part_of(int whole)
 {
-    if (slow_build)
-        return std::max(whole / 10, 1);
-    return does_whole_tests() ? whole : std::max(whole / 3, 1);
+    const int divisor = slow_build ? 10 : does_whole_tests() ? 1 : 3;
+    return std::max(whole / divisor, 1);
 }
 
 } // namespace carom::test

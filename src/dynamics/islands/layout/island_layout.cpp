@@ -224,7 +224,7 @@ private:
         }
     }
 
-    // In a crowd, only a flier or a force law makes a body fast enough to take off within the step.
+    // Only a flier or a force law makes a body fast enough to take off within the step.
     [[nodiscard]] bool may_take_off(std::int32_t place, std::int32_t mode) const
     {
         return m_scratch.graph.may_be_struck[as_index(place)] != 0 || mode != free_flight ||
