@@ -9,6 +9,14 @@ namespace carom::internal {
 Scratch::Scratch() = default;
 Scratch::~Scratch() = default;
 
+void SettledBlows::clear()
+{
+    struck.clear();
+    copies.clear();
+    contacts.clear();
+    speeds.clear();
+}
+
 ImpactReport::ImpactReport() = default;
 ImpactReport::~ImpactReport() = default;
 ImpactReport::ImpactReport(ImpactReport&&) noexcept = default;

@@ -70,6 +70,12 @@ struct Scratch
     return {scratch.solver.constraints.data() + island.first_constraint, static_cast<std::size_t>(island.constraint_count)};
 }
 
+/// Those of an island's blocks.
+[[nodiscard]] inline BlowBits blow_bits(Scratch& scratch, const Island& island)
+{
+    return {scratch.solver.struck.data() + island.wide_store, scratch.solver.relieved.data() + island.wide_store};
+}
+
 struct StepContext
 {
     SceneData& scene;
@@ -85,6 +91,9 @@ struct StepContext
     float joint_hertz = 0;
     float rest_speed = 0; ///< slower approach is rest, not an impact: what gravity gives in two sub-steps
 };
+
+/// Approach speed of the weakest blow: what gravity gives in a sub-step, m/s.
+[[nodiscard]] inline float least_blow(const StepContext& ctx) { return 0.5f * ctx.rest_speed; }
 
 /// The step as an island takes it: with sub-steps subdivided as its policy asks for.
 [[nodiscard]] StepContext step_of(const StepContext& ctx, const Island& island);

@@ -36,7 +36,7 @@ RefreshChanges ConstraintRefresh::follow(std::size_t at)
     RefreshChanges changes;
     const std::uint32_t looked = now.unsure | now.begins_or_ends;
     const std::uint32_t sure = filled_lanes(notes) & ~looked;
-    notes.may_hit = now.unloaded & sure;
+    notes.may_hit = now.unloaded;
     clear_sums(constraint, notes);
     for_each_lane(sure & ~notes.followed, [&](int i) { m_state.contacts[notes.contact.v[i]].flags |= contact_flag::followed; });
     notes.followed |= sure;

@@ -95,11 +95,7 @@ void carry_impulses(const Manifold& old, Manifold& fresh, ContactImpulses& impul
 {
     fresh.rolling_impulse = old.rolling_impulse;
     const ContactImpulses before = std::exchange(impulses, {});
-    const auto carry = [&](int i, int j)
-    {
-        impulses.points[i].normal = before.points[j].normal;
-        impulses.points[i].tangent = before.points[j].tangent;
-    };
+    const auto carry = [&](int i, int j) { impulses.points[i] = before.points[j]; };
     if (fresh.count == 0) // kept for the next piece of the chain, to which the ball may have rolled
         carry(0, 0);
     const std::array<int, 2> from = match_points(old, fresh);

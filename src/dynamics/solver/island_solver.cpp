@@ -12,7 +12,6 @@
 #include "dynamics/forces/force_laws.h"
 #include "dynamics/solver/bounce/bounce_limit.h"
 #include "dynamics/solver/bounce/restitution.h"
-#include "dynamics/solver/bounce/strikes.h"
 #include "dynamics/solver/contact/contact_passes.h"
 #include "dynamics/solver/contact/prepare.h"
 #include "dynamics/solver/contact/recomputed_contacts.h"
@@ -165,50 +164,16 @@ private:
 
     void advance(int k)
     {
-        solve_motion();
+        solve(true);
         note_pressed();
         integrate_positions(m_work);
-        if (m_strikes.are_met())
-            m_strikes.go_back();
         m_joints.close_gaps();
         m_joints.kick_springs_after();
         m_contacts.walls().guard_cores();
         if (m_policy.exact_impacts && m_work.has_fliers())
             relax(); // fliers must not meet the speed that pushes overlaps out
         fly(k);
-        if (m_strikes.are_met())
-            strike();
-        else
-            relax();
-    }
-
-    // Strikes need the momentum of bodies that do not meet, which is known where contacts converge, and until something else strikes them in flight.
-    [[nodiscard]] bool may_strike() const
-    {
-        return m_policy.converges && m_work.joints.empty() && m_work.has_contacts() && !m_work.has_fliers();
-    }
-
-    void solve_motion()
-    {
-        if (may_strike())
-            find_strikes();
-        solve(true);
-    }
-
-    void find_strikes()
-    {
-        m_strikes.expect();
-        if (!m_strikes.are_expected())
-            return;
-        solve(false);
-        m_strikes.meet();
-    }
-
-    void strike()
-    {
-        m_recomputed.recompute();
-        m_strikes.begin_impacts();
-        solve(false);
+        relax();
     }
 
     // True if all constraints are in lanes, and nothing comes between solving and relaxing.
@@ -300,7 +265,7 @@ private:
         const std::size_t contacts = m_work.constraints.size() + m_work.late_constraints().size();
         const bool alternates = m_joints.are_direct() && contacts > 0 && m_work.island.wide_count == 0;
         const bool affect_each_other =
-            m_work.has_contacts() && (m_work.island.wide_count > 0 || contacts + m_work.joints.size() > 1 || m_strikes.are_met());
+            m_work.has_contacts() && (m_work.island.wide_count > 0 || contacts + m_work.joints.size() > 1 || has_two_points());
         const int several = affect_each_other ? std::max(m_policy.passes, alternates ? passes_in_turns : 1) : 1;
         const int most = affect_each_other && m_policy.converges ? most_passes : several;
         const bool may_end =
@@ -327,6 +292,12 @@ private:
         }
     }
 
+    // Friction couples the two points of a contact.
+    [[nodiscard]] bool has_two_points() const
+    {
+        return std::ranges::any_of(m_work.constraints, [](const ContactConstraint& constraint) { return constraint.count == 2; });
+    }
+
     // Works at the poses that have been reached: removes the speed that pushed overlaps out.
     void relax()
     {
@@ -334,10 +305,7 @@ private:
         m_recomputed.recompute();
         m_joints.place();
         m_joints.prepare_direct(DirectSolve::Masses::Own);
-        if (may_strike())
-            m_strikes.expect(); // of the next sub-step: they are not to be stopped before
         solve(false);
-        m_strikes.end_waiting();
         m_contacts.relax_deep_overlaps();
     }
 
@@ -362,19 +330,10 @@ private:
         const int impacts = m_work.output.bulk_impacts;
         const std::size_t kicks = m_work.output.kicked_shapes.size();
         internal::bounce(bouncing(), k, m_work.team);
-        if (m_strikes.are_met())
-            go_on_from_strikes();
         m_joints.bounce_off_limits(m_work.output.bulk_impacts != impacts);
         const bool kicked = m_work.output.kicked_shapes.size() != kicks;
         if (m_policy.conserves_energy)
             restore_energy(kicked);
-    }
-
-    void go_on_from_strikes()
-    {
-        m_strikes.begin_next();
-        solve(false);
-        m_strikes.finish();
     }
 
     // The energy that a bounce may not exceed. A contact may have stopped its bodies before, on the way.
@@ -460,7 +419,6 @@ private:
     ContactPasses m_contacts;
     RecomputedContacts m_recomputed;
     IslandJoints m_joints;
-    Strikes m_strikes{m_work};
     IslandEnergy& m_energy; ///< memory that the islands of a task share
     Convergence m_convergence;
     const IslandPolicy& m_policy;

@@ -110,6 +110,7 @@ void form_batches(Scratch& scratch)
     scratch.solver.wide_notes.make_room(static_cast<std::size_t>(blocks));
     scratch.solver.wide_features.make_room(static_cast<std::size_t>(blocks));
     set_size(scratch.solver.struck, scratch.solver.wide_contacts.size());
+    set_size(scratch.solver.relieved, scratch.solver.wide_contacts.size());
 }
 
 // All threads solve the large islands together, one after the other.
@@ -150,6 +151,7 @@ void solve_islands(StepContext& ctx)
         scratch.solver.outputs[i].clear();
     mark_traced(ctx);
     set_size(scratch.solver.unpushed, scratch.solver.states.size());
+    scratch.solver.first_relieved.resize(scratch.solver.states.size(), none);
     set_size(scratch.solver.speeds, scratch.solver.states.size());
     set_size(scratch.solver.speeds_before_pass, scratch.solver.states.size());
     form_batches(scratch);

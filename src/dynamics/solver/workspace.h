@@ -114,12 +114,68 @@ struct StruckConstraint
     Vec2 pushed[2]{}; ///< impulses before the bounce, by point
 };
 
+/// A lane that bears no load any more, in the lists of its bodies.
+struct RelievedLane
+{
+    std::int32_t lane; ///< of the island
+    std::int32_t state[2];
+    std::int32_t next[2];
+};
+
+/// A copy of the constraint in a lane that a blow has relieved of a load.
+struct RelievedContact
+{
+    ContactConstraint constraint;
+    std::int32_t lane;
+};
+
+struct StateSpeeds
+{
+    std::int32_t state;
+    BodySpeeds speeds;
+};
+
+/// A point as a blow has left it.
+struct BeforeSettling
+{
+    enum class Role : std::uint8_t
+    {
+        Nothing,
+        Bears,
+        Relieved
+    };
+    Role role = Role::Nothing;
+    float impulse = 0;
+    float rub = 0;
+    float speed = 0;
+    float slip = 0;
+};
+
+struct SettledContact
+{
+    ContactConstraint* constraint;
+    bool may_be_relieved;
+    BeforeSettling before[2];
+};
+
+/// Memory for blows that take back loads, see StandingLoads.
+struct SettledBlows
+{
+    std::vector<std::int32_t> struck; ///< states
+    std::vector<RelievedContact> copies;
+    std::vector<SettledContact> contacts;
+    std::vector<StateSpeeds> speeds; ///< as the blows have left them
+
+    void clear();
+};
+
 /// The report of one thread on an island's impacts.
 struct ImpactReport
 {
     std::vector<ImpactEvent> impacts;
     std::vector<RawTouch> begins; ///< contacts that first bore a load in this step
     std::vector<std::int32_t> kicked_shapes;
+    SettledBlows settled;
     int bulk_impacts = 0;
 
     ImpactReport();
@@ -141,9 +197,8 @@ struct IslandOutput : ImpactReport
     std::vector<StoppedJoint> stopped_joints;         ///< in this sub-step
     std::vector<StruckConstraint> struck_constraints; ///< that are still to bounce
     std::vector<ContactBounce> contact_bounces;
-    std::vector<BodySpeeds> stopped_speeds; ///< by state of the island, before contacts bounce
-    std::vector<BodySpeeds> noted_speeds;   ///< likewise, see Strikes
-    std::vector<ConstraintImpulses> noted_impulses;
+    std::vector<BodySpeeds> stopped_speeds;     ///< by state of the island, before contacts bounce
+    std::vector<RelievedLane> relieved_lanes;   ///< in this sub-step, if any lane was struck
     std::vector<std::int32_t> struck_lanes;     ///< lanes of the island that were struck in this sub-step
     std::vector<std::int32_t> struck_states;    ///< solver-owned bodies that fliers have struck in this sub-step
     std::vector<ImpactReport> reports_of_parts; ///< one per partition, empty except while threads report
@@ -179,10 +234,12 @@ struct SolverWorkspace
     std::vector<LawWork> laws;              ///< by island
     std::vector<ContactConstraint> constraints;
     BlankArray<WideContact> wide_contacts;
-    BlankArray<WideContactNotes> wide_notes; ///< one for each block
-    BlankArray<WideFeatures> wide_features;  ///< likewise
-    std::vector<std::uint8_t> struck;        ///< bits of lanes, one byte for each block, as the kernels find them
-    std::vector<std::int32_t> bucket_starts; ///< block indices, counted from the island's first block
+    BlankArray<WideContactNotes> wide_notes;  ///< one for each block
+    BlankArray<WideFeatures> wide_features;   ///< likewise
+    std::vector<std::uint8_t> struck;         ///< a byte for each block, see BlowBits
+    std::vector<std::uint8_t> relieved;       ///< likewise
+    std::vector<std::int32_t> first_relieved; ///< by state, see RelievedLane; between sub-steps: none
+    std::vector<std::int32_t> bucket_starts;  ///< block indices, counted from the island's first block
     std::vector<std::int32_t> joint_bucket_starts;
     std::vector<std::uint16_t> partition_of; ///< by state, of islands that have partitions
     std::vector<WideJoint> wide_joints;

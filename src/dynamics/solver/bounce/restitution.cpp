@@ -3,7 +3,9 @@
 
 #include "dynamics/solver/bounce/restitution.h"
 #include "dynamics/solver/bounce/bounce_limit.h"
-#include "dynamics/solver/effective_mass.h"
+#include "dynamics/solver/bounce/impact_event.h"
+#include "dynamics/solver/bounce/pushes.h"
+#include "dynamics/solver/bounce/standing_loads.h"
 #include "dynamics/solver/joint/direct/direct_solver.h"
 
 #include "core/grow.h"
@@ -37,10 +39,10 @@ class Bounces
 public:
     explicit Bounces(const BouncingIsland& of)
         : m_ctx(of.ctx), m_scratch(of.ctx.scratch), m_island(of.island), m_output(of.output), m_view(of.view),
-          m_notes_pushes(of.notes_pushes), m_joints(of.joints), m_kinetic_before(of.kinetic_before),
+          m_pushes(of.view, m_scratch.solver.unpushed, of.notes_pushes), m_loads(of.ctx, of.island, of.output, of.view, m_pushes),
+          m_joints(of.joints), m_kinetic_before(of.kinetic_before),
           m_wide(m_scratch.solver.wide_contacts.data() + m_island.wide_store),
-          m_notes(m_scratch.solver.wide_notes.data() + m_island.wide_store),
-          m_struck(m_scratch.solver.struck.data() + m_island.wide_store)
+          m_notes(m_scratch.solver.wide_notes.data() + m_island.wide_store), m_blows(blow_bits(m_scratch, m_island))
     {}
 
     void note_approaches()
@@ -69,7 +71,10 @@ public:
     void bounce(int k, WorkerTeam& team)
     {
         for (ContactConstraint& constraint : constraints())
-            bounce_constraint(constraint, k);
+            end_approaches(constraint);
+        const bool gave_back = m_joints == nullptr && m_loads.give_back(constraints(), m_output.settled);
+        for (ContactConstraint& constraint : constraints())
+            bounce_constraint(constraint, gave_back, k);
         if (!m_output.struck_constraints.empty())
             bounce_through_joints(k);
         bounce_lanes(k, team);
@@ -129,7 +134,7 @@ private:
         const auto is_driven = [this](std::int32_t i)
         {
             const BodyState& s = m_view.states[i];
-            return !has_finite_mass(i) && (s.velocity != Vec2{} || s.angular_velocity != 0);
+            return !m_pushes.has_finite_mass(i) && (s.velocity != Vec2{} || s.angular_velocity != 0);
         };
         return std::ranges::all_of(
             m_output.struck_constraints, [&](const StruckConstraint& struck)
@@ -141,29 +146,43 @@ private:
     {
         find_struck_lanes();
         if (m_output.struck_lanes.size() < enough_lanes)
-        {
-            bounce_blocks(0, m_island.wide_count, k, m_output);
-            return;
-        }
+            bounce_blocks(0, m_island.wide_count, k, m_output, all_blocks());
+        else
+            bounce_parts(k, team);
+        m_loads.forget_relieved();
+    }
+
+    void bounce_parts(int k, WorkerTeam& team)
+    {
         std::vector<ImpactReport>& in_parts = m_output.reports_of_parts;
         in_parts.resize(std::max(in_parts.size(), as_index(m_island.partitions)));
         const int boundary = contact_buckets(m_scratch, m_island)
                                  .by_part(team, [&](int first, int last, int partition)
-                                          { bounce_blocks(first, last, k, in_parts[as_index(partition)]); });
+                                          { bounce_blocks(first, last, k, in_parts[as_index(partition)], {first, last}); });
         for (ImpactReport& report : std::span(in_parts).first(as_index(m_island.partitions)))
             take(report);
-        bounce_blocks(boundary, m_island.wide_count, k, m_output);
+        bounce_blocks(boundary, m_island.wide_count, k, m_output, all_blocks());
     }
+
+    [[nodiscard]] OwnBlocks all_blocks() const { return {0, m_island.wide_count}; }
 
     void find_struck_lanes()
     {
         std::vector<std::int32_t>& lanes = m_output.struck_lanes;
         lanes.clear();
-        for_each_nonzero(m_struck, static_cast<std::size_t>(m_island.wide_count),
+        for_each_lane(m_blows.struck, [&](std::int32_t lane) { lanes.push_back(lane); });
+        if (!lanes.empty())
+            for_each_lane(m_blows.relieved, [&](std::int32_t lane) { m_loads.note_relieved(lane); });
+    }
+
+    template <class Visit>
+    void for_each_lane(const std::uint8_t* of_blocks, const Visit& visit) const
+    {
+        for_each_nonzero(of_blocks, static_cast<std::size_t>(m_island.wide_count),
                          [&](std::size_t g)
                          {
-                             for (unsigned bits = m_struck[g]; bits != 0; bits &= bits - 1)
-                                 lanes.push_back(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
+                             for (unsigned bits = of_blocks[g]; bits != 0; bits &= bits - 1)
+                                 visit(static_cast<std::int32_t>(g) * lane_count + std::countr_zero(bits));
                          });
     }
 
@@ -178,14 +197,14 @@ private:
         report.kicked_shapes.clear();
     }
 
-    void bounce_blocks(int first, int last, int k, ImpactReport& report)
+    void bounce_blocks(int first, int last, int k, ImpactReport& report, OwnBlocks own)
     {
         const std::span<const std::int32_t> lanes = m_output.struck_lanes;
         for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(lanes, first * lane_count) - lanes.begin());
              i < lanes.size() && lanes[i] < last * lane_count; ++i)
         {
             prefetch_struck(i);
-            bounce_lane(lanes[i], k, report);
+            bounce_lane(lanes[i], k, report, own);
         }
     }
 
@@ -209,30 +228,54 @@ private:
     }
 
     // For a lane that bears a load: it is reported once and bounces once.
-    void bounce_lane(std::int32_t lane, int k, ImpactReport& report)
+    void bounce_lane(std::int32_t lane, int k, ImpactReport& report, OwnBlocks own)
     {
         const WideContact& wide = m_wide[lane / lane_count];
         WideContactNotes& notes = m_notes[lane / lane_count];
         const int i = lane % lane_count;
-        const unsigned bit = 1u << i;
-        float approach = 0;
-        for (int p = 0; p < notes.count; ++p)
-        {
-            if (wide.points[p].normal_impulse.v[i] > 0)
-                approach = std::max(approach, notes.approach[p].v[i]);
-        }
-        const bool strikes = (notes.may_hit & bit) != 0 && approach > m_ctx.rest_speed;
         const std::int32_t index = m_island.wide_store * lane_count + lane;
         ContactConstraint constraint = constraint_of_lane(m_scratch, index);
-        constraint.hit = strikes ? 0 : 1;
+        std::uint32_t struck = 0;
+        for (int p = 0; p < notes.count; ++p)
+        {
+            if ((notes.may_hit & may_hit_bit(i, p)) == 0)
+                constraint.points[p].approach = 0;
+            else if (constraint.points[p].normal_impulse > 0)
+                struck |= may_hit_bit(i, p);
+        }
+        const float approach = greatest_approach(constraint);
+        const bool strikes = approach > least_blow(m_ctx);
+        const unsigned bit = 1u << i;
         if ((notes.unreported & bit) != 0 && !touches(m_ctx.state.contacts[constraint.contact])) // flight may have begun it
             begin_touch(constraint, k, report);
         notes.unreported &= ~bit;
         if (!strikes)
             return;
-        resolve_impact(constraint, approach, k, report);
-        notes.may_hit &= ~bit;
+        note_standing_loads(m_ctx, k, index, constraint);
+        add_to_sums(constraint, -1); // as outside of lanes, where the impulses of a sub-step count at its end
+        const float share = m_loads.share_of(gap_of(wide, constraint, i), approach);
+        const bool gave_back = m_loads.give_back(constraint, share, k, own, report.settled);
+        resolve_impact(constraint, approach, gave_back, k, report);
+        let_be_hit(m_scratch, constraint, index);
+        add_to_sums(constraint, 1);
+        notes.may_hit &= ~struck;
         put_impulses(m_scratch, constraint, index);
+    }
+
+    static void add_to_sums(ContactConstraint& constraint, float sign)
+    {
+        for (ConstraintPoint& p : points_of(constraint))
+        {
+            p.total_impulse += sign * p.normal_impulse;
+            p.total_tangent += sign * p.tangent_impulse;
+        }
+    }
+
+    // That of the point which is struck fastest, in m.
+    static float gap_of(const WideContact& wide, const ContactConstraint& constraint, int lane)
+    {
+        const bool is_second = constraint.count == 2 && constraint.points[1].approach > constraint.points[0].approach;
+        return wide.points[is_second ? 1 : 0].separation.v[lane];
     }
 
     // Warm starting must not push points again that have bounced off.
@@ -241,61 +284,70 @@ private:
         for (int i = 0; i < constraint.count; ++i)
         {
             if (constraint.points[i].normal_impulse == 0)
-                note_push(constraint, constraint.points[i], struck.pushed[i]);
+                m_pushes.note(constraint, constraint.points[i], struck.pushed[i]);
         }
     }
 
-    // Notes an impulse that no constraint applies again.
-    void note_push(const ContactConstraint& constraint, const ConstraintPoint& p, Vec2 impulse)
+    // Where the normal has turned away from the approach.
+    void end_approaches(ContactConstraint& constraint) const
     {
-        if (!m_notes_pushes)
-            return;
-        note_push(constraint.a, p.ra, -impulse);
-        note_push(constraint.b, p.rb, impulse);
-    }
-
-    void note_push(std::int32_t state, Vec2 arm, Vec2 impulse)
-    {
-        if (!has_finite_mass(state))
-            return;
-        const StateConstants& c = m_view.constants[state];
-        BodySpeeds& unpushed = m_scratch.solver.unpushed[static_cast<std::size_t>(state)];
-        unpushed.velocity.x += c.inverse_mass.x * impulse.x;
-        unpushed.velocity.y += c.inverse_mass.y * impulse.y;
-        unpushed.angular_velocity += c.inverse_inertia * cross(arm, impulse);
-    }
-
-    void bounce_constraint(ContactConstraint& constraint, int k)
-    {
-        if (constraint.hit != 0 && m_joints == nullptr)
-            return;
-        float approach = 0;
-        float load = 0;
-        for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
+        for (ConstraintPoint& p : points_of(constraint))
         {
             if (p.approach > 0 && approach_before(m_scratch, constraint, p) <= 0)
-                p.approach = 0; // the normal has turned away from the approach
-            load += p.normal_impulse;
-            if (p.normal_impulse > 0)
-                approach = std::max(approach, p.approach);
+                p.approach = 0;
         }
-        if (load <= 0)
+    }
+
+    void bounce_constraint(ContactConstraint& constraint, bool gave_back, int k)
+    {
+        if (!bears_load(constraint) || (constraint.hit != 0 && m_joints == nullptr))
             return;
         if (!touches(m_ctx.state.contacts[constraint.contact]))
             begin_touch(constraint, k, m_output);
-        if (approach <= m_ctx.rest_speed)
-            return;
-        if (m_joints != nullptr)
+        const float approach = greatest_approach(constraint);
+        if (m_joints == nullptr)
+            resolve_impact(constraint, approach, gave_back, k, m_output);
+        else if (approach > m_ctx.rest_speed)
             m_output.struck_constraints.push_back(begin_impact(constraint, approach, m_output));
-        else
-            resolve_impact(constraint, approach, k, m_output);
     }
 
-    void resolve_impact(ContactConstraint& constraint, float approach, int k, ImpactReport& report)
+    static std::span<ConstraintPoint> points_of(ContactConstraint& constraint)
     {
-        const StruckConstraint struck = begin_impact(constraint, approach, report);
-        bounce_points(constraint, struck.restitution, struck.kick_speed);
-        finish_impact(constraint, struck, k, report);
+        return std::span(constraint.points).first(as_index(constraint.count));
+    }
+
+    // Of the points that were stopped.
+    static float greatest_approach(ContactConstraint& constraint)
+    {
+        float approach = 0;
+        for (const ConstraintPoint& p : points_of(constraint))
+        {
+            if (p.normal_impulse > 0)
+                approach = std::max(approach, p.approach);
+        }
+        return approach;
+    }
+
+    // Blows that are too weak to bounce may have taken back loads.
+    void resolve_impact(ContactConstraint& constraint, float approach, bool gave_back, int k, ImpactReport& report)
+    {
+        if (approach > m_ctx.rest_speed)
+        {
+            const StruckConstraint struck = begin_impact(constraint, approach, report);
+            bounce_points(constraint, struck.restitution, struck.kick_speed);
+            finish_impact(constraint, struck, k, report);
+        }
+        if (gave_back && approach > least_blow(m_ctx))
+            lay_aside(constraint);
+    }
+
+    void lay_aside(ContactConstraint& constraint) const
+    {
+        for (ConstraintPoint& p : points_of(constraint))
+        {
+            m_pushes.note(constraint, p, p.normal_impulse * constraint.n + p.tangent_impulse * perp(constraint.n));
+            take_impulse(p);
+        }
     }
 
     [[nodiscard]] StruckConstraint begin_impact(ContactConstraint& constraint, float approach, ImpactReport& report) const
@@ -322,7 +374,7 @@ private:
         event.restitution = struck.restitution;
         event.friction = constraint.friction;
         event.kick_speed = struck.kick_speed;
-        fill_impact(constraint, event);
+        fill_impact(m_ctx, m_view, constraint, event);
         take_impulses(constraint, struck.restitution, struck.kick_speed);
         forget_pushes(constraint, struck);
         ++report.bulk_impacts;
@@ -341,25 +393,11 @@ private:
         return wanted_speed(p, e, kick) - constraint_speed(m_view, constraint, p);
     }
 
-    void push(const ContactConstraint& constraint, ConstraintPoint& p, float impulse)
+    void push(const ContactConstraint& constraint, ConstraintPoint& p, float impulse) const
     {
         p.normal_impulse += impulse;
-        note_push(constraint, p, impulse * constraint.n);
-        push(constraint.a, p.ra, -impulse * constraint.n);
-        push(constraint.b, p.rb, impulse * constraint.n);
-    }
-
-    void push(std::int32_t state, Vec2 arm, Vec2 impulse)
-    {
-        if (has_finite_mass(state))
-            apply_impulse(m_view.states[state], m_view.constants[state], arm, impulse);
-    }
-
-    // A body of infinite mass may be in all partitions: all threads read it, and none writes it.
-    [[nodiscard]] bool has_finite_mass(std::int32_t state) const
-    {
-        const StateConstants& c = m_view.constants[state];
-        return c.inverse_mass != Vec2{} || c.inverse_inertia != 0;
+        m_pushes.note(constraint, p, impulse * constraint.n);
+        m_pushes.apply(constraint, p, impulse * constraint.n);
     }
 
     // Two points that are struck at once bounce at once: a box that lands flat bounces flat.
@@ -396,70 +434,18 @@ private:
     // Points that bounce off are not pushed again by warm starting.
     static void take_impulses(ContactConstraint& constraint, float e, float kick)
     {
-        for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
+        for (ConstraintPoint& p : points_of(constraint))
         {
-            if (wanted_speed(p, e, kick) <= 0)
-                continue;
-            p.total_impulse += p.normal_impulse;
-            p.total_tangent += p.tangent_impulse;
-            p.normal_impulse = p.tangent_impulse = 0;
+            if (wanted_speed(p, e, kick) > 0)
+                take_impulse(p);
         }
     }
 
-    // The points that were struck count as one between them, because their impulses act along one line. A corner that only bears a load has no part in it.
-    void fill_impact(const ContactConstraint& constraint, ImpactEvent& event) const
+    static void take_impulse(ConstraintPoint& p)
     {
-        Vec2 arm_a{};
-        Vec2 arm_b{};
-        for (const ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
-        {
-            if (p.approach <= 0 || p.normal_impulse <= 0)
-                continue;
-            event.impulse += p.normal_impulse;
-            event.friction_impulse += p.tangent_impulse;
-            arm_a += p.normal_impulse * p.ra;
-            arm_b += p.normal_impulse * p.rb;
-        }
-        if (event.impulse <= 0)
-            return;
-        arm_a *= 1 / event.impulse;
-        arm_b *= 1 / event.impulse;
-        const BodySpeeds& a = m_scratch.solver.speeds[as_index(constraint.a)];
-        const BodySpeeds& b = m_scratch.solver.speeds[as_index(constraint.b)];
-        event.normal = constraint.n;
-        event.point = place_on_a(constraint, arm_a);
-        event.velocity_a = a.velocity + cross(a.angular_velocity, arm_a);
-        event.velocity_b = b.velocity + cross(b.angular_velocity, arm_b);
-        event.velocity_after_a = velocity_at(constraint.a, arm_a);
-        event.velocity_after_b = velocity_at(constraint.b, arm_b);
-        event.speed_a = dot(event.velocity_a, constraint.n);
-        event.speed_b = dot(event.velocity_b, constraint.n);
-        event.approach_speed = event.speed_a - event.speed_b;
-        event.effective_mass_a = point_mass(m_view.constants[constraint.a], constraint.n, arm_a);
-        event.effective_mass_b = point_mass(m_view.constants[constraint.b], constraint.n, arm_b);
-        const Vec2 impulse = event.impulse * constraint.n + event.friction_impulse * perp(constraint.n);
-        event.energy_lost =
-            -0.5f * dot(impulse, event.velocity_b - event.velocity_a + event.velocity_after_b - event.velocity_after_a);
-    }
-
-    [[nodiscard]] Vec2 velocity_at(std::int32_t state, Vec2 arm) const
-    {
-        const BodyState& s = m_view.states[state];
-        return s.velocity + cross(s.angular_velocity, arm);
-    }
-
-    // The effective mass of a body at the arm's end along n; 0 where it cannot move.
-    static float point_mass(const StateConstants& c, Vec2 n, Vec2 arm)
-    {
-        const ImpulseLine<float> line{n.x, n.y, cross(arm, n)};
-        const float inverse = response(c.inverse(), line, line);
-        return exceeds_rounding(inverse, dot(arm, arm) * c.inverse_inertia) ? 1 / inverse : 0;
-    }
-
-    [[nodiscard]] Position place_on_a(const ContactConstraint& constraint, Vec2 arm) const
-    {
-        const Contact& contact = m_ctx.state.contacts[constraint.contact];
-        return m_ctx.state.sims[as_index(contact.body_a)].center + m_view.states[constraint.a].delta_position + arm;
+        p.total_impulse += p.normal_impulse;
+        p.total_tangent += p.tangent_impulse;
+        p.normal_impulse = p.tangent_impulse = 0;
     }
 
     void begin_touch(const ContactConstraint& constraint, int k, ImpactReport& report) const
@@ -467,7 +453,7 @@ private:
         const Contact& contact = m_ctx.state.contacts[constraint.contact];
         begin_touch_within_step(m_ctx.state, report,
                                 {constraint.contact, contact.shape_a, contact.shape_b,
-                                 place_on_a(constraint, constraint.points[0].ra), constraint.n,
+                                 place_on_a(m_ctx, m_view, constraint, constraint.points[0].ra), constraint.n,
                                  m_ctx.h * static_cast<float>(k + 1)});
     }
 
@@ -476,12 +462,13 @@ private:
     const Island& m_island;
     IslandOutput& m_output;
     const SolverView& m_view;
-    bool m_notes_pushes;
+    Pushes m_pushes;
+    StandingLoads m_loads;
     DirectSolve* m_joints;
     double m_kinetic_before;
     const WideContact* m_wide;
     WideContactNotes* m_notes;
-    const std::uint8_t* m_struck; ///< bits of lanes, for each block
+    BlowBits m_blows;
 };
 
 } // namespace

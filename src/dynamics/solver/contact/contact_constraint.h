@@ -25,11 +25,10 @@ struct ConstraintPoint
     float tangent_mass = 0;
     float separation_before = 0; ///< at the start of the sub-step, in islands whose energy is watched
     float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear no load yet
+    float last_impulse = 0;      ///< along the normal in the sub-step before
+    float standing_load = 0;     ///< that it bore in both sub-steps before, N s in each: a blow in one of them is none
     float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
-    Vec2 ra_other{}; ///< lever arms at another time of a sub-step with strikes; else 0
-    Vec2 rb_other{};
-    bool waits = false; ///< for its strike: it neither bears nor stops anything
 };
 
 struct ContactConstraint
@@ -54,14 +53,6 @@ struct ContactConstraint
     std::uint8_t pressed = 0;   ///< bore a load in this sub-step before it was relaxed
     Softness softness{};
     ConstraintPoint points[2];
-};
-
-/// The impulses of a constraint, laid aside.
-struct ConstraintImpulses
-{
-    float normal[2] = {};
-    float tangent[2] = {};
-    float rolling = 0;
 };
 
 /// The sum of its normal impulses, which limits rolling.

@@ -22,10 +22,10 @@ ContactPasses::ContactPasses(SolvedIsland& work)
     : m_work(work), m_wide(work.scratch.solver.wide_contacts.data() + work.island.wide_store),
       m_notes(work.scratch.solver.wide_notes.data() + work.island.wide_store),
       m_features(work.scratch.solver.wide_features.data() + work.island.wide_store),
-      m_struck(work.scratch.solver.struck.data() + work.island.wide_store),
+      m_blows(blow_bits(work.scratch, work.island)),
       m_softness{
-          work.ctx.h,         work.view.inverse_h, work.view.push_speed, work.ctx.contact_softness, work.ctx.static_softness,
-          work.ctx.rest_speed},
+          work.ctx.h,          work.view.inverse_h, work.view.push_speed, work.ctx.contact_softness, work.ctx.static_softness,
+          least_blow(work.ctx)},
       m_partitions(contact_buckets(work.scratch, work.island)),
       m_notes_bodies(work.island.wide_count > 0 && work.island.joint_count == 0 && work.island.wide_joint_count == 0)
 {}
@@ -139,7 +139,7 @@ void ContactPasses::solve_lanes(int first, int last) const
 void ContactPasses::relax_lanes(int first, int last)
 {
     const float least = m_kernels.relax(lanes(first, last), m_work.view.states, m_softness, m_work.scratch.solver.speeds.data(),
-                                        m_struck + first);
+                                        {m_blows.struck + first, m_blows.relieved + first});
     if (least < deep())
         std::atomic_ref(m_is_deep).store(1, std::memory_order_relaxed);
 }

@@ -52,7 +52,7 @@ private:
     WideContact* m_wide;
     WideContactNotes* m_notes;
     WideFeatures* m_features;
-    std::uint8_t* m_struck; ///< bits of lanes, for each block
+    BlowBits m_blows;
     WideSoftness m_softness;
     Partitions m_partitions;
     const WideKernels& m_kernels = wide_kernels();

@@ -27,8 +27,6 @@ void apply_impulse(BodyState& s, const StateConstants& c, Vec2 arm, Vec2 impulse
 
 namespace {
 
-constexpr float never = 1e9f; // m/s, as the bias of a point that waits: nothing is that fast
-
 struct Pair
 {
     BodyState& sa;
@@ -76,8 +74,6 @@ void solve_friction(const Pair& pair, const ContactConstraint& constraint, Const
                                                                    const ConstraintPoint& p, bool use_bias)
 {
     const float speed = dot(Pair(view, constraint).relative_velocity(p), constraint.n);
-    if (p.waits)
-        return {speed, never, 1, 1};
     const float separation = constraint_separation(view, constraint, p);
     if (!use_bias)
         return {speed, std::max(separation, 0.0f) * view.inverse_h, 1, 1};
@@ -177,7 +173,10 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
 void note_approach(const SolverView& view, ContactConstraint& constraint)
 {
     for (ConstraintPoint& p : std::span(constraint.points).first(static_cast<std::size_t>(constraint.count)))
+    {
         p.approach = p.normal_impulse > 0 ? 0 : -constraint_speed(view, constraint, p);
+        p.standing_load = std::min(std::exchange(p.last_impulse, p.normal_impulse), p.normal_impulse);
+    }
 }
 
 float approach_before(const Scratch& scratch, const ContactConstraint& constraint, const ConstraintPoint& p)

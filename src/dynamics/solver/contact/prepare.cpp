@@ -1,6 +1,7 @@
 // Prepares fliers and contact constraints from the records.
 
 #include "dynamics/solver/contact/prepare.h"
+#include "dynamics/solver/bounce/standing_loads.h"
 #include "dynamics/solver/effective_mass.h"
 #include "geometry/leaf_traits.h"
 
@@ -147,6 +148,7 @@ void scale_constraint(ContactConstraint& constraint, float by)
     {
         p.normal_impulse *= by;
         p.tangent_impulse *= by;
+        p.last_impulse *= by;
     }
 }
 
@@ -190,6 +192,7 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         const PointImpulses& impulses = impulses_of(ctx.state, index).points[i];
         constraint.points[i].normal_impulse = impulses.normal;
         constraint.points[i].tangent_impulse = impulses.tangent;
+        constraint.points[i].last_impulse = standing_load(impulses, ctx.substeps / ctx.subdivisions);
     }
     if (ctx.subdivisions > 1)
         scale_constraint(constraint, 1 / static_cast<float>(ctx.subdivisions));

@@ -81,6 +81,7 @@ void refill_lane(const StepContext& ctx, std::size_t at, int i)
     for (std::uint32_t* lanes :
          {&notes.loaded, &notes.may_hit, &notes.unreported, &notes.edge_of_b, &notes.nearest, &notes.cached, &notes.followed})
         *lanes &= ~(1u << i);
+    notes.may_hit &= ~may_hit_bit(i, 1);
     const std::int32_t index = notes.contact.v[i];
     const Contact& contact = ctx.state.contacts[index];
     const Manifold& m = contact.manifold;
@@ -112,7 +113,10 @@ void refill_lane(const StepContext& ctx, std::size_t at, int i)
     }
     if (notes.featured != 0)
         fill_features(ctx.state, index, solver.wide_features[at], i);
-    ((contact.flags & contact_flag::loaded) != 0 ? notes.loaded : notes.may_hit) |= 1u << i;
+    if ((contact.flags & contact_flag::loaded) != 0)
+        notes.loaded |= 1u << i;
+    for (int k = 0; k < m.count; ++k)
+        notes.may_hit |= constraint.points[k].normal_impulse.v[i] > 0 ? 0 : may_hit_bit(i, k);
     if (!touches(contact))
         notes.unreported |= 1u << i;
     if (is_cached(contact))
@@ -148,6 +152,7 @@ ContactConstraint constraint_of_lane(Scratch& scratch, std::int32_t index)
         p.ra = arm(from.along_a.v[i], from.across_a.v[i]);
         p.rb = arm(from.along_b.v[i], from.across_b.v[i]);
         p.normal_mass = 1 / lane.k(from);
+        p.tangent_mass = from.tangent_mass.v[i];
         p.normal_impulse = from.normal_impulse.v[i];
         p.tangent_impulse = from.tangent_impulse.v[i];
         p.total_impulse = from.total_impulse.v[i];
@@ -195,7 +200,7 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     for (WidePoint& p : constraint.points)
         p.base.v[i] = p.separation.v[i] = p.tangent_mass.v[i] = p.normal_impulse.v[i] = p.tangent_impulse.v[i] = 0;
     notes.loaded &= ~(1u << i);
-    notes.may_hit &= ~(1u << i);
+    notes.may_hit |= may_hit_bit(i, 0) | may_hit_bit(i, 1);
     notes.unreported &= ~(1u << i);
     contact.wide = none;
     contact.flags &= ~contact_flag::loaded;

@@ -63,13 +63,23 @@ struct alignas(64) WideContactNotes
     LaneFloats approach[2];   ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
     std::int16_t count;       ///< number of points, the same in all lanes
     std::int16_t featured;    ///< whether WideFeatures count; the same in a bucket
-    std::uint32_t may_hit;    ///< bore no load when the step began and have not been struck
+    std::uint32_t may_hit;    ///< points that bore no load when the step began and have not been struck, see may_hit_bit
     std::uint32_t loaded;     ///< the contact has contact_flag::loaded
     std::uint32_t unreported; ///< did not touch when the step began, and the touch is not reported yet
     std::uint32_t edge_of_b;  ///< the normal is that of an edge of b
     std::uint32_t nearest;    ///< the normal leads from corner to corner
     std::uint32_t cached;     ///< the manifold is cached
     std::uint32_t followed;   ///< the contact has contact_flag::followed
+};
+
+/// Lanes of the second points come behind those of the first.
+[[nodiscard]] constexpr std::uint32_t may_hit_bit(int lane, int point) { return 1u << (lane + point * lane_count); }
+
+/// Lanes in a sub-step, as bits: a byte for each block.
+struct BlowBits
+{
+    std::uint8_t* struck;   ///< bear a load and were struck, or touch for the first time
+    std::uint8_t* relieved; ///< have a point that bears no load any more
 };
 
 /// Blocks with the same number of points, no two of which share a body that has finite mass.
@@ -89,7 +99,7 @@ struct WideSoftness
     float push_speed;
     Softness contact;
     Softness stiff;   ///< against bodies of infinite mass
-    float rest_speed; ///< a slower approach is no impact
+    float least_blow; ///< a slower approach is none
 };
 
 } // namespace carom::internal

@@ -335,22 +335,28 @@ CAROM_INLINE void note_approach(const WideContact& constraint, WideContactNotes&
     }
 }
 
-// Lanes that bear a load and were struck faster than the rest speed, or touch for the first time.
+// The lanes that bear a load and were struck by no less than the least blow, or touch for the first time; and those that have lost a load.
 template <int points>
-CAROM_INLINE std::uint8_t struck_lanes(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before, float rest_speed)
+CAROM_INLINE void find_blows(const WideContact& constraint, WideContactNotes& notes, const BodySpeeds* before, float least_blow, BlowBits found)
 {
-    if ((notes.may_hit | notes.unreported) == 0)
-        return 0;
     const I8 first = load(constraint.points[0].normal_impulse) > all(0);
     const I8 second = points == 2 ? load(constraint.points[1].normal_impulse) > all(0) : I8{};
-    const unsigned loaded = bits(first | second);
-    if ((loaded & notes.may_hit) == 0)
-        return static_cast<std::uint8_t>(loaded & notes.unreported);
-    note_approach<points>(constraint, notes, before);
-    I8 struck = first & (load(notes.approach[0]) > all(rest_speed));
+    const unsigned of_first = bits(first);
+    const unsigned of_second = bits(second);
+    const unsigned second_may = notes.may_hit >> lane_count;
+    unsigned relieved = ~(of_first | notes.may_hit);
     if (points == 2)
-        struck |= second & (load(notes.approach[1]) > all(rest_speed));
-    return static_cast<std::uint8_t>((loaded & notes.unreported) | (bits(struck) & notes.may_hit));
+        relieved |= ~(of_second | second_may);
+    unsigned struck = (of_first | of_second) & notes.unreported;
+    if (((of_first & notes.may_hit) | (of_second & second_may)) != 0)
+    {
+        note_approach<points>(constraint, notes, before);
+        struck |= bits(first & (load(notes.approach[0]) > all(least_blow))) & notes.may_hit;
+        if (points == 2)
+            struck |= bits(second & (load(notes.approach[1]) > all(least_blow))) & second_may;
+    }
+    *found.struck = static_cast<std::uint8_t>(struck);
+    *found.relieved = static_cast<std::uint8_t>(relieved);
 }
 
 template <class F, int points, class Features>
@@ -413,12 +419,12 @@ void solve_bucket(WideBucket bucket, BodyState* states, WideSoftness s)
 }
 
 template <int points, class Features>
-float relax_bucket(WideBucket bucket, BodyState* states, WideSoftness s, const BodySpeeds* before, std::uint8_t* struck)
+float relax_bucket(WideBucket bucket, BodyState* states, WideSoftness s, const BodySpeeds* before, BlowBits blows)
 {
     F8 deepest = all(0);
     for_each_block<Features>(bucket, Relax<points>{states, s, deepest});
     for (int i = 0; i < bucket.count; ++i)
-        struck[i] = struck_lanes<points>(bucket.constraints[i], bucket.notes[i], before, s.rest_speed);
+        find_blows<points>(bucket.constraints[i], bucket.notes[i], before, s.least_blow, {blows.struck + i, blows.relieved + i});
     LaneFloats of_lanes;
     store(of_lanes, deepest);
     return *std::min_element(std::begin(of_lanes.v), std::end(of_lanes.v));
@@ -451,10 +457,10 @@ void solve(const WideBucket& bucket, BodyState* states, const WideSoftness& s)
         bucket, states, s);
 }
 
-float relax(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before, std::uint8_t* struck)
+float relax(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before, BlowBits blows)
 {
     return of_bucket(bucket, relax_bucket<1, NoFeatures>, relax_bucket<2, NoFeatures>, relax_bucket<1, Featured>, relax_bucket<2, Featured>)(
-        bucket, states, s, before, struck);
+        bucket, states, s, before, blows);
 }
 
 } // namespace contacts

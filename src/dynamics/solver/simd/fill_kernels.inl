@@ -38,6 +38,13 @@ CAROM_INLINE void fill_impulses(WideContact& constraint, const WideContactNotes&
     }
 }
 
+// The points that bear no load, as may_hit_bit has them; those of empty lanes too.
+CAROM_INLINE std::uint32_t unloaded_points(const WideContact& constraint, int points)
+{
+    const auto unloaded = [&](int k) { return bits(load(constraint.points[k].normal_impulse) <= all(0)); };
+    return unloaded(0) | (points == 2 ? unloaded(1) << lane_count : 0);
+}
+
 void prepare(WideContact& constraint, std::int32_t points)
 {
     const F8 mass = load(constraint.inverse_mass_a) + load(constraint.inverse_mass_b);
@@ -91,7 +98,7 @@ void fill(WideContact& constraint, WideContactNotes& notes, const Contact* conta
     store(notes.approach[0], all(0));
     store(notes.approach[1], all(0));
     notes.loaded = filled & lanes_with(flags, contact_flag::loaded);
-    notes.may_hit = filled & ~notes.loaded;
+    notes.may_hit = unloaded_points(constraint, notes.count);
     notes.unreported = filled & ~lanes_with(flags, contact_flag::touching);
     notes.cached = lanes_with(flags, contact_flag::cached) & ~lanes_with(flags, contact_flag::fresh);
     notes.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);

@@ -346,7 +346,6 @@ CAROM_INLINE void report(I8 loaded, const WideContactNotes& notes, const Found& 
     found.begins_or_ends = bits(filled & (near != touching));
     found.borne = bits(filled & borne);
     found.sunk = bits(filled & ~borne & (now.separation < all(-scene.slop)));
-    found.unloaded = bits(filled & ~loaded);
     store(found.separation, now.separation);
 }
 
@@ -363,6 +362,7 @@ void refresh_contact(WideContact& constraint, const WideContactNotes& notes, con
     for (int k = 0; k < points; ++k)
         put(constraint.points[k], now.points[k], now.n, filled);
     report(bears(constraint, points), notes, now, filled, scene, found);
+    found.unloaded = fills::unloaded_points(constraint, points);
 }
 
 void follow(WideContact& constraint, const WideContactNotes& notes, const FollowedScene& scene, RefreshedContacts& found)

@@ -40,9 +40,9 @@ struct RefreshedContacts
     LaneFloats separation; ///< the least of the contact's points
     std::uint32_t unsure;  ///< must be checked one by one; what else is reported of them does not hold
     std::uint32_t begins_or_ends;
-    std::uint32_t borne; ///< near, and bore a load
-    std::uint32_t sunk;  ///< not borne, and deeper than the slop
-    std::uint32_t unloaded;
+    std::uint32_t borne;    ///< near, and bore a load
+    std::uint32_t sunk;     ///< not borne, and deeper than the slop
+    std::uint32_t unloaded; ///< points, see may_hit_bit
 };
 
 /// The same for eight contacts outside of constraints.
@@ -105,8 +105,7 @@ struct WideKernels
     /// One pass without bias, at the new poses: it only stops approach, and sums impulses. Also reports for each block
     /// the lanes that have been struck, or have begun to touch and are not yet reported. `before` holds the speeds at
     /// the start of the sub-step, which decide what is an impact. Returns the least separation, at most 0.
-    float (*relax)(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before,
-                   std::uint8_t* struck);
+    float (*relax)(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before, BlowBits blows);
     /// Fills joints from their records, bodies, and the constants of their states, for
     /// sub-steps of h. `joints` already has a, b, joint and turns of each lane.
     void (*fill_joints)(WideJoint& joints, const JointRecord* records, const BodySim* sims, const std::int32_t* turns,

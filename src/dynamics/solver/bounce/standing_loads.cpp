@@ -1,0 +1,330 @@
+#include "dynamics/solver/bounce/standing_loads.h"
+
+#include "core/index.h"
+#include "dynamics/solver/contact/prepare_wide.h"
+#include "dynamics/state/contact_store.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom::internal {
+
+namespace {
+
+constexpr int passes = 8;
+constexpr float least_response = 0.01f;
+
+bool is_relieved(const ConstraintPoint& p) { return p.normal_impulse == 0 && p.standing_load > 0; }
+
+bool has_relieved(const ContactConstraint& constraint)
+{
+    return (constraint.count > 0 && is_relieved(constraint.points[0])) ||
+           (constraint.count == 2 && is_relieved(constraint.points[1]));
+}
+
+BodySpeeds speeds_of(const BodyState& s) { return {s.velocity, s.angular_velocity}; }
+
+// Blows that are solved again together with the loads that they have taken. Points that bear something are stopped as they were.
+class Settlement
+{
+public:
+    Settlement(const SolverView& view, const Pushes& pushes, SettledBlows& blows) : m_view(view), m_pushes(pushes), m_blows(blows)
+    {
+        for (SettledContact& contact : blows.contacts)
+        {
+            save(contact);
+            for (int i = 0; i < contact.constraint->count; ++i)
+                contact.before[i] = before(contact, contact.constraint->points[i]);
+        }
+    }
+
+    void solve(float loads)
+    {
+        for_each_relieved([&](const ContactConstraint& constraint, ConstraintPoint& p)
+                          { push(constraint, p, loads * p.standing_load); });
+        for (int pass = 0; pass < passes; ++pass)
+        {
+            for_each_bearing([this](ContactConstraint& constraint, ConstraintPoint& p, const BeforeSettling& before)
+                             { stop(constraint, p, before); });
+            for_each_relieved([&](const ContactConstraint& constraint, ConstraintPoint& p)
+                              { push(constraint, p, std::max(-p.normal_mass * constraint_speed(m_view, constraint, p), 0.0f)); });
+        }
+    }
+
+    // The work of the loads at points that blows have parted comes out of that which blows have taken.
+    void limit()
+    {
+        float gained = 0;
+        float lost = 0;
+        for_each_relieved([&](const ContactConstraint& constraint, const ConstraintPoint& p)
+                          { gained += p.normal_impulse * std::max(constraint_speed(m_view, constraint, p), 0.0f); });
+        for_each_bearing([&](const ContactConstraint&, const ConstraintPoint& p, const BeforeSettling& before)
+                         { lost += before.impulse * std::max(p.approach, 0.0f); });
+        if (gained > lost)
+            take_back(lost / gained);
+    }
+
+    // What was given back is over: no constraint applies it again.
+    void finish()
+    {
+        for_each_relieved(
+            [&](const ContactConstraint& constraint, ConstraintPoint& p)
+            {
+                m_pushes.note(constraint, p, p.normal_impulse * constraint.n);
+                p.total_impulse += p.normal_impulse;
+                p.normal_impulse = p.standing_load = 0;
+            });
+    }
+
+private:
+    template <class Visit>
+    void for_each_point(BeforeSettling::Role role, const Visit& visit)
+    {
+        for (SettledContact& contact : m_blows.contacts)
+        {
+            for (int i = 0; i < contact.constraint->count; ++i)
+            {
+                if (contact.before[i].role == role)
+                    visit(*contact.constraint, contact.constraint->points[i], contact.before[i]);
+            }
+        }
+    }
+
+    template <class Visit>
+    void for_each_bearing(const Visit& visit)
+    {
+        for_each_point(BeforeSettling::Role::Bears, visit);
+    }
+
+    template <class Visit>
+    void for_each_relieved(const Visit& visit)
+    {
+        for_each_point(BeforeSettling::Role::Relieved, [&](const ContactConstraint& constraint, ConstraintPoint& p,
+                                                           const BeforeSettling&) { visit(constraint, p); });
+    }
+
+    [[nodiscard]] BeforeSettling before(const SettledContact& contact, const ConstraintPoint& p) const
+    {
+        using enum BeforeSettling::Role;
+        const ContactConstraint& constraint = *contact.constraint;
+        return {p.normal_impulse > 0                        ? Bears
+                : contact.may_be_relieved && is_relieved(p) ? Relieved
+                                                            : Nothing,
+                p.normal_impulse, p.tangent_impulse, constraint_speed(m_view, constraint, p),
+                constraint_slip(m_view, constraint, p)};
+    }
+
+    void save(const SettledContact& contact)
+    {
+        for (const std::int32_t state : {contact.constraint->a, contact.constraint->b})
+        {
+            if (std::ranges::find(m_blows.speeds, state, &StateSpeeds::state) == m_blows.speeds.end())
+                m_blows.speeds.push_back({state, speeds_of(m_view.states[state])});
+        }
+    }
+
+    void push(const ContactConstraint& constraint, ConstraintPoint& p, float impulse) const
+    {
+        p.normal_impulse += impulse;
+        m_pushes.apply(constraint, p, impulse * constraint.n);
+    }
+
+    void stop(const ContactConstraint& constraint, ConstraintPoint& p, const BeforeSettling& before) const
+    {
+        push(constraint, p,
+             std::max(p.normal_mass * (before.speed - constraint_speed(m_view, constraint, p)), -p.normal_impulse));
+        const float slip = constraint_slip(m_view, constraint, p) - before.slip;
+        const float rub = friction_impulse(p.tangent_impulse, p.tangent_mass, slip, constraint.friction * p.normal_impulse);
+        m_pushes.apply(constraint, p, (rub - std::exchange(p.tangent_impulse, rub)) * perp(constraint.n));
+    }
+
+    // Keeps this share of all changes.
+    void take_back(float share)
+    {
+        const auto kept = [share](auto before, auto now) { return before + share * (now - before); };
+        for (const auto& [state, before] : m_blows.speeds)
+        {
+            if (!m_pushes.has_finite_mass(state))
+                continue;
+            BodyState& s = m_view.states[state];
+            s.velocity = kept(before.velocity, s.velocity);
+            s.angular_velocity = kept(before.angular_velocity, s.angular_velocity);
+        }
+        for_each_relieved([share](const ContactConstraint&, ConstraintPoint& p) { p.normal_impulse *= share; });
+        for_each_bearing(
+            [&](const ContactConstraint&, ConstraintPoint& p, const BeforeSettling& before)
+            {
+                p.normal_impulse = kept(before.impulse, p.normal_impulse);
+                p.tangent_impulse = kept(before.rub, p.tangent_impulse);
+            });
+    }
+
+    const SolverView& m_view;
+    const Pushes& m_pushes;
+    SettledBlows& m_blows;
+};
+
+bool is_blow(const ContactConstraint& constraint, float least)
+{
+    return std::ranges::any_of(std::span(constraint.points).first(as_index(constraint.count)),
+                               [least](const ConstraintPoint& p) { return p.normal_impulse > 0 && p.approach > least; });
+}
+
+} // namespace
+
+float standing_load(const PointImpulses& last, int substeps)
+{
+    return substeps > 1 ? std::min(last.normal, (last.total_normal - last.normal) / static_cast<float>(substeps - 1)) : 0;
+}
+
+float StandingLoads::share_of(float gap, float approach) const { return std::clamp(gap / (m_ctx.h * approach), 0.0f, 1.0f); }
+
+void StandingLoads::settle(SettledBlows& blows, float share) const
+{
+    Settlement settlement(m_view, m_pushes, blows);
+    settlement.solve(1.5f + share);
+    settlement.limit();
+    settlement.finish();
+}
+
+bool StandingLoads::give_back(ContactConstraint& struck, float share, int k, OwnBlocks own, SettledBlows& blows) const
+{
+    blows.clear();
+    find_relieved(struck, k, own, blows);
+    if (blows.copies.empty() && !has_relieved(struck))
+        return false;
+    blows.contacts.push_back({&struck, true, {}});
+    for (RelievedContact& relieved : blows.copies)
+        blows.contacts.push_back({&relieved.constraint, true, {}});
+    settle(blows, share);
+    for (const RelievedContact& relieved : blows.copies)
+    {
+        put_impulses(m_ctx.scratch, relieved.constraint, relieved.lane);
+        let_be_hit(m_ctx.scratch, relieved.constraint, relieved.lane);
+    }
+    return true;
+}
+
+bool StandingLoads::give_back(std::span<ContactConstraint> constraints, SettledBlows& blows) const
+{
+    float fastest = least_blow(m_ctx);
+    float gap = 0;
+    blows.clear();
+    for (ContactConstraint& constraint : constraints)
+    {
+        if (!is_blow(constraint, least_blow(m_ctx)))
+            continue;
+        blows.struck.push_back(constraint.a);
+        blows.struck.push_back(constraint.b);
+        for (int i = 0; i < constraint.count; ++i)
+        {
+            const ConstraintPoint& p = constraint.points[i];
+            if (p.normal_impulse > 0 && p.approach > fastest)
+            {
+                fastest = p.approach;
+                gap = constraint_separation(m_view, constraint, p);
+            }
+        }
+    }
+    const auto is_struck = [&](std::int32_t state)
+    { return m_pushes.has_finite_mass(state) && std::ranges::find(blows.struck, state) != blows.struck.end(); };
+    bool any = false;
+    for (ContactConstraint& constraint : constraints)
+    {
+        const bool may_be = !blows.struck.empty() && (is_struck(constraint.a) || is_struck(constraint.b));
+        any |= may_be && has_relieved(constraint);
+        blows.contacts.push_back({&constraint, may_be, {}});
+    }
+    if (any)
+        settle(blows, share_of(gap, fastest));
+    return any;
+}
+
+void StandingLoads::find_relieved(const ContactConstraint& struck, int k, OwnBlocks own, SettledBlows& blows) const
+{
+    for (const std::int32_t state : {struck.a, struck.b})
+    {
+        if (yields(struck, state))
+            find_relieved(struck, state, k, own, blows);
+    }
+}
+
+// What takes less than a hundredth of a blow's speed is relieved of nothing. It may have thousands of contacts.
+bool StandingLoads::yields(const ContactConstraint& struck, std::int32_t state) const
+{
+    const StateConstants& c = m_view.constants[state];
+    const ConstraintPoint& p = struck.points[0];
+    const Vec2 n = struck.n;
+    const float across = cross(state == struck.a ? p.ra : p.rb, n);
+    const float response = dot(c.inverse_mass, {n.x * n.x, n.y * n.y}) + across * across * c.inverse_inertia;
+    return response * p.normal_mass > least_response;
+}
+
+void StandingLoads::find_relieved(const ContactConstraint& struck, std::int32_t state, int k, OwnBlocks own,
+                                  SettledBlows& blows) const
+{
+    for (std::int32_t at = m_ctx.scratch.solver.first_relieved[as_index(state)]; at != none;)
+    {
+        const RelievedLane& of = m_output.relieved_lanes[as_index(at)];
+        at = of.next[of.state[0] == state ? 0 : 1];
+        const std::int32_t block = of.lane / lane_count;
+        if (block < own.first || block >= own.end)
+            continue;
+        const std::int32_t lane = of.lane + m_island.wide_store * lane_count;
+        ContactConstraint other = constraint_of_lane(m_ctx.scratch, lane);
+        if (other.contact == struck.contact)
+            continue;
+        note_standing_loads(m_ctx, k, lane, other);
+        if (has_relieved(other))
+            blows.copies.push_back({other, lane});
+    }
+}
+
+void StandingLoads::note_relieved(std::int32_t lane)
+{
+    SolverWorkspace& solver = m_ctx.scratch.solver;
+    const WideContact& block = solver.wide_contacts[as_index(m_island.wide_store + lane / lane_count)];
+    RelievedLane of{lane, {block.a.v[lane % lane_count], block.b.v[lane % lane_count]}, {none, none}};
+    for (int i = 0; i < 2; ++i)
+    {
+        if (m_pushes.has_finite_mass(of.state[i]))
+            of.next[i] = std::exchange(solver.first_relieved[as_index(of.state[i])],
+                                       static_cast<std::int32_t>(m_output.relieved_lanes.size()));
+    }
+    m_output.relieved_lanes.push_back(of);
+}
+
+void StandingLoads::forget_relieved()
+{
+    for (const RelievedLane& of : m_output.relieved_lanes)
+    {
+        for (const std::int32_t state : of.state)
+            m_ctx.scratch.solver.first_relieved[as_index(state)] = none;
+    }
+    m_output.relieved_lanes.clear();
+}
+
+void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint)
+{
+    const WideContactNotes& notes = ctx.scratch.solver.wide_notes[as_index(lane / lane_count)];
+    for (int i = 0; i < constraint.count; ++i)
+    {
+        ConstraintPoint& p = constraint.points[i];
+        if ((notes.may_hit & may_hit_bit(lane % lane_count, i)) != 0)
+            continue;
+        p.standing_load = standing_load(impulses_of(ctx.state, constraint.contact).points[i], ctx.substeps);
+        if (k > 0)
+            p.standing_load = std::min(p.standing_load, (p.total_impulse - p.normal_impulse) / static_cast<float>(k));
+    }
+}
+
+void let_be_hit(Scratch& scratch, const ContactConstraint& constraint, std::int32_t lane)
+{
+    for (int i = 0; i < constraint.count; ++i)
+    {
+        if (constraint.points[i].normal_impulse == 0)
+            scratch.solver.wide_notes[as_index(lane / lane_count)].may_hit |= may_hit_bit(lane % lane_count, i);
+    }
+}
+
+} // namespace carom::internal
