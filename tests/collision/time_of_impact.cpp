@@ -50,7 +50,7 @@ double distance_at(const Case& c, double t)
 
 TEST(CollisionTimeOfImpact, AgreesWithFineStepping)
 {
-    constexpr int count = slow_build ? 300 : 900;
+    const int count = part_of(900);
     Random random(5);
     int hits = 0;
     int misses = 0;

@@ -118,6 +118,7 @@ std::string say(int count, SpringSpec spring, bool is_free, float bend, bool act
 
 TEST(HingeSprings, AreStableAtAnyStiffnessDampingStepAndNumberOfLinks)
 {
+    int tried = 0;
     // A hinge that is let go of bent by 0.6 rad may move by more than a sub-step can follow, and overshoots; it may not go on to grow.
     for (const auto& [count, bent, bound] : {std::tuple(1, 0.2f, 1.05),
                                              {2, 0.2f, 1.05},
@@ -140,13 +141,13 @@ TEST(HingeSprings, AreStableAtAnyStiffnessDampingStepAndNumberOfLinks)
                     {
                         const bool acts = count % 4 == 0;
                         const float bend = bent / static_cast<float>(count);
-                        if (is_free && count == 1)
+                        if ((is_free && count == 1) || tried++ % divisor_of_work() != 0)
                             continue;
                         SCOPED_TRACE(say(count, {hertz, damping}, is_free, bend, acts, step));
                         SprungBars chain(count, {hertz, damping}, is_free, bend, acts, is_free ? weightless() : sleepless());
                         const double start = chain.stored(hertz) + chain.height();
                         double most = 0; // beyond what springs and gravity give
-                        const int steps = part_of(count > 12 ? 60 : 300);
+                        const int steps = count > 12 ? 30 : 150;
                         for (int i = 0; i < steps; ++i)
                         {
                             chain.scene.step(step);

@@ -28,11 +28,10 @@ inline bool does_whole_tests()
     return !slow_build && wish != nullptr && std::string_view(wish) == "whole";
 }
 
+/// One over that part.
+inline int divisor_of_work() { return slow_build ? 10 : does_whole_tests() ? 1 : 3; }
+
 /// That part of so many runs, steps or bodies.
-inline int part_of(int whole)
-{
-    const int divisor = slow_build ? 10 : does_whole_tests() ? 1 : 3;
-    return std::max(whole / divisor, 1);
-}
+inline int part_of(int whole) { return std::max(whole / divisor_of_work(), 1); }
 
 } // namespace carom::test
