@@ -92,7 +92,7 @@ struct StepContext
     float rest_speed = 0; ///< slower approach is rest, not an impact: what gravity gives in two sub-steps
 };
 
-/// Approach speed of the weakest blow: what gravity gives in a sub-step, m/s.
+/// Approach speed of the weakest blow that may take back a load, m/s: what gravity gives in a sub-step, or a little more.
 [[nodiscard]] inline float least_blow(const StepContext& ctx) { return 0.5f * ctx.rest_speed; }
 
 /// The step as an island takes it: with sub-steps subdivided as its policy asks for.

@@ -34,6 +34,7 @@ void scale_impulses(SceneState& state, float by)
         {
             p.normal *= by;
             p.tangent *= by;
+            p.total_normal *= by;
         }
     }
     for (int i = 0; i < state.contacts.capacity(); ++i)

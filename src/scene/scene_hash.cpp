@@ -120,6 +120,7 @@ void add_contact(Hasher& h, const SceneState& state, int index)
     {
         h.add(impulses_of(state, index).points[i].normal);
         h.add(impulses_of(state, index).points[i].tangent);
+        h.add(impulses_of(state, index).points[i].total_normal); // tells blows from standing loads
         h.add(static_cast<int>(c.manifold.points[i].feature));
     }
 }

@@ -103,8 +103,7 @@ void inherit_load(StepContext& ctx, int index)
                          other.flags &= ~contact_flag::loaded;
                          contact.manifold.rolling_impulse = other.manifold.rolling_impulse;
                          const PointImpulses& borne = impulses_of(state, other_index).points[0];
-                         impulses_of(state, index).points[0].normal = borne.normal;
-                         impulses_of(state, index).points[0].tangent = borne.tangent;
+                         impulses_of(state, index).points[0] = borne;
                      });
 }
 

@@ -114,7 +114,7 @@ struct StruckConstraint
     Vec2 pushed[2]{}; ///< impulses before the bounce, by point
 };
 
-/// A lane that bears no load any more, in the lists of its bodies.
+/// A lane with a point that bears no load any more, in the lists of its bodies.
 struct RelievedLane
 {
     std::int32_t lane; ///< of the island
@@ -145,8 +145,9 @@ struct BeforeSettling
         Relieved
     };
     Role role = Role::Nothing;
+    bool may_be_struck = false; ///< its contact is one of a struck body
     float impulse = 0;
-    float rub = 0;
+    float tangent = 0;
     float speed = 0;
     float slip = 0;
 };
@@ -154,7 +155,7 @@ struct BeforeSettling
 struct SettledContact
 {
     ContactConstraint* constraint;
-    bool may_be_relieved;
+    bool is_of_struck; ///< one of its bodies was struck
     BeforeSettling before[2];
 };
 

@@ -150,6 +150,8 @@ private:
         else
             bounce_parts(k, team);
         m_loads.forget_relieved();
+        for_each_lane(m_blows.relieved,
+                      [&](std::int32_t lane) { note_lost_loads(m_scratch, m_island.wide_store * lane_count + lane); });
     }
 
     void bounce_parts(int k, WorkerTeam& team)
@@ -227,7 +229,7 @@ private:
         prefetch_line(&state.sims[static_cast<std::size_t>(contact.body_a)]);
     }
 
-    // For a lane that bears a load: it is reported once and bounces once.
+    // For a lane that bears a load. Points bounce once in a step.
     void bounce_lane(std::int32_t lane, int k, ImpactReport& report, OwnBlocks own)
     {
         const WideContact& wide = m_wide[lane / lane_count];
@@ -240,7 +242,7 @@ private:
         {
             if ((notes.may_hit & may_hit_bit(i, p)) == 0)
                 constraint.points[p].approach = 0;
-            else if (constraint.points[p].normal_impulse > 0)
+            else if (constraint.points[p].normal_impulse > 0 && constraint.points[p].approach > least_blow(m_ctx))
                 struck |= may_hit_bit(i, p);
         }
         const float approach = greatest_approach(constraint);
@@ -256,25 +258,19 @@ private:
         const float share = m_loads.share_of(gap_of(wide, constraint, i), approach);
         const bool gave_back = m_loads.give_back(constraint, share, k, own, report.settled);
         resolve_impact(constraint, approach, gave_back, k, report);
-        let_be_hit(m_scratch, constraint, index);
         add_to_sums(constraint, 1);
-        notes.may_hit &= ~struck;
         put_impulses(m_scratch, constraint, index);
-    }
-
-    static void add_to_sums(ContactConstraint& constraint, float sign)
-    {
-        for (ConstraintPoint& p : points_of(constraint))
-        {
-            p.total_impulse += sign * p.normal_impulse;
-            p.total_tangent += sign * p.tangent_impulse;
-        }
+        if (gave_back || approach > m_ctx.rest_speed)
+            notes.may_hit &= ~struck;
     }
 
     // That of the point which is struck fastest, in m.
     static float gap_of(const WideContact& wide, const ContactConstraint& constraint, int lane)
     {
-        const bool is_second = constraint.count == 2 && constraint.points[1].approach > constraint.points[0].approach;
+        const ConstraintPoint& p = constraint.points[0];
+        const ConstraintPoint& q = constraint.points[1];
+        const bool is_second =
+            constraint.count == 2 && q.normal_impulse > 0 && (p.normal_impulse <= 0 || q.approach > p.approach);
         return wide.points[is_second ? 1 : 0].separation.v[lane];
     }
 
@@ -300,7 +296,7 @@ private:
 
     void bounce_constraint(ContactConstraint& constraint, bool gave_back, int k)
     {
-        if (!bears_load(constraint) || (constraint.hit != 0 && m_joints == nullptr))
+        if (!bears_load(constraint))
             return;
         if (!touches(m_ctx.state.contacts[constraint.contact]))
             begin_touch(constraint, k, m_output);
@@ -331,7 +327,7 @@ private:
     // Blows that are too weak to bounce may have taken back loads.
     void resolve_impact(ContactConstraint& constraint, float approach, bool gave_back, int k, ImpactReport& report)
     {
-        if (approach > m_ctx.rest_speed)
+        if (approach > m_ctx.rest_speed && constraint.hit == 0)
         {
             const StruckConstraint struck = begin_impact(constraint, approach, report);
             bounce_points(constraint, struck.restitution, struck.kick_speed);
@@ -345,6 +341,8 @@ private:
     {
         for (ConstraintPoint& p : points_of(constraint))
         {
+            if (p.approach <= least_blow(m_ctx))
+                continue;
             m_pushes.note(constraint, p, p.normal_impulse * constraint.n + p.tangent_impulse * perp(constraint.n));
             take_impulse(p);
         }

@@ -56,10 +56,14 @@ public:
     {
         float gained = 0;
         float lost = 0;
-        for_each_relieved([&](const ContactConstraint& constraint, const ConstraintPoint& p)
-                          { gained += p.normal_impulse * std::max(constraint_speed(m_view, constraint, p), 0.0f); });
-        for_each_bearing([&](const ContactConstraint&, const ConstraintPoint& p, const BeforeSettling& before)
-                         { lost += before.impulse * std::max(p.approach, 0.0f); });
+        for_each_point(Role::Relieved,
+                       [&](const ContactConstraint& constraint, const ConstraintPoint& p, const BeforeSettling& before)
+                       {
+                           const float mean = 0.5f * (before.speed + constraint_speed(m_view, constraint, p));
+                           gained += p.normal_impulse * std::max(mean, 0.0f);
+                       });
+        for_each_point(Role::Bears, [&](const ContactConstraint&, const ConstraintPoint& p, const BeforeSettling& before)
+                       { lost += 0.5f * before.impulse * (before.may_be_struck ? std::max(p.approach, 0.0f) : 0); });
         if (gained > lost)
             take_back(lost / gained);
     }
@@ -77,8 +81,10 @@ public:
     }
 
 private:
+    using Role = BeforeSettling::Role;
+
     template <class Visit>
-    void for_each_point(BeforeSettling::Role role, const Visit& visit)
+    void for_each_point(Role role, const Visit& visit)
     {
         for (SettledContact& contact : m_blows.contacts)
         {
@@ -93,7 +99,7 @@ private:
     template <class Visit>
     void for_each_bearing(const Visit& visit)
     {
-        for_each_point(BeforeSettling::Role::Bears, visit);
+        for_each_point(Role::Bears, visit);
     }
 
     template <class Visit>
@@ -105,12 +111,17 @@ private:
 
     [[nodiscard]] BeforeSettling before(const SettledContact& contact, const ConstraintPoint& p) const
     {
-        using enum BeforeSettling::Role;
         const ContactConstraint& constraint = *contact.constraint;
-        return {p.normal_impulse > 0                        ? Bears
-                : contact.may_be_relieved && is_relieved(p) ? Relieved
-                                                            : Nothing,
-                p.normal_impulse, p.tangent_impulse, constraint_speed(m_view, constraint, p),
+        Role role = Role::Nothing;
+        if (p.normal_impulse > 0)
+            role = Role::Bears;
+        else if (contact.is_of_struck && is_relieved(p))
+            role = Role::Relieved;
+        return {role,
+                contact.is_of_struck,
+                p.normal_impulse,
+                p.tangent_impulse,
+                constraint_speed(m_view, constraint, p),
                 constraint_slip(m_view, constraint, p)};
     }
 
@@ -155,7 +166,7 @@ private:
             [&](const ContactConstraint&, ConstraintPoint& p, const BeforeSettling& before)
             {
                 p.normal_impulse = kept(before.impulse, p.normal_impulse);
-                p.tangent_impulse = kept(before.rub, p.tangent_impulse);
+                p.tangent_impulse = kept(before.tangent, p.tangent_impulse);
             });
     }
 
@@ -196,11 +207,14 @@ bool StandingLoads::give_back(ContactConstraint& struck, float share, int k, Own
     blows.contacts.push_back({&struck, true, {}});
     for (RelievedContact& relieved : blows.copies)
         blows.contacts.push_back({&relieved.constraint, true, {}});
+    for (RelievedContact& relieved : blows.copies)
+        add_to_sums(relieved.constraint, -1);
     settle(blows, share);
-    for (const RelievedContact& relieved : blows.copies)
+    for (RelievedContact& relieved : blows.copies)
     {
+        add_to_sums(relieved.constraint, 1);
         put_impulses(m_ctx.scratch, relieved.constraint, relieved.lane);
-        let_be_hit(m_ctx.scratch, relieved.constraint, relieved.lane);
+        note_lost_loads(m_ctx.scratch, relieved.lane);
     }
     return true;
 }
@@ -226,12 +240,14 @@ bool StandingLoads::give_back(std::span<ContactConstraint> constraints, SettledB
             }
         }
     }
+    if (blows.struck.empty())
+        return false;
     const auto is_struck = [&](std::int32_t state)
     { return m_pushes.has_finite_mass(state) && std::ranges::find(blows.struck, state) != blows.struck.end(); };
     bool any = false;
     for (ContactConstraint& constraint : constraints)
     {
-        const bool may_be = !blows.struck.empty() && (is_struck(constraint.a) || is_struck(constraint.b));
+        const bool may_be = is_struck(constraint.a) || is_struck(constraint.b);
         any |= may_be && has_relieved(constraint);
         blows.contacts.push_back({&constraint, may_be, {}});
     }
@@ -271,10 +287,15 @@ void StandingLoads::find_relieved(const ContactConstraint& struck, std::int32_t 
         if (block < own.first || block >= own.end)
             continue;
         const std::int32_t lane = of.lane + m_island.wide_store * lane_count;
+        const auto is_it = [lane](const RelievedContact& known) { return known.lane == lane; };
+        if (std::ranges::any_of(blows.copies, is_it))
+            continue; // both bodies of the blow are its
         ContactConstraint other = constraint_of_lane(m_ctx.scratch, lane);
         if (other.contact == struck.contact)
             continue;
         note_standing_loads(m_ctx, k, lane, other);
+        for (ConstraintPoint& p : other.points)
+            p.approach = 0; // this blow is not its
         if (has_relieved(other))
             blows.copies.push_back({other, lane});
     }
@@ -310,7 +331,7 @@ void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, Conta
     for (int i = 0; i < constraint.count; ++i)
     {
         ConstraintPoint& p = constraint.points[i];
-        if ((notes.may_hit & may_hit_bit(lane % lane_count, i)) != 0)
+        if ((notes.may_hit & (may_hit_bit(lane % lane_count, i) | lost_bit(lane % lane_count, i))) != 0)
             continue;
         p.standing_load = standing_load(impulses_of(ctx.state, constraint.contact).points[i], ctx.substeps);
         if (k > 0)
@@ -318,12 +339,23 @@ void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, Conta
     }
 }
 
-void let_be_hit(Scratch& scratch, const ContactConstraint& constraint, std::int32_t lane)
+void note_lost_loads(Scratch& scratch, std::int32_t lane)
 {
-    for (int i = 0; i < constraint.count; ++i)
+    const WideContact& block = scratch.solver.wide_contacts[as_index(lane / lane_count)];
+    WideContactNotes& notes = scratch.solver.wide_notes[as_index(lane / lane_count)];
+    for (int k = 0; k < notes.count; ++k)
     {
-        if (constraint.points[i].normal_impulse == 0)
-            scratch.solver.wide_notes[as_index(lane / lane_count)].may_hit |= may_hit_bit(lane % lane_count, i);
+        if (block.points[k].normal_impulse.v[lane % lane_count] == 0)
+            notes.may_hit |= lost_bit(lane % lane_count, k);
+    }
+}
+
+void add_to_sums(ContactConstraint& constraint, float sign)
+{
+    for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
+    {
+        p.total_impulse += sign * p.normal_impulse;
+        p.total_tangent += sign * p.tangent_impulse;
     }
 }
 

@@ -6,6 +6,9 @@
 //
 // Speeds are those at the middle of a sub-step that is over, as symplectic Euler steps have them. Bodies that meet at the share t of the next sub-step have been
 // under load for t + 1/2 of it, and that much is missing beside the load of this sub-step.
+//
+// Outside of lanes, all blows of an island are settled at once. In lanes, each struck contact is settled with the contacts that it has relieved, as far as its
+// thread may change them. Joints that are solved at once, and scenes of one sub-step, in which nothing tells a blow from a load, do without.
 
 #include "dynamics/solver/bounce/pushes.h"
 #include "dynamics/step_context.h"
@@ -34,7 +37,7 @@ public:
     void forget_relieved();
 
     /// Called before the lane `struck` bounces, in sub-step k. True if any load was given back: then no impulse of the blow may warm start the next sub-step.
-    /// share: of the next sub-step that passes until the bodies meet. `blows` is memory.
+    /// share: of the next sub-step that passes until the bodies meet. `blows` is scratch memory.
     bool give_back(ContactConstraint& struck, float share, int k, OwnBlocks own, SettledBlows& blows) const;
     /// The same for all constraints outside of lanes.
     bool give_back(std::span<ContactConstraint> constraints, SettledBlows& blows) const;
@@ -55,11 +58,13 @@ private:
     const Pushes& m_pushes;
 };
 
-/// The load that a point bears all the time, from the impulses of the last step in each of `substeps`; a blow in one of them is none.
+/// The load that a point has borne in each of the `substeps` of the last step, N s; a blow in one sub-step does not count.
 [[nodiscard]] float standing_load(const PointImpulses& last, int substeps);
 /// The same for the points of the constraint in a lane, in sub-step k.
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint);
-/// Points of a lane that bear no load any more may be struck, and no load of theirs stands.
-void let_be_hit(Scratch& scratch, const ContactConstraint& constraint, std::int32_t lane);
+/// Notes that points of a lane bear no load any more: no blow of a later sub-step has relieved them.
+void note_lost_loads(Scratch& scratch, std::int32_t lane);
+/// Adds the constraint's impulses to its sums over the step, or takes them out.
+void add_to_sums(ContactConstraint& constraint, float sign);
 
 } // namespace carom::internal

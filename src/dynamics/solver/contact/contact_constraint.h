@@ -26,7 +26,7 @@ struct ConstraintPoint
     float separation_before = 0; ///< at the start of the sub-step, in islands whose energy is watched
     float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear no load yet
     float last_impulse = 0;      ///< along the normal in the sub-step before
-    float standing_load = 0;     ///< that it bore in both sub-steps before, N s in each: a blow in one of them is none
+    float standing_load = 0;     ///< that it bore in each of the two sub-steps before, N s: a blow in one of them does not count
     float total_impulse = 0;     ///< over the step
     float total_tangent = 0;
 };

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace carom::internal {
 
@@ -81,7 +82,7 @@ void refill_lane(const StepContext& ctx, std::size_t at, int i)
     for (std::uint32_t* lanes :
          {&notes.loaded, &notes.may_hit, &notes.unreported, &notes.edge_of_b, &notes.nearest, &notes.cached, &notes.followed})
         *lanes &= ~(1u << i);
-    notes.may_hit &= ~may_hit_bit(i, 1);
+    notes.may_hit &= ~(may_hit_bit(i, 1) | lost_bit(i, 0) | lost_bit(i, 1));
     const std::int32_t index = notes.contact.v[i];
     const Contact& contact = ctx.state.contacts[index];
     const Manifold& m = contact.manifold;
@@ -151,7 +152,8 @@ ContactConstraint constraint_of_lane(Scratch& scratch, std::int32_t index)
         ConstraintPoint& p = constraint.points[k];
         p.ra = arm(from.along_a.v[i], from.across_a.v[i]);
         p.rb = arm(from.along_b.v[i], from.across_b.v[i]);
-        p.normal_mass = 1 / lane.k(from);
+        const float k_normal = lane.k(from);
+        p.normal_mass = k_normal > std::numeric_limits<float>::min() ? 1 / k_normal : 0;
         p.tangent_mass = from.tangent_mass.v[i];
         p.normal_impulse = from.normal_impulse.v[i];
         p.tangent_impulse = from.tangent_impulse.v[i];
@@ -190,7 +192,7 @@ void drop_lane(const StepContext& ctx, Contact& contact, std::int32_t fixed)
     WideContactNotes& notes = lane.notes;
     const int i = lane.i;
     for (PointImpulses& p : impulses_of(ctx.state, notes.contact.v[i]).points)
-        p.normal = p.tangent = 0;
+        p = {};
     constraint.a.v[i] = constraint.b.v[i] = fixed;
     notes.contact.v[i] = none;
     constraint.inverse_mass_a.v[i] = constraint.inverse_mass_b.v[i] = constraint.inverse_inertia_a.v[i] =

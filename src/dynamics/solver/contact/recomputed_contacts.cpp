@@ -194,7 +194,8 @@ void RecomputedContacts::roll_back(ContactConstraint& constraint)
     const Manifold now = manifold_of(constraint.contact, constraint, 0);
     if (now.count != 1)
         return;
-    constraint.points[0].normal_impulse = constraint.points[0].tangent_impulse = 0;
+    ConstraintPoint& p = constraint.points[0];
+    p.normal_impulse = p.tangent_impulse = p.last_impulse = p.standing_load = p.approach = 0;
     set_constraint_geometry(m_work.scratch, constraint, now);
 }
 

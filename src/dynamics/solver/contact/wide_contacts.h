@@ -54,16 +54,17 @@ struct alignas(64) WideFeatures
     LaneFloats rolling_impulse;
 };
 
-/// The contacts in the lanes of a constraint and what is known of them; masks have a bit for each lane.
+/// The contacts in the lanes of a constraint and what is known of them; masks have a bit for each lane, or for each point.
 struct alignas(64) WideContactNotes
 {
     LaneInts contact; ///< none: the lane is empty
     LaneInts body_a;
     LaneInts body_b;
-    LaneFloats approach[2];   ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
-    std::int16_t count;       ///< number of points, the same in all lanes
-    std::int16_t featured;    ///< whether WideFeatures count; the same in a bucket
-    std::uint32_t may_hit;    ///< points that bore no load when the step began and have not been struck, see may_hit_bit
+    LaneFloats approach[2]; ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
+    std::int16_t count;     ///< number of points, the same in all lanes
+    std::int16_t featured;  ///< whether WideFeatures count; the same in a bucket
+    std::uint32_t
+        may_hit; ///< points that bore no load when the step began and have not been struck, empty lanes too, see may_hit_bit; and lost_bit
     std::uint32_t loaded;     ///< the contact has contact_flag::loaded
     std::uint32_t unreported; ///< did not touch when the step began, and the touch is not reported yet
     std::uint32_t edge_of_b;  ///< the normal is that of an edge of b
@@ -74,6 +75,8 @@ struct alignas(64) WideContactNotes
 
 /// Lanes of the second points come behind those of the first.
 [[nodiscard]] constexpr std::uint32_t may_hit_bit(int lane, int point) { return 1u << (lane + point * lane_count); }
+/// The point has lost its load in an earlier sub-step of the step.
+[[nodiscard]] constexpr std::uint32_t lost_bit(int lane, int point) { return 1u << (lane + (2 + point) * lane_count); }
 
 /// Lanes in a sub-step, as bits: a byte for each block.
 struct BlowBits
@@ -99,7 +102,7 @@ struct WideSoftness
     float push_speed;
     Softness contact;
     Softness stiff;   ///< against bodies of infinite mass
-    float least_blow; ///< a slower approach is none
+    float least_blow; ///< see least_blow()
 };
 
 } // namespace carom::internal

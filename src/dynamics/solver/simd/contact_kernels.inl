@@ -344,9 +344,10 @@ CAROM_INLINE void find_blows(const WideContact& constraint, WideContactNotes& no
     const unsigned of_first = bits(first);
     const unsigned of_second = bits(second);
     const unsigned second_may = notes.may_hit >> lane_count;
-    unsigned relieved = ~(of_first | notes.may_hit);
+    const unsigned idle = notes.may_hit | notes.may_hit >> 2 * lane_count;
+    unsigned relieved = ~(of_first | idle);
     if (points == 2)
-        relieved |= ~(of_second | second_may);
+        relieved |= ~(of_second | idle >> lane_count);
     unsigned struck = (of_first | of_second) & notes.unreported;
     if (((of_first & notes.may_hit) | (of_second & second_may)) != 0)
     {

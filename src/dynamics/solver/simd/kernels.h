@@ -103,8 +103,8 @@ struct WideKernels
     /// One pass of sequential impulses with bias: the soft constraint also removes overlap.
     void (*solve)(const WideBucket& bucket, BodyState* states, const WideSoftness& s);
     /// One pass without bias, at the new poses: it only stops approach, and sums impulses. Also reports for each block
-    /// the lanes that have been struck, or have begun to touch and are not yet reported. `before` holds the speeds at
-    /// the start of the sub-step, which decide what is an impact. Returns the least separation, at most 0.
+    /// the lanes that have been struck, or have begun to touch and are not yet reported, and those that have lost a load. `before`
+    /// holds the speeds at the start of the sub-step, which decide what is an impact. Returns the least separation, at most 0.
     float (*relax)(const WideBucket& bucket, BodyState* states, const WideSoftness& s, const BodySpeeds* before, BlowBits blows);
     /// Fills joints from their records, bodies, and the constants of their states, for
     /// sub-steps of h. `joints` already has a, b, joint and turns of each lane.
