@@ -72,7 +72,7 @@ TEST_P(Screens, OfTheXray)
 {
     m_machine.record_substeps(true);
     m_machine.play_by_itself(true);
-    play(12'600); // the ball is where the edge of the picture cuts no lamp's letter
+    play(13'000); // the ball is where the edge of the picture cuts no lamp's letter
     m_machine.look_into_step();
     ASSERT_TRUE(m_machine.impacts.last());
     for (const bool paused : {false, true})
