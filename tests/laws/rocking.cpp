@@ -31,7 +31,7 @@ double first_swing_of_theory(const Block& block)
 }
 
 // Turned about its left edge, which stays at the origin.
-BodyId add_block(Scene& scene, const Block& block, double x, double y, Vec2 velocity = {}, const ShapeDef& material = rough)
+BodyId add_block(Scene& scene, const Block& block, double x, double y, Vec2 velocity = {})
 {
     const double turn = block.share * diagonal(block);
     const double w = 0.5 * static_cast<double>(block.width);
@@ -41,7 +41,7 @@ BodyId add_block(Scene& scene, const Block& block, double x, double y, Vec2 velo
                            .position = {x + w * std::cos(turn) - h * std::sin(turn), y + w * std::sin(turn) + h * std::cos(turn)},
                            .angle = static_cast<float>(turn),
                            .velocity = velocity});
-    scene.create_shape(body, box(0.5f * block.width, 0.5f * block.height), material);
+    scene.create_shape(body, box(0.5f * block.width, 0.5f * block.height), rough);
     return body;
 }
 
@@ -138,7 +138,7 @@ struct Company
     Scene scene{{.gravity = {0, -9.81f}}};
     BodyId block;
 
-    Company(const Block& of, int others, const ShapeDef& material = rough)
+    Company(const Block& of, int others)
     {
         add_static(scene, HalfSpace{}, rough);
         const BodyId platform = scene.create_body({.type = BodyType::Dynamic, .position = {0, 0.25}});
@@ -147,7 +147,7 @@ struct Company
         scene.create_shape(platform, box(50, 0.25f), heavy);
         for (int i = 0; i < others; ++i)
             add_dynamic(scene, {-2.0 - 0.4 * i, 0.65}, box(0.15f, 0.15f), rough);
-        block = add_block(scene, of, -0.25, 0.5, {}, material);
+        block = add_block(scene, of, -0.25, 0.5);
     }
 };
 
@@ -189,7 +189,7 @@ TEST(LawRocking, ContactsReportTheImpulsesThatChangeItsMomentum)
             for (const ContactInfo::Point& p : std::span(contact.points).first(static_cast<std::size_t>(contact.point_count)))
                 impulse += sign * (p.normal_impulse * contact.normal + p.friction_impulse * perp(contact.normal));
         }
-        // What a blow has left without a load flies on, and impacts in flight are reported as such.
+        // A block that a blow has left without a load flies on, and its impacts in flight are events alone.
         if (bore)
         {
             ASSERT_LT(length(impulse - block.mass() * (block.velocity() - before)), 0.015f * weight) << "step " << i;

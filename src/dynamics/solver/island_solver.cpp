@@ -378,19 +378,10 @@ private:
 
     void finish_substep(int k)
     {
-        m_work.for_each_constraint(sum_impulses);
+        m_work.for_each_constraint([](ContactConstraint& constraint) { add_to_sums(constraint, 1); });
         m_joints.finish_substep();
         if (m_work.ctx.scene.def.record_substeps && (k + 1) % m_work.ctx.subdivisions == 0)
             record_poses(k);
-    }
-
-    static void sum_impulses(ContactConstraint& constraint)
-    {
-        for (int i = 0; i < constraint.count; ++i)
-        {
-            constraint.points[i].total_impulse += constraint.points[i].normal_impulse;
-            constraint.points[i].total_tangent += constraint.points[i].tangent_impulse;
-        }
     }
 
     // Impulses that are kept for the next step's warm starting are those of a whole sub-step.

@@ -284,7 +284,7 @@ private:
         }
     }
 
-    // Where the normal has turned away from the approach.
+    // A normal that has turned away from the approach ends it.
     void end_approaches(ContactConstraint& constraint) const
     {
         for (ConstraintPoint& p : points_of(constraint))
@@ -312,7 +312,7 @@ private:
         return std::span(constraint.points).first(as_index(constraint.count));
     }
 
-    // Of the points that were stopped.
+    // The greatest approach of the points that were stopped.
     static float greatest_approach(ContactConstraint& constraint)
     {
         float approach = 0;

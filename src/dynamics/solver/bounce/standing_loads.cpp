@@ -68,7 +68,7 @@ public:
             take_back(lost / gained);
     }
 
-    // What was given back is over: no constraint applies it again.
+    // No constraint applies again the impulses that were given back.
     void finish()
     {
         for_each_relieved(
@@ -105,8 +105,8 @@ private:
     template <class Visit>
     void for_each_relieved(const Visit& visit)
     {
-        for_each_point(BeforeSettling::Role::Relieved, [&](const ContactConstraint& constraint, ConstraintPoint& p,
-                                                           const BeforeSettling&) { visit(constraint, p); });
+        for_each_point(Role::Relieved, [&](const ContactConstraint& constraint, ConstraintPoint& p, const BeforeSettling&)
+                       { visit(constraint, p); });
     }
 
     [[nodiscard]] BeforeSettling before(const SettledContact& contact, const ConstraintPoint& p) const
@@ -265,7 +265,7 @@ void StandingLoads::find_relieved(const ContactConstraint& struck, int k, OwnBlo
     }
 }
 
-// What takes less than a hundredth of a blow's speed is relieved of nothing. It may have thousands of contacts.
+// A body that takes less than a hundredth of a blow's speed is relieved of nothing. It may have thousands of contacts.
 bool StandingLoads::yields(const ContactConstraint& struck, std::int32_t state) const
 {
     const StateConstants& c = m_view.constants[state];
@@ -347,15 +347,6 @@ void note_lost_loads(Scratch& scratch, std::int32_t lane)
     {
         if (block.points[k].normal_impulse.v[lane % lane_count] == 0)
             notes.may_hit |= lost_bit(lane % lane_count, k);
-    }
-}
-
-void add_to_sums(ContactConstraint& constraint, float sign)
-{
-    for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
-    {
-        p.total_impulse += sign * p.normal_impulse;
-        p.total_tangent += sign * p.tangent_impulse;
     }
 }
 

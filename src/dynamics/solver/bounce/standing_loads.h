@@ -64,7 +64,5 @@ private:
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint);
 /// Notes that points of a lane bear no load any more: no blow of a later sub-step has relieved them.
 void note_lost_loads(Scratch& scratch, std::int32_t lane);
-/// Adds the constraint's impulses to its sums over the step, or takes them out.
-void add_to_sums(ContactConstraint& constraint, float sign);
 
 } // namespace carom::internal

@@ -64,6 +64,16 @@ struct ContactConstraint
     return load;
 }
 
+/// Adds the constraint's impulses to its sums over the step; with a sign of -1, takes them out.
+inline void add_to_sums(ContactConstraint& constraint, float sign)
+{
+    for (int i = 0; i < constraint.count; ++i)
+    {
+        constraint.points[i].total_impulse += sign * constraint.points[i].normal_impulse;
+        constraint.points[i].total_tangent += sign * constraint.points[i].tangent_impulse;
+    }
+}
+
 [[nodiscard]] inline bool bears_load(const ContactConstraint& constraint)
 {
     return (constraint.count > 0 && constraint.points[0].normal_impulse > 0) ||

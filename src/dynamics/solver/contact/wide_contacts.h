@@ -63,8 +63,8 @@ struct alignas(64) WideContactNotes
     LaneFloats approach[2]; ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
     std::int16_t count;     ///< number of points, the same in all lanes
     std::int16_t featured;  ///< whether WideFeatures count; the same in a bucket
-    std::uint32_t
-        may_hit; ///< points that bore no load when the step began and have not been struck, empty lanes too, see may_hit_bit; and lost_bit
+    /// Points that bore no load when the step began and have not been struck, see may_hit_bit; points of empty lanes too. And see lost_bit.
+    std::uint32_t may_hit;
     std::uint32_t loaded;     ///< the contact has contact_flag::loaded
     std::uint32_t unreported; ///< did not touch when the step began, and the touch is not reported yet
     std::uint32_t edge_of_b;  ///< the normal is that of an edge of b
