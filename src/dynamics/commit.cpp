@@ -139,11 +139,12 @@ void commit_state(const StepContext& ctx, std::int32_t index)
     if ((s.flags & body_flag::unsound) != 0 || !is_sound(s, x, y))
     {
         s.flags |= body_flag::unsound;
+        begin_at_start(ctx.state, body, s);
         return;
     }
     const Position displacement{x, y};
     const Position free = needs_wall_check || may_have_passed(ctx, s, body)
-                              ? free_displacement(ctx, body, displacement, s.delta_rotation)
+                              ? free_displacement(ctx, body, displacement, s.delta_rotation * sim.rotation)
                               : displacement;
     if (free != displacement)
     {
@@ -152,14 +153,13 @@ void commit_state(const StepContext& ctx, std::int32_t index)
         x = free.x;
         y = free.y;
     }
-    sim.previous_center = sim.center;
-    sim.previous_rotation = sim.rotation;
     sim.center.x += x;
     sim.center.y += y;
     if (s.delta_rotation != Rotation{})
     {
-        sim.rotation = renormalized(s.delta_rotation * sim.rotation);
-        count_turns(ctx.state.turns[static_cast<std::size_t>(body)], sim.previous_rotation, sim.rotation, s);
+        const Rotation reference = sim.rotation;
+        sim.rotation = renormalized(s.delta_rotation * reference);
+        count_turns(ctx.state.turns[static_cast<std::size_t>(body)], reference, sim.rotation, s);
     }
     sim.velocity = s.velocity;
     sim.angular_velocity = s.angular_velocity;

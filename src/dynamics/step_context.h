@@ -94,6 +94,8 @@ struct StepContext
 
 /// Approach speed of the weakest blow that may take back a load, m/s: what gravity gives in a sub-step, or a little more.
 [[nodiscard]] inline float least_blow(const StepContext& ctx) { return 0.5f * ctx.rest_speed; }
+/// Points that bear a load and are farther apart have been stopped in part, so that they meet within a sub-step, m.
+[[nodiscard]] inline float halfway_gap(const StepContext& ctx) { return 0.5f * ctx.h * least_blow(ctx); }
 
 /// The step as an island takes it: with sub-steps subdivided as its policy asks for.
 [[nodiscard]] StepContext step_of(const StepContext& ctx, const Island& island);

@@ -120,7 +120,7 @@ void forget_surroundings(StepContext& ctx)
     ctx.scratch.flight.surroundings.assign(static_cast<std::size_t>(ctx.state.broad_phase.block_count()), Surroundings::Unknown);
 }
 
-Position free_displacement(const StepContext& ctx, int body, Position displacement, Rotation turn)
+Position free_displacement(const StepContext& ctx, int body, Position displacement, Rotation rotation)
 {
     const SceneState& state = ctx.state;
     if (!may_meet_walls(ctx, body, displacement.x, displacement.y))
@@ -135,8 +135,8 @@ Position free_displacement(const StepContext& ctx, int body, Position displaceme
             if (state.shapes[shape].trigger)
                 return;
             const Core core = core_of(leaf_view(state, shape));
-            const Vec2 arm = rotate(sim.rotation, core.center - sim.local_center);
-            const Vec2 turned = rotate(turn, arm) - arm;
+            const Vec2 arm = rotate(sim.previous_rotation, core.center - sim.local_center);
+            const Vec2 turned = rotate(rotation, core.center - sim.local_center) - arm;
             const Position own{displacement.x + static_cast<double>(turned.x), displacement.y + static_cast<double>(turned.y)};
             const double part = free_part(ctx, shape, core, sim.center + arm, own);
             met |= part < nearly_all;

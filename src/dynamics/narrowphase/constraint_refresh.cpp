@@ -36,14 +36,13 @@ RefreshChanges ConstraintRefresh::follow(std::size_t at)
     RefreshChanges changes;
     const std::uint32_t looked = now.unsure | now.begins_or_ends;
     const std::uint32_t sure = filled_lanes(notes) & ~looked;
-    notes.may_hit = now.unloaded;
     clear_sums(constraint, notes);
     for_each_lane(sure & ~notes.followed, [&](int i) { m_state.contacts[notes.contact.v[i]].flags |= contact_flag::followed; });
-    notes.followed |= sure;
+    notes.followed = static_cast<std::uint16_t>(notes.followed | sure);
     for_each_lane(now.borne & sure, [&](int i) { note_borne(constraint, i); });
     for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(constraint, notes, i, now.separation.v[i]); });
     for_each_lane(looked, [&](int i) { look_at(at, i, changes); });
-    m_kernels.prepare(constraint, notes.count);
+    m_kernels.prepare(constraint, notes, m_scene.sims, m_ctx.dt, halfway_gap(m_ctx));
     return changes;
 }
 

@@ -67,13 +67,14 @@ void fill_block(const StepContext& ctx, const Island& island, std::int32_t g)
         constraint.a.v[i] = l.a;
         constraint.b.v[i] = l.b;
         notes.contact.v[i] = l.contact;
-        notes.count = static_cast<std::int16_t>(l.points()); // the same in all lanes
+        notes.count = static_cast<std::int8_t>(l.points()); // the same in all lanes
         notes.featured = l.has(edge_flag::plain) ? 0 : 1;
         Contact& contact = ctx.state.contacts[l.contact];
         contact.wide = (island.wide_store + g) * lane_count + i;
         ctx.state.lane_marks[as_index(l.contact)] = LaneMark::InLane;
     }
-    wide_kernels().fill(constraint, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.solver.constants.data());
+    wide_kernels().fill(constraint, notes, &ctx.state.contacts[0], ctx.state.impulses.data(), scratch.solver.states.data(),
+                        scratch.solver.constants.data(), halfway_gap(ctx));
     for (int i = 0; notes.featured != 0 && i < lane_count; ++i)
         fill_features(ctx.state, notes.contact.v[i], features, i);
 }
@@ -87,6 +88,16 @@ void take_rolling_impulses(SceneState& state, const WideContactNotes& notes, con
     }
 }
 
+// Where rotations count from the middle of the step, the arms are those of the middle too. A circle's points do not turn with it.
+void turn_arms_to_reference(ContactConstraint& constraint)
+{
+    for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
+    {
+        p.ra = p.ra0;
+        p.rb = p.rb0;
+    }
+}
+
 void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t i)
 {
     const SolvedEdge& l = ctx.scratch.layout.solved_edges[as_index(ctx.scratch.layout.constraint_edges[as_index(i)])];
@@ -94,6 +105,8 @@ void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t 
     ContactConstraint& constraint = ctx.scratch.solver.constraints[as_index(i)];
     constraint = prepare_constraint(ctx, l.contact, contact.manifold, l.a, l.b);
     follow_closely(contact, island, constraint);
+    if ((contact.flags & contact_flag::round) == 0)
+        turn_arms_to_reference(constraint);
 }
 
 // Prefetches the hinge of a lane that is filled later, and the bodies of a hinge that is filled sooner.

@@ -69,6 +69,22 @@ std::int32_t whole_turns(Rotation before, Rotation after, double displacement)
     return nearest_turns(displacement - (angle_of(after) - angle_of(before)));
 }
 
+void begin_at_middle(SceneState& state, std::int32_t body, Rotation half, BodyState& s)
+{
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    sim.rotation = half * sim.previous_rotation;
+    s.delta_rotation = inverse(half);
+    add_turns(state.turns[static_cast<std::size_t>(body)], turns_across(sim.previous_rotation, sim.rotation));
+}
+
+void begin_at_start(SceneState& state, std::int32_t body, BodyState& s)
+{
+    BodySim& sim = state.sims[static_cast<std::size_t>(body)];
+    add_turns(state.turns[static_cast<std::size_t>(body)], turns_across(sim.rotation, sim.previous_rotation));
+    sim.rotation = sim.previous_rotation;
+    s.delta_rotation = {};
+}
+
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, double displacement)
 {
     add_turns(turns, turns_by(before, after, displacement));

@@ -6,6 +6,7 @@
 #include "dynamics/solver/body_state.h"
 #include "dynamics/state/scene_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom::internal {
@@ -34,6 +35,21 @@ inline void turn_from_start(BodyState& s, double angle)
     s.delta_rotation = angle != 0 ? Rotation::from_angle(static_cast<float>(angle)) : Rotation{};
     s.turns = static_cast<std::int16_t>(turns_by({}, s.delta_rotation, angle));
 }
+
+/// The rotation of a body in half a step of dt at a constant angular velocity, rad/s; of at most half a radian a step, as contacts of bodies that
+/// turn faster do not turn with them.
+[[nodiscard]] inline Rotation half_turn(float angular_velocity, float dt)
+{
+    const float t = std::clamp((0.25f * dt) * angular_velocity, -most_tangent, most_tangent);
+    const float part = 1 / (1 + t * t);
+    return {(1 - t * t) * part, 2 * t * part};
+}
+
+/// Lets a body's rotation within the step count from the orientation that it reaches in the middle of it, after turning by `half`: lever arms
+/// of that orientation are right in the mean. BodySim::rotation holds it until the step is committed.
+void begin_at_middle(SceneState& state, std::int32_t body, Rotation half, BodyState& s);
+/// Lets it count from the start of the step again.
+void begin_at_start(SceneState& state, std::int32_t body, BodyState& s);
 
 /// Adds to the turns of a body those between two rotations by `displacement`, rad.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, double displacement);

@@ -14,6 +14,7 @@
 #include "dynamics/solver/contact/prepare_wide.h"
 #include "dynamics/solver/joint/joint_solver.h"
 #include "dynamics/state/contact_store.h"
+#include "dynamics/state/turns.h"
 #include "dynamics/task_sizes.h"
 
 #include <algorithm>
@@ -298,7 +299,13 @@ private:
             return;
         }
         set_constants(island_ctx, body, c);
-        m_state.sims[as_index(body)].caches_manifolds = island.policy.caches_manifolds;
+        BodySim& sim = m_state.sims[as_index(body)];
+        sim.previous_center = sim.center;
+        sim.previous_rotation = sim.rotation;
+        if (island.policy.wide_contacts && !island.policy.free_fall && m_state.bodies[body].first_joint == none &&
+            sim.angular_velocity != 0)
+            begin_at_middle(m_state, body, half_turn(sim.angular_velocity, island_ctx.dt), s);
+        sim.caches_manifolds = island.policy.caches_manifolds;
         if (island.policy.free_fall)
             s.flags |= body_flag::free_fall;
     }
@@ -306,6 +313,7 @@ private:
     void add_flier(const StepContext& island_ctx, std::int32_t i)
     {
         const FlierSeed& seed = m_scratch.layout.flier_seeds[as_index(i)];
+        begin_at_start(m_state, seed.body, m_scratch.solver.states[as_index(seed.state)]);
         Flier& flier = m_scratch.flight.fliers[as_index(i)];
         flier = make_flier(island_ctx, seed.state, seed.body, seed.kind);
         flier.landed = seed.landed;

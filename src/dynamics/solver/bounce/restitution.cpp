@@ -48,7 +48,7 @@ public:
     void note_approaches()
     {
         for (ContactConstraint& constraint : constraints())
-            note_approach(m_view, constraint);
+            note_approach(m_view, constraint, least_blow(m_ctx));
     }
 
     // With a = (u1 - u0) / h while the bodies come nearer by s: u² = u0² + 2 a s. They may meet in the next sub-step only, which the relaxation foresees.
@@ -150,8 +150,8 @@ private:
         else
             bounce_parts(k, team);
         m_loads.forget_relieved();
-        for_each_lane(m_blows.relieved,
-                      [&](std::int32_t lane) { note_lost_loads(m_scratch, m_island.wide_store * lane_count + lane); });
+        for_each_lane(m_blows.relieved, [&](std::int32_t lane)
+                      { note_lost_loads(m_scratch, m_island.wide_store * lane_count + lane, halfway_gap(m_ctx)); });
     }
 
     void bounce_parts(int k, WorkerTeam& team)
@@ -253,6 +253,7 @@ private:
         notes.unreported &= ~bit;
         if (!strikes)
             return;
+        constraint.hit = (notes.halfway & bit) != 0 ? 1 : 0;
         note_standing_loads(m_ctx, k, index, constraint);
         add_to_sums(constraint, -1); // as outside of lanes, where the impulses of a sub-step count at its end
         const float share = m_loads.share_of(gap_of(wide, constraint, i), approach);
@@ -260,8 +261,27 @@ private:
         resolve_impact(constraint, approach, gave_back, k, report);
         add_to_sums(constraint, 1);
         put_impulses(m_scratch, constraint, index);
+        if (gave_back)
+            note_lost_loads(m_scratch, index, -1);
+        const bool goes_on = !gave_back && is_halfway(wide, constraint, i);
+        notes.halfway = static_cast<std::uint8_t>(goes_on ? notes.halfway | bit : notes.halfway & ~bit);
+        if (goes_on)
+            return;
         if (gave_back || approach > m_ctx.rest_speed)
             notes.may_hit &= ~struck;
+    }
+
+    // A point has been stopped in part: the bodies meet within the next sub-step.
+    [[nodiscard]] bool is_halfway(const WideContact& wide, const ContactConstraint& constraint, int lane) const
+    {
+        for (int p = 0; p < constraint.count; ++p)
+        {
+            const float rest = -constraint_speed(m_view, constraint, constraint.points[p]);
+            if (constraint.points[p].normal_impulse > 0 && rest > least_blow(m_ctx) &&
+                2 * wide.points[p].separation.v[lane] > m_view.h * rest)
+                return true;
+        }
+        return false;
     }
 
     // That of the point which is struck fastest, in m.

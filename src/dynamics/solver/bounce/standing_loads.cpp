@@ -41,7 +41,7 @@ public:
     void solve(float loads)
     {
         for_each_relieved([&](const ContactConstraint& constraint, ConstraintPoint& p)
-                          { push(constraint, p, loads * p.standing_load); });
+                          { push(constraint, p, p.missing_load + loads * p.standing_load); });
         for (int pass = 0; pass < passes; ++pass)
         {
             for_each_bearing([this](ContactConstraint& constraint, ConstraintPoint& p, const BeforeSettling& before)
@@ -62,8 +62,13 @@ public:
                            const float mean = 0.5f * (before.speed + constraint_speed(m_view, constraint, p));
                            gained += p.normal_impulse * std::max(mean, 0.0f);
                        });
-        for_each_point(Role::Bears, [&](const ContactConstraint&, const ConstraintPoint& p, const BeforeSettling& before)
-                       { lost += 0.5f * before.impulse * (before.may_be_struck ? std::max(p.approach, 0.0f) : 0); });
+        for_each_point(Role::Bears,
+                       [&](const ContactConstraint&, const ConstraintPoint& p, const BeforeSettling& before)
+                       {
+                           const float approach = before.may_be_struck ? std::max(p.approach, 0.0f) : 0;
+                           const float rest = approach > 0 ? std::max(-before.speed, 0.0f) : 0; // is lost when the bodies meet
+                           lost += 0.5f * (before.impulse * (approach + rest) + p.normal_mass * rest * rest);
+                       });
         if (gained > lost)
             take_back(lost / gained);
     }
@@ -76,7 +81,8 @@ public:
             {
                 m_pushes.note(constraint, p, p.normal_impulse * constraint.n);
                 p.total_impulse += p.normal_impulse;
-                p.normal_impulse = p.standing_load = 0;
+                p.normal_impulse = 0;
+                forget_loads(p);
             });
     }
 
@@ -183,9 +189,9 @@ bool is_blow(const ContactConstraint& constraint, float least)
 
 } // namespace
 
-float standing_load(const PointImpulses& last, int substeps)
+float load_before_last(const PointImpulses& last, int substeps)
 {
-    return substeps > 1 ? std::min(last.normal, (last.total_normal - last.normal) / static_cast<float>(substeps - 1)) : 0;
+    return substeps > 1 ? (last.total_normal - last.normal) / static_cast<float>(substeps - 1) : 0;
 }
 
 float StandingLoads::share_of(float gap, float approach) const { return std::clamp(gap / (m_ctx.h * approach), 0.0f, 1.0f); }
@@ -214,7 +220,7 @@ bool StandingLoads::give_back(ContactConstraint& struck, float share, int k, Own
     {
         add_to_sums(relieved.constraint, 1);
         put_impulses(m_ctx.scratch, relieved.constraint, relieved.lane);
-        note_lost_loads(m_ctx.scratch, relieved.lane);
+        note_lost_loads(m_ctx.scratch, relieved.lane, -1);
     }
     return true;
 }
@@ -328,25 +334,40 @@ void StandingLoads::forget_relieved()
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint)
 {
     const WideContactNotes& notes = ctx.scratch.solver.wide_notes[as_index(lane / lane_count)];
+    const bool is_halfway = (notes.halfway >> lane % lane_count & 1) != 0;
     for (int i = 0; i < constraint.count; ++i)
     {
         ConstraintPoint& p = constraint.points[i];
         if ((notes.may_hit & (may_hit_bit(lane % lane_count, i) | lost_bit(lane % lane_count, i))) != 0)
             continue;
-        p.standing_load = standing_load(impulses_of(ctx.state, constraint.contact).points[i], ctx.substeps);
+        const bool may_have_paused = is_halfway || (notes.paused & may_hit_bit(lane % lane_count, i)) != 0;
+        const PointImpulses& last = impulses_of(ctx.state, constraint.contact).points[i];
+        const float borne = p.total_impulse - p.normal_impulse; // in this step, before this sub-step
+        p.standing_load = load_before_last(last, ctx.substeps);
+        if (k > 0 || !is_halfway)
+            p.standing_load = std::min(p.standing_load, last.normal);
         if (k > 0)
-            p.standing_load = std::min(p.standing_load, (p.total_impulse - p.normal_impulse) / static_cast<float>(k));
+            p.standing_load = std::min(p.standing_load, (last.normal + borne) / static_cast<float>(may_have_paused ? k : k + 1));
+        if (!may_have_paused)
+            continue;
+        const float missing = k > 0 ? static_cast<float>(k) * p.standing_load - borne : p.standing_load - last.normal;
+        p.missing_load = std::clamp(missing, 0.0f, p.standing_load);
     }
 }
 
-void note_lost_loads(Scratch& scratch, std::int32_t lane)
+void note_lost_loads(Scratch& scratch, std::int32_t lane, float far)
 {
     const WideContact& block = scratch.solver.wide_contacts[as_index(lane / lane_count)];
     WideContactNotes& notes = scratch.solver.wide_notes[as_index(lane / lane_count)];
+    const int i = lane % lane_count;
     for (int k = 0; k < notes.count; ++k)
     {
-        if (block.points[k].normal_impulse.v[lane % lane_count] == 0)
-            notes.may_hit |= lost_bit(lane % lane_count, k);
+        const std::uint32_t paused = may_hit_bit(i, k);
+        if (block.points[k].normal_impulse.v[i] > 0)
+            continue;
+        if (block.points[k].separation.v[i] > far || (notes.paused & paused) != 0)
+            notes.may_hit |= lost_bit(i, k);
+        notes.paused = static_cast<std::uint16_t>(notes.paused | paused);
     }
 }
 

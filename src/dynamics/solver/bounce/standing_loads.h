@@ -7,6 +7,9 @@
 // Speeds are those at the middle of a sub-step that is over, as symplectic Euler steps have them. Bodies that meet at the share t of the next sub-step have been
 // under load for t + 1/2 of it, and that much is missing beside the load of this sub-step.
 //
+// A constraint often takes an approach in two parts: in the first sub-step so much that the bodies meet at the end of the second. The load that the first part
+// takes is missing too, and comes back when the point is relieved.
+//
 // Outside of lanes, all blows of an island are settled at once. In lanes, each struck contact is settled with the contacts that it has relieved, as far as its
 // thread may change them. Joints that are solved at once, and scenes of one sub-step, in which nothing tells a blow from a load, do without.
 
@@ -58,11 +61,12 @@ private:
     const Pushes& m_pushes;
 };
 
-/// The load that a point has borne in each of the `substeps` of the last step, N s; a blow in one sub-step does not count.
-[[nodiscard]] float standing_load(const PointImpulses& last, int substeps);
+/// The mean load that a point has borne in a step of `substeps` before the last of them, N s.
+[[nodiscard]] float load_before_last(const PointImpulses& last, int substeps);
 /// The same for the points of the constraint in a lane, in sub-step k.
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint);
-/// Notes that points of a lane bear no load any more: no blow of a later sub-step has relieved them.
-void note_lost_loads(Scratch& scratch, std::int32_t lane);
+/// Notes that points of a lane bear no load any more: no blow of a later sub-step has relieved them. One that is no farther apart than `far`, m, may
+/// pause for a sub-step: the impulses of a load vary from sub-step to sub-step as the body turns.
+void note_lost_loads(Scratch& scratch, std::int32_t lane, float far);
 
 } // namespace carom::internal

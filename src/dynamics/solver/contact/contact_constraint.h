@@ -14,7 +14,7 @@ struct ConstraintPoint
 {
     Vec2 ra{}; ///< lever arms of the Jacobian
     Vec2 rb{};
-    Vec2 ra0{}; ///< the same anchors in the orientation at the start of the step
+    Vec2 ra0{}; ///< the same anchors in the orientation from which rotations count
     Vec2 rb0{};
     float base = 0; ///< separation = base + n · (relative displacement of the anchors)
     /// Error of the straight-line prediction of the separation over the next sub-step (round contacts).
@@ -26,8 +26,11 @@ struct ConstraintPoint
     float separation_before = 0; ///< at the start of the sub-step, in islands whose energy is watched
     float approach = 0;          ///< speed at the start of the sub-step, of constraints that bear no load yet
     float last_impulse = 0;      ///< along the normal in the sub-step before
-    float standing_load = 0;     ///< that it bore in each of the two sub-steps before, N s: a blow in one of them does not count
-    float total_impulse = 0;     ///< over the step
+    float older_impulse = 0;     ///< and in the one before that
+    float standing_load =
+        0; ///< that it has borne of late, N s: the median of three sub-steps, so that neither a blow nor a pause in one of them counts
+    float missing_load = 0;  ///< of that, what it did not bear in the sub-step before
+    float total_impulse = 0; ///< over the step
     float total_tangent = 0;
 };
 
@@ -54,6 +57,9 @@ struct ContactConstraint
     Softness softness{};
     ConstraintPoint points[2];
 };
+
+/// It has parted.
+inline void forget_loads(ConstraintPoint& p) { p.last_impulse = p.older_impulse = p.standing_load = p.missing_load = 0; }
 
 /// The sum of its normal impulses, which limits rolling.
 [[nodiscard]] inline float load_of(const ContactConstraint& constraint)

@@ -112,6 +112,8 @@ void solve_both_normals(const SolverView& view, const Pair& pair, ContactConstra
     set_normal_impulse(pair, constraint, q, now.second);
 }
 
+float median(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
+
 } // namespace
 
 float constraint_separation(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& p)
@@ -170,12 +172,31 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
     }
 }
 
-void note_approach(const SolverView& view, ContactConstraint& constraint)
+void note_approach(const SolverView& view, ContactConstraint& constraint, float least_blow)
 {
-    for (ConstraintPoint& p : std::span(constraint.points).first(static_cast<std::size_t>(constraint.count)))
+    const std::span points = std::span(constraint.points).first(static_cast<std::size_t>(constraint.count));
+    bool is_halfway = false;
+    for (ConstraintPoint& p : points)
     {
-        p.approach = p.normal_impulse > 0 ? 0 : -constraint_speed(view, constraint, p);
-        p.standing_load = std::min(std::exchange(p.last_impulse, p.normal_impulse), p.normal_impulse);
+        const float approach = -constraint_speed(view, constraint, p);
+        const float separation = constraint_separation(view, constraint, p);
+        const bool meets = approach > least_blow && 2 * separation > view.h * approach;
+        is_halfway |= p.normal_impulse > 0 && meets;
+        p.approach = p.normal_impulse > 0 && !meets ? 0 : approach;
+        if (p.normal_impulse == 0 && 2 * separation > view.h * least_blow)
+            forget_loads(p);
+    }
+    if (is_halfway)
+        constraint.hit = 1;
+    for (ConstraintPoint& p : points)
+    {
+        if (!is_halfway)
+        {
+            p.standing_load = median(p.older_impulse, p.last_impulse, p.normal_impulse);
+            p.older_impulse = std::exchange(p.last_impulse, p.normal_impulse);
+        }
+        const bool has_paused = is_halfway || p.normal_impulse == 0;
+        p.missing_load = has_paused ? std::max(p.standing_load - p.normal_impulse, 0.0f) : 0;
     }
 }
 

@@ -40,8 +40,9 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
 /// The speed of b's surface relative to a's along perp(n), less the surface speed, m/s.
 [[nodiscard]] float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
-/// Notes the approach speeds of points that bear no load yet, before the sub-step's forces.
-void note_approach(const SolverView& view, ContactConstraint& constraint);
+/// Before the sub-step's forces, notes the approach speeds of points that bear no load yet or have not met: a constraint takes a part of an approach up to a
+/// sub-step early and leaves so much that the bodies meet at the end of the next one. Standing loads are those before such a blow.
+void note_approach(const SolverView& view, ContactConstraint& constraint, float least_blow);
 
 /// The approach speed when the sub-step began, along the present normal of the constraint.
 [[nodiscard]] float approach_before(const Scratch& scratch, const ContactConstraint& constraint, const ConstraintPoint& point);

@@ -149,6 +149,8 @@ void scale_constraint(ContactConstraint& constraint, float by)
         p.normal_impulse *= by;
         p.tangent_impulse *= by;
         p.last_impulse *= by;
+        p.older_impulse *= by;
+        p.standing_load *= by;
     }
 }
 
@@ -192,7 +194,9 @@ ContactConstraint prepare_constraint(const StepContext& ctx, int index, const Ma
         const PointImpulses& impulses = impulses_of(ctx.state, index).points[i];
         constraint.points[i].normal_impulse = impulses.normal;
         constraint.points[i].tangent_impulse = impulses.tangent;
-        constraint.points[i].last_impulse = standing_load(impulses, ctx.substeps / ctx.subdivisions);
+        constraint.points[i].standing_load = load_before_last(impulses, ctx.substeps / ctx.subdivisions);
+        constraint.points[i].older_impulse = constraint.points[i].standing_load;
+        constraint.points[i].last_impulse = std::min(impulses.normal, constraint.points[i].standing_load);
     }
     if (ctx.subdivisions > 1)
         scale_constraint(constraint, 1 / static_cast<float>(ctx.subdivisions));

@@ -79,10 +79,9 @@ void refill_lane(const StepContext& ctx, std::size_t at, int i)
     SolverWorkspace& solver = ctx.scratch.solver;
     WideContact& constraint = solver.wide_contacts[at];
     WideContactNotes& notes = solver.wide_notes[at];
-    for (std::uint32_t* lanes :
-         {&notes.loaded, &notes.may_hit, &notes.unreported, &notes.edge_of_b, &notes.nearest, &notes.cached, &notes.followed})
+    for (std::uint32_t* lanes : {&notes.loaded, &notes.unreported, &notes.edge_of_b, &notes.nearest, &notes.cached})
         *lanes &= ~(1u << i);
-    notes.may_hit &= ~(may_hit_bit(i, 1) | lost_bit(i, 0) | lost_bit(i, 1));
+    notes.followed = static_cast<std::uint16_t>(notes.followed & ~(1u << i));
     const std::int32_t index = notes.contact.v[i];
     const Contact& contact = ctx.state.contacts[index];
     const Manifold& m = contact.manifold;
@@ -95,7 +94,7 @@ void refill_lane(const StepContext& ctx, std::size_t at, int i)
     constraint.inverse_mass_b.v[i] = b.inverse_mass.x;
     constraint.inverse_inertia_a.v[i] = a.inverse_inertia;
     constraint.inverse_inertia_b.v[i] = b.inverse_inertia;
-    notes.count = static_cast<std::int16_t>(m.count);
+    notes.count = static_cast<std::int8_t>(m.count);
     if (caches_edge_of_b(contact))
         notes.edge_of_b |= 1u << i;
     if (caches_nearest(contact))
@@ -116,8 +115,6 @@ void refill_lane(const StepContext& ctx, std::size_t at, int i)
         fill_features(ctx.state, index, solver.wide_features[at], i);
     if ((contact.flags & contact_flag::loaded) != 0)
         notes.loaded |= 1u << i;
-    for (int k = 0; k < m.count; ++k)
-        notes.may_hit |= constraint.points[k].normal_impulse.v[i] > 0 ? 0 : may_hit_bit(i, k);
     if (!touches(contact))
         notes.unreported |= 1u << i;
     if (is_cached(contact))

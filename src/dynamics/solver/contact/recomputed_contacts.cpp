@@ -195,7 +195,8 @@ void RecomputedContacts::roll_back(ContactConstraint& constraint)
     if (now.count != 1)
         return;
     ConstraintPoint& p = constraint.points[0];
-    p.normal_impulse = p.tangent_impulse = p.last_impulse = p.standing_load = p.approach = 0;
+    p.normal_impulse = p.tangent_impulse = p.approach = 0;
+    forget_loads(p);
     set_constraint_geometry(m_work.scratch, constraint, now);
 }
 

@@ -4,7 +4,8 @@
 // frame. With n the normal, t = perp(n), and r the lever arm of a point, r × t = r · n, so that two scalars per body and point suffice:
 //   across = r × n    the arm of the normal, and how the separation changes as the body turns
 //   along  = r · n    the arm of the tangent, and the curvature of the separation
-// Points and normals are those of the start of the step; only the separation follows the rotation.
+// Points and normals are those of the start of the step, but for the arms: those of the middle of the step are right in the mean. The separation follows
+// the rotation. See begin_at_middle().
 
 #include "core/lane_storage.h"
 #include "dynamics/solver/contact/contact_constraint.h"
@@ -61,16 +62,19 @@ struct alignas(64) WideContactNotes
     LaneInts body_a;
     LaneInts body_b;
     LaneFloats approach[2]; ///< of the points at the start of the sub-step, in blocks in which a lane may have been struck
-    std::int16_t count;     ///< number of points, the same in all lanes
-    std::int16_t featured;  ///< whether WideFeatures count; the same in a bucket
-    /// Points that bore no load when the step began and have not been struck, see may_hit_bit; points of empty lanes too. And see lost_bit.
+    std::int8_t count;      ///< number of points, the same in all lanes
+    std::int8_t featured;   ///< whether WideFeatures count; the same in a bucket
+    std::uint16_t paused;   ///< points that bore nothing in a sub-step, but have hardly parted
+    /// Points that bore no load when the step began and have not been struck, or are halfway, see may_hit_bit; points of empty lanes too. And see lost_bit.
     std::uint32_t may_hit;
     std::uint32_t loaded;     ///< the contact has contact_flag::loaded
     std::uint32_t unreported; ///< did not touch when the step began, and the touch is not reported yet
     std::uint32_t edge_of_b;  ///< the normal is that of an edge of b
     std::uint32_t nearest;    ///< the normal leads from corner to corner
     std::uint32_t cached;     ///< the manifold is cached
-    std::uint32_t followed;   ///< the contact has contact_flag::followed
+    std::uint16_t followed;   ///< the contact has contact_flag::followed
+    std::uint8_t round;       ///< the contact has contact_flag::round
+    std::uint8_t halfway;     ///< a point was struck and has been stopped in part: the blow goes on
 };
 
 /// Lanes of the second points come behind those of the first.

@@ -38,14 +38,60 @@ CAROM_INLINE void fill_impulses(WideContact& constraint, const WideContactNotes&
     }
 }
 
-// The points that bear no load, as may_hit_bit has them; those of empty lanes too.
-CAROM_INLINE std::uint32_t unloaded_points(const WideContact& constraint, int points)
+// Finds the points that may be struck, and those that are halfway through a blow: they bear a load farther apart than `far`.
+CAROM_INLINE void note_unloaded(const WideContact& constraint, WideContactNotes& notes, float far)
 {
-    const auto unloaded = [&](int k) { return bits(load(constraint.points[k].normal_impulse) <= all(0)); };
-    return unloaded(0) | (points == 2 ? unloaded(1) << lane_count : 0);
+    notes.may_hit = 0;
+    notes.paused = notes.halfway = 0;
+    for (int k = 0; k < notes.count; ++k)
+    {
+        const I8 unloaded = load(constraint.points[k].normal_impulse) <= all(0);
+        const std::uint32_t halfway = bits(~unloaded & (load(constraint.points[k].separation) > all(far)));
+        notes.may_hit |= (bits(unloaded) | halfway) << k * lane_count;
+        notes.halfway = static_cast<std::uint8_t>(notes.halfway | halfway);
+    }
 }
 
-void prepare(WideContact& constraint, std::int32_t points)
+// Half of what bodies turn by within the step; as half_turn in prepare.h.
+CAROM_INLINE Turn half_turns(F8 angular_velocity, float dt)
+{
+    const F8 t = clamp((0.25f * dt) * angular_velocity, all(-most_tangent), all(most_tangent));
+    const F8 part = 1 / (1 + t * t);
+    return {(1 - t * t) * part, 2 * t * part};
+}
+
+// n · (R r - r) of a body that turns back by q
+CAROM_INLINE F8 turned_back(const Turn& q, const LaneFloats& along, const LaneFloats& across)
+{
+    return (q.c - 1) * load(along) - q.s * load(across);
+}
+
+CAROM_INLINE void turn_arm(const Turn& q, LaneFloats& along, LaneFloats& across)
+{
+    const F8 was = load(along);
+    store(along, q.c * was + q.s * load(across));
+    store(across, q.c * load(across) - q.s * was);
+}
+
+// Turns arms of the step's start to its middle, where bodies have turned by a and b. A circle's points do not turn with it.
+CAROM_INLINE void turn_arms(WideContact& constraint, const WideContactNotes& notes, const Turn& a, const Turn& b)
+{
+    const I8 round = (all_ints(notes.round) & eight_of(1, 2, 4, 8, 16, 32, 64, 128)) != I8{};
+    const auto unless_round = [&](const Turn& q) { return Turn{select(round, all(1), q.c), select(round, all(0), q.s)}; };
+    const Turn arm_a = unless_round(a);
+    const Turn arm_b = unless_round(b);
+    for (int k = 0; k < notes.count; ++k)
+    {
+        WidePoint& p = constraint.points[k];
+        turn_arm(arm_a, p.along_a, p.across_a);
+        turn_arm(arm_b, p.along_b, p.across_b);
+        const F8 separation = load(p.base);
+        store(p.separation, separation);
+        store(p.base, separation + (turned_back(a, p.along_a, p.across_a) - turned_back(b, p.along_b, p.across_b)));
+    }
+}
+
+CAROM_INLINE void weigh(WideContact& constraint, std::int32_t points)
 {
     const F8 mass = load(constraint.inverse_mass_a) + load(constraint.inverse_mass_b);
     const F8 ia = load(constraint.inverse_inertia_a);
@@ -56,7 +102,6 @@ void prepare(WideContact& constraint, std::int32_t points)
         const F8 ta = load(p.along_a);
         const F8 tb = load(p.along_b);
         const F8 tangent_k = mass + ta * ta * ia + tb * tb * ib;
-        store(p.separation, load(p.base));
         store(p.tangent_mass, select(tangent_k > all(0), all(1) / tangent_k, all(0)));
     }
     if (points < 2)
@@ -72,8 +117,27 @@ void prepare(WideContact& constraint, std::int32_t points)
     store(constraint.coupling, clamp(k(0, 1), -limit, limit));
 }
 
+void prepare(WideContact& constraint, WideContactNotes& notes, const BodySim* sims, float dt, float far)
+{
+    const auto turns = [&](const LaneInts& bodies)
+    { return half_turns(lanes_from([&](int i) { return notes.contact.v[i] < 0 ? 0 : sims[bodies.v[i]].angular_velocity; }), dt); };
+    turn_arms(constraint, notes, turns(notes.body_a), turns(notes.body_b));
+    weigh(constraint, notes.count);
+    note_unloaded(constraint, notes, far);
+}
+
+// The half turns by which states have been turned back.
+CAROM_INLINE Turn half_turns_of(const BodyState* states, const LaneInts& index)
+{
+    static_assert(offsetof(BodyState, delta_rotation) == offsetof(BodyState, delta_position) + 8);
+    F8 x, y, c, s;
+    gather4([&](int i) { return reinterpret_cast<const char*>(&states[index.v[i]].delta_position); }, x, y, c, s);
+    return {c, -s};
+}
+
 // Fills all but a, b, contact and count, which select the source.
-void fill(WideContact& constraint, WideContactNotes& notes, const Contact* contacts, const ContactImpulses* impulses, const StateConstants* constants)
+void fill(WideContact& constraint, WideContactNotes& notes, const Contact* contacts, const ContactImpulses* impulses, const BodyState* states,
+          const StateConstants* constants, float far)
 {
     static_assert(offsetof(Contact, body_b) == offsetof(Contact, shape_a) + 12 &&
                   offsetof(Contact, friction) == offsetof(Contact, flags) + 4 && offsetof(Manifold, normal) == 0);
@@ -98,13 +162,15 @@ void fill(WideContact& constraint, WideContactNotes& notes, const Contact* conta
     store(notes.approach[0], all(0));
     store(notes.approach[1], all(0));
     notes.loaded = filled & lanes_with(flags, contact_flag::loaded);
-    notes.may_hit = unloaded_points(constraint, notes.count);
     notes.unreported = filled & ~lanes_with(flags, contact_flag::touching);
     notes.cached = lanes_with(flags, contact_flag::cached) & ~lanes_with(flags, contact_flag::fresh);
     notes.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);
     notes.nearest = lanes_with(flags, contact_flag::nearest);
+    notes.round = static_cast<std::uint8_t>(lanes_with(flags, contact_flag::round));
     notes.followed = 0;
-    prepare(constraint, notes.count);
+    turn_arms(constraint, notes, half_turns_of(states, constraint.a), half_turns_of(states, constraint.b));
+    weigh(constraint, notes.count);
+    note_unloaded(constraint, notes, far);
 }
 
 } // namespace fills

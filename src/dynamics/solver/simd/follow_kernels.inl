@@ -362,7 +362,6 @@ void refresh_contact(WideContact& constraint, const WideContactNotes& notes, con
     for (int k = 0; k < points; ++k)
         put(constraint.points[k], now.points[k], now.n, filled);
     report(bears(constraint, points), notes, now, filled, scene, found);
-    found.unloaded = fills::unloaded_points(constraint, points);
 }
 
 void follow(WideContact& constraint, const WideContactNotes& notes, const FollowedScene& scene, RefreshedContacts& found)

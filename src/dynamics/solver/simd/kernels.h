@@ -40,9 +40,8 @@ struct RefreshedContacts
     LaneFloats separation; ///< the least of the contact's points
     std::uint32_t unsure;  ///< must be checked one by one; what else is reported of them does not hold
     std::uint32_t begins_or_ends;
-    std::uint32_t borne;    ///< near, and bore a load
-    std::uint32_t sunk;     ///< not borne, and deeper than the slop
-    std::uint32_t unloaded; ///< points, see may_hit_bit
+    std::uint32_t borne; ///< near, and bore a load
+    std::uint32_t sunk;  ///< not borne, and deeper than the slop
 };
 
 /// The same for eight contacts outside of constraints.
@@ -93,12 +92,13 @@ struct OverlapSink
 struct WideKernels
 {
     const char* name;
-    /// Fills a constraint from its contacts, their impulses, and the constants of their states, and computes effective
+    /// Fills a constraint from its contacts, their impulses, their states and the constants of these, and computes effective
     /// masses. For each lane, `constraint` already has a and b, and `notes` the contact and the number of points.
     void (*fill)(WideContact& constraint, WideContactNotes& notes, const Contact* contacts, const ContactImpulses* impulses,
-                 const StateConstants* constants);
-    /// Recomputes effective masses after lanes have been filled one by one.
-    void (*prepare)(WideContact& constraint, std::int32_t points);
+                 const BodyState* states, const StateConstants* constants, float far);
+    /// After `follow`, and after lanes have been filled one by one: turns arms to the middle of a step of dt, computes effective masses,
+    /// and notes which points may be struck. far: see halfway_gap().
+    void (*prepare)(WideContact& constraint, WideContactNotes& notes, const BodySim* sims, float dt, float far);
     void (*warm_start)(const WideBucket& bucket, BodyState* states);
     /// One pass of sequential impulses with bias: the soft constraint also removes overlap.
     void (*solve)(const WideBucket& bucket, BodyState* states, const WideSoftness& s);
