@@ -37,7 +37,8 @@ RefreshChanges ConstraintRefresh::follow(std::size_t at)
     const std::uint32_t looked = now.unsure | now.begins_or_ends;
     const std::uint32_t sure = filled_lanes(notes) & ~looked;
     clear_sums(constraint, notes);
-    for_each_lane(sure & ~notes.followed, [&](int i) { m_state.contacts[notes.contact.v[i]].flags |= contact_flag::followed; });
+    for_each_lane(sure & ~std::uint32_t{notes.followed},
+                  [&](int i) { m_state.contacts[notes.contact.v[i]].flags |= contact_flag::followed; });
     notes.followed = static_cast<std::uint16_t>(notes.followed | sure);
     for_each_lane(now.borne & sure, [&](int i) { note_borne(constraint, i); });
     for_each_lane(now.sunk & sure, [&](int i) { note_if_loaded(constraint, notes, i, now.separation.v[i]); });

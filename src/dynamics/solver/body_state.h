@@ -24,6 +24,7 @@ inline constexpr std::uint16_t jointed = 1024;  ///< held by a joint outside of 
 inline constexpr std::uint16_t free_fall = 128; ///< nothing is near that it could meet in this step
 } // namespace body_flag
 
+inline constexpr float round_arm = 1e-5f; ///< an arm turned from the normal by less is that of a circle about the center of mass
 inline constexpr float most_tangent = 0.125f; ///< of a quarter of the rotation within a step, see half_turn()
 
 /// The state that every solver pass touches. Pose changes count from the pose in BodySim: that of the start of the step, or the orientation of its

@@ -88,16 +88,6 @@ void take_rolling_impulses(SceneState& state, const WideContactNotes& notes, con
     }
 }
 
-// Where rotations count from the middle of the step, the arms are those of the middle too. A circle's points do not turn with it.
-void turn_arms_to_reference(ContactConstraint& constraint)
-{
-    for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
-    {
-        p.ra = p.ra0;
-        p.rb = p.rb0;
-    }
-}
-
 void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t i)
 {
     const SolvedEdge& l = ctx.scratch.layout.solved_edges[as_index(ctx.scratch.layout.constraint_edges[as_index(i)])];
@@ -105,8 +95,8 @@ void fill_constraint(const StepContext& ctx, const Island& island, std::int32_t 
     ContactConstraint& constraint = ctx.scratch.solver.constraints[as_index(i)];
     constraint = prepare_constraint(ctx, l.contact, contact.manifold, l.a, l.b);
     follow_closely(contact, island, constraint);
-    if ((contact.flags & contact_flag::round) == 0)
-        turn_arms_to_reference(constraint);
+    if (island.policy.wide_contacts)
+        turn_arms(ctx.scratch, constraint);
 }
 
 // Prefetches the hinge of a lane that is filled later, and the bodies of a hinge that is filled sooner.

@@ -81,7 +81,7 @@ void follow_straight(const FlightSpan& span, int body, const BodySim& sim, doubl
         path.w += dw;
         angle += (since - d.time) * dw;
     }
-    turn_frame(sim.rotation, angle, path);
+    turn_frame(rotation_at_start(span.ctx.state, body), angle, path);
 }
 
 } // namespace

@@ -24,12 +24,12 @@ std::int32_t& last_piece_of(const FlightSpan& span, std::int32_t state)
     return last[static_cast<std::size_t>(state - span.island.first_state)];
 }
 
-FramePath at_rest(const BodySim& sim)
+FramePath at_rest(const BodySim& sim, Rotation rotation)
 {
     FramePath path;
     path.local_center = sim.local_center;
-    path.c = static_cast<double>(sim.rotation.c);
-    path.s = static_cast<double>(sim.rotation.s);
+    path.c = static_cast<double>(rotation.c);
+    path.s = static_cast<double>(rotation.s);
     return path;
 }
 
@@ -38,9 +38,10 @@ FramePath at_rest(const BodySim& sim)
 FramePath solved_path(const FlightSpan& span, std::int32_t state, double time)
 {
     const BodyState& s = span.state_of(state);
-    const BodySim& sim = span.sim_of(span.scratch.solver.state_bodies[static_cast<std::size_t>(state)]);
+    const int body = span.scratch.solver.state_bodies[static_cast<std::size_t>(state)];
+    const BodySim& sim = span.sim_of(body);
     const std::int32_t last = last_piece_of(span, state);
-    FramePath path = at_rest(sim);
+    FramePath path = at_rest(sim, rotation_at_start(span.ctx.state, body));
     if (last != none)
     {
         const PathPiece& piece = span.output.path[static_cast<std::size_t>(last)];

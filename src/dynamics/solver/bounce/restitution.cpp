@@ -48,7 +48,7 @@ public:
     void note_approaches()
     {
         for (ContactConstraint& constraint : constraints())
-            note_approach(m_view, constraint, least_blow(m_ctx));
+            note_approach(m_view, constraint, m_joints == nullptr ? least_blow(m_ctx) : std::numeric_limits<float>::max());
     }
 
     // With a = (u1 - u0) / h while the bodies come nearer by s: u² = u0² + 2 a s. They may meet in the next sub-step only, which the relaxation foresees.
@@ -253,7 +253,8 @@ private:
         notes.unreported &= ~bit;
         if (!strikes)
             return;
-        constraint.hit = (notes.halfway & bit) != 0 ? 1 : 0;
+        for (int p = 0; p < notes.count; ++p)
+            constraint.halfway = static_cast<std::uint8_t>(constraint.halfway | (notes.halfway >> (i + p * lane_count) & 1) << p);
         note_standing_loads(m_ctx, k, index, constraint);
         add_to_sums(constraint, -1); // as outside of lanes, where the impulses of a sub-step count at its end
         const float share = m_loads.share_of(gap_of(wide, constraint, i), approach);
@@ -262,26 +263,26 @@ private:
         add_to_sums(constraint, 1);
         put_impulses(m_scratch, constraint, index);
         if (gave_back)
-            note_lost_loads(m_scratch, index, -1);
-        const bool goes_on = !gave_back && is_halfway(wide, constraint, i);
-        notes.halfway = static_cast<std::uint8_t>(goes_on ? notes.halfway | bit : notes.halfway & ~bit);
-        if (goes_on)
-            return;
+            note_lost_loads(m_scratch, index);
+        const std::uint32_t halfway = gave_back ? 0 : halfway_points(wide, constraint, i);
+        notes.halfway = static_cast<std::uint16_t>((notes.halfway & ~(may_hit_bit(i, 0) | may_hit_bit(i, 1))) | halfway);
+        struck &= ~halfway;
         if (gave_back || approach > m_ctx.rest_speed)
             notes.may_hit &= ~struck;
     }
 
-    // A point has been stopped in part: the bodies meet within the next sub-step.
-    [[nodiscard]] bool is_halfway(const WideContact& wide, const ContactConstraint& constraint, int lane) const
+    // The points that have been stopped in part: the bodies meet within the next sub-step.
+    [[nodiscard]] std::uint32_t halfway_points(const WideContact& wide, const ContactConstraint& constraint, int lane) const
     {
+        std::uint32_t halfway = 0;
         for (int p = 0; p < constraint.count; ++p)
         {
             const float rest = -constraint_speed(m_view, constraint, constraint.points[p]);
             if (constraint.points[p].normal_impulse > 0 && rest > least_blow(m_ctx) &&
                 2 * wide.points[p].separation.v[lane] > m_view.h * rest)
-                return true;
+                halfway |= may_hit_bit(lane, p);
         }
-        return false;
+        return halfway;
     }
 
     // That of the point which is struck fastest, in m.
@@ -332,14 +333,14 @@ private:
         return std::span(constraint.points).first(as_index(constraint.count));
     }
 
-    // The greatest approach of the points that were stopped.
-    static float greatest_approach(ContactConstraint& constraint)
+    // The greatest approach of the points that were stopped, without some of them, as bits.
+    static float greatest_approach(ContactConstraint& constraint, std::uint32_t without = 0)
     {
         float approach = 0;
-        for (const ConstraintPoint& p : points_of(constraint))
+        for (int i = 0; i < constraint.count; ++i)
         {
-            if (p.normal_impulse > 0)
-                approach = std::max(approach, p.approach);
+            if (constraint.points[i].normal_impulse > 0 && (without >> i & 1) == 0)
+                approach = std::max(approach, constraint.points[i].approach);
         }
         return approach;
     }
@@ -347,9 +348,10 @@ private:
     // Blows that are too weak to bounce may have taken back loads.
     void resolve_impact(ContactConstraint& constraint, float approach, bool gave_back, int k, ImpactReport& report)
     {
-        if (approach > m_ctx.rest_speed && constraint.hit == 0)
+        const float first = greatest_approach(constraint, constraint.halfway); // a blow that goes on has been reported
+        if (first > m_ctx.rest_speed && constraint.hit == 0)
         {
-            const StruckConstraint struck = begin_impact(constraint, approach, report);
+            const StruckConstraint struck = begin_impact(constraint, first, report);
             bounce_points(constraint, struck.restitution, struck.kick_speed);
             finish_impact(constraint, struck, k, report);
         }

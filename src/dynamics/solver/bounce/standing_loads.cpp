@@ -191,7 +191,7 @@ bool is_blow(const ContactConstraint& constraint, float least)
 
 float load_before_last(const PointImpulses& last, int substeps)
 {
-    return substeps > 1 ? (last.total_normal - last.normal) / static_cast<float>(substeps - 1) : 0;
+    return substeps > 1 ? std::max((last.total_normal - last.normal) / static_cast<float>(substeps - 1), 0.0f) : 0;
 }
 
 float StandingLoads::share_of(float gap, float approach) const { return std::clamp(gap / (m_ctx.h * approach), 0.0f, 1.0f); }
@@ -220,7 +220,7 @@ bool StandingLoads::give_back(ContactConstraint& struck, float share, int k, Own
     {
         add_to_sums(relieved.constraint, 1);
         put_impulses(m_ctx.scratch, relieved.constraint, relieved.lane);
-        note_lost_loads(m_ctx.scratch, relieved.lane, -1);
+        note_lost_loads(m_ctx.scratch, relieved.lane);
     }
     return true;
 }
@@ -334,7 +334,7 @@ void StandingLoads::forget_relieved()
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint)
 {
     const WideContactNotes& notes = ctx.scratch.solver.wide_notes[as_index(lane / lane_count)];
-    const bool is_halfway = (notes.halfway >> lane % lane_count & 1) != 0;
+    const bool is_halfway = constraint.halfway != 0;
     for (int i = 0; i < constraint.count; ++i)
     {
         ConstraintPoint& p = constraint.points[i];

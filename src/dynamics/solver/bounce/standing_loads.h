@@ -16,6 +16,7 @@
 #include "dynamics/solver/bounce/pushes.h"
 #include "dynamics/step_context.h"
 
+#include <limits>
 #include <span>
 
 namespace carom::internal {
@@ -67,6 +68,6 @@ private:
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint);
 /// Notes that points of a lane bear no load any more: no blow of a later sub-step has relieved them. One that is no farther apart than `far`, m, may
 /// pause for a sub-step: the impulses of a load vary from sub-step to sub-step as the body turns.
-void note_lost_loads(Scratch& scratch, std::int32_t lane, float far);
+void note_lost_loads(Scratch& scratch, std::int32_t lane, float far = -std::numeric_limits<float>::max());
 
 } // namespace carom::internal

@@ -53,6 +53,7 @@ struct ContactConstraint
     std::uint8_t refreshed = 0; ///< recomputed in every sub-step
     std::uint8_t followed = 0;  ///< recomputed when a body has turned
     std::uint8_t hit = 0;       ///< its impact was reported
+    std::uint8_t halfway = 0;   ///< points, as bits, that have been stopped in part: the blow goes on
     std::uint8_t pressed = 0;   ///< bore a load in this sub-step before it was relaxed
     Softness softness{};
     ConstraintPoint points[2];

@@ -175,19 +175,20 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
 void note_approach(const SolverView& view, ContactConstraint& constraint, float least_blow)
 {
     const std::span points = std::span(constraint.points).first(static_cast<std::size_t>(constraint.count));
-    bool is_halfway = false;
-    for (ConstraintPoint& p : points)
+    constraint.halfway = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
+        ConstraintPoint& p = points[i];
         const float approach = -constraint_speed(view, constraint, p);
         const float separation = constraint_separation(view, constraint, p);
         const bool meets = approach > least_blow && 2 * separation > view.h * approach;
-        is_halfway |= p.normal_impulse > 0 && meets;
+        if (p.normal_impulse > 0 && meets)
+            constraint.halfway = static_cast<std::uint8_t>(constraint.halfway | 1u << i);
         p.approach = p.normal_impulse > 0 && !meets ? 0 : approach;
         if (p.normal_impulse == 0 && 2 * separation > view.h * least_blow)
             forget_loads(p);
     }
-    if (is_halfway)
-        constraint.hit = 1;
+    const bool is_halfway = constraint.halfway != 0;
     for (ConstraintPoint& p : points)
     {
         if (!is_halfway)

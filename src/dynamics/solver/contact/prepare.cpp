@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace carom::internal {
 
@@ -100,14 +101,27 @@ float coupling(const StateConstants& a, const StateConstants& b, const ContactCo
     return distinct ? k : 0;
 }
 
+void weigh(const Scratch& scratch, ContactConstraint& constraint)
+{
+    const StateConstants& a = scratch.solver.constants[static_cast<std::size_t>(constraint.a)];
+    const StateConstants& b = scratch.solver.constants[static_cast<std::size_t>(constraint.b)];
+    for (ConstraintPoint& p : std::span(constraint.points).first(static_cast<std::size_t>(constraint.count)))
+    {
+        p.normal_mass = effective_mass(a, b, constraint.n, p.ra, p.rb);
+        p.tangent_mass = effective_mass(a, b, perp(constraint.n), p.ra, p.rb);
+    }
+    constraint.coupling = constraint.count == 2 ? coupling(a, b, constraint) : 0;
+}
+
+// The points of a circle about the center of mass do not turn with it.
+bool turns_with_body(Vec2 arm, Vec2 n) { return std::fabs(cross(arm, n)) > round_arm * std::fabs(dot(arm, n)); }
+
 } // namespace
 
 void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& m)
 {
     const BodyState& sa = scratch.solver.states[static_cast<std::size_t>(constraint.a)];
     const BodyState& sb = scratch.solver.states[static_cast<std::size_t>(constraint.b)];
-    const StateConstants& ca = scratch.solver.constants[static_cast<std::size_t>(constraint.a)];
-    const StateConstants& cb = scratch.solver.constants[static_cast<std::size_t>(constraint.b)];
     constraint.n = m.normal;
     constraint.count = m.count;
     constraint.turn_a = sa.delta_rotation;
@@ -120,10 +134,19 @@ void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constrai
         p.ra0 = inverse_rotate(sa.delta_rotation, p.ra);
         p.rb0 = inverse_rotate(sb.delta_rotation, p.rb);
         p.base = m.points[i].separation - dot(m.normal, sb.delta_position - sa.delta_position + p.rb - p.ra);
-        p.normal_mass = effective_mass(ca, cb, m.normal, p.ra, p.rb);
-        p.tangent_mass = effective_mass(ca, cb, perp(m.normal), p.ra, p.rb);
     }
-    constraint.coupling = m.count == 2 ? coupling(ca, cb, constraint) : 0;
+    weigh(scratch, constraint);
+}
+
+void turn_arms(const Scratch& scratch, ContactConstraint& constraint)
+{
+    for (int i = 0; i < constraint.count; ++i)
+    {
+        ConstraintPoint& p = constraint.points[i];
+        p.ra = turns_with_body(p.ra, constraint.n) ? p.ra0 : p.ra;
+        p.rb = turns_with_body(p.rb, constraint.n) ? p.rb0 : p.rb;
+    }
+    weigh(scratch, constraint);
 }
 
 float core_depth(const SceneState& state, const Contact& contact, const Manifold& manifold, bool a_gives)

@@ -57,6 +57,9 @@ inline void set_constants(const StepContext& ctx, int body, StateConstants& c)
 /// Writes the points of a manifold taken at the bodies' present poses within the step into the constraint.
 void set_constraint_geometry(const Scratch& scratch, ContactConstraint& constraint, const Manifold& manifold);
 
+/// Turns the arms of a constraint to the orientation from which rotations count, where that is the middle of the step.
+void turn_arms(const Scratch& scratch, ContactConstraint& constraint);
+
 /// In small islands constraints are recomputed within the step.
 inline void follow_closely(const Contact& contact, const Island& island, ContactConstraint& constraint)
 {

@@ -24,7 +24,7 @@ struct WidePoint
     LaneFloats tangent_impulse;
     LaneFloats tangent_mass;
     LaneFloats separation;    ///< at the present poses, as relaxing found it
-    LaneFloats base;          ///< separation at the start of the step, without n · (displacement of the anchors) since
+    LaneFloats base;          ///< separation without n · (displacement of the anchors since the pose from which states count)
     LaneFloats total_impulse; ///< over the step
     LaneFloats total_tangent;
 };
@@ -73,8 +73,7 @@ struct alignas(64) WideContactNotes
     std::uint32_t nearest;    ///< the normal leads from corner to corner
     std::uint32_t cached;     ///< the manifold is cached
     std::uint16_t followed;   ///< the contact has contact_flag::followed
-    std::uint8_t round;       ///< the contact has contact_flag::round
-    std::uint8_t halfway;     ///< a point was struck and has been stopped in part: the blow goes on
+    std::uint16_t halfway;    ///< points that bear a load but still approach, see halfway_gap(): the blow goes on
 };
 
 /// Lanes of the second points come behind those of the first.

@@ -349,13 +349,16 @@ CAROM_INLINE void find_blows(const WideContact& constraint, WideContactNotes& no
     if (points == 2)
         relieved |= ~(of_second | idle >> lane_count);
     unsigned struck = (of_first | of_second) & notes.unreported;
+    unsigned approach = 0;
     if (((of_first & notes.may_hit) | (of_second & second_may)) != 0)
     {
         note_approach<points>(constraint, notes, before);
-        struck |= bits(first & (load(notes.approach[0]) > all(least_blow))) & notes.may_hit;
+        approach = bits(first & (load(notes.approach[0]) > all(least_blow)));
         if (points == 2)
-            struck |= bits(second & (load(notes.approach[1]) > all(least_blow))) & second_may;
+            approach |= bits(second & (load(notes.approach[1]) > all(least_blow))) << lane_count;
+        struck |= (approach & notes.may_hit) | (approach >> lane_count & second_may);
     }
+    notes.halfway = static_cast<std::uint16_t>(notes.halfway & approach);
     *found.struck = static_cast<std::uint8_t>(struck);
     *found.relieved = static_cast<std::uint8_t>(relieved);
 }

@@ -48,16 +48,16 @@ CAROM_INLINE void note_unloaded(const WideContact& constraint, WideContactNotes&
         const I8 unloaded = load(constraint.points[k].normal_impulse) <= all(0);
         const std::uint32_t halfway = bits(~unloaded & (load(constraint.points[k].separation) > all(far)));
         notes.may_hit |= (bits(unloaded) | halfway) << k * lane_count;
-        notes.halfway = static_cast<std::uint8_t>(notes.halfway | halfway);
+        notes.halfway = static_cast<std::uint16_t>(notes.halfway | halfway << k * lane_count);
     }
 }
 
-// Half of what bodies turn by within the step; as half_turn in prepare.h.
+// Half of what bodies turn by within the step; as half_turn in turns.h.
 CAROM_INLINE Turn half_turns(F8 angular_velocity, float dt)
 {
     const F8 t = clamp((0.25f * dt) * angular_velocity, all(-most_tangent), all(most_tangent));
     const F8 part = 1 / (1 + t * t);
-    return {(1 - t * t) * part, 2 * t * part};
+    return {(1 - t * t) * part, 2 * t * part + all(0)}; // no -0
 }
 
 // n · (R r - r) of a body that turns back by q
@@ -66,25 +66,24 @@ CAROM_INLINE F8 turned_back(const Turn& q, const LaneFloats& along, const LaneFl
     return (q.c - 1) * load(along) - q.s * load(across);
 }
 
+// The points of a circle about the center of mass do not turn with it.
 CAROM_INLINE void turn_arm(const Turn& q, LaneFloats& along, LaneFloats& across)
 {
-    const F8 was = load(along);
-    store(along, q.c * was + q.s * load(across));
-    store(across, q.c * load(across) - q.s * was);
+    const F8 n = load(along);
+    const F8 t = load(across);
+    const I8 turns = t * t > (round_arm * round_arm) * (n * n);
+    store(along, select(turns, q.c * n + q.s * t, n));
+    store(across, select(turns, q.c * t - q.s * n, t));
 }
 
-// Turns arms of the step's start to its middle, where bodies have turned by a and b. A circle's points do not turn with it.
+// Turns arms of the step's start to its middle, where bodies have turned by a and b.
 CAROM_INLINE void turn_arms(WideContact& constraint, const WideContactNotes& notes, const Turn& a, const Turn& b)
 {
-    const I8 round = (all_ints(notes.round) & eight_of(1, 2, 4, 8, 16, 32, 64, 128)) != I8{};
-    const auto unless_round = [&](const Turn& q) { return Turn{select(round, all(1), q.c), select(round, all(0), q.s)}; };
-    const Turn arm_a = unless_round(a);
-    const Turn arm_b = unless_round(b);
     for (int k = 0; k < notes.count; ++k)
     {
         WidePoint& p = constraint.points[k];
-        turn_arm(arm_a, p.along_a, p.across_a);
-        turn_arm(arm_b, p.along_b, p.across_b);
+        turn_arm(a, p.along_a, p.across_a);
+        turn_arm(b, p.along_b, p.across_b);
         const F8 separation = load(p.base);
         store(p.separation, separation);
         store(p.base, separation + (turned_back(a, p.along_a, p.across_a) - turned_back(b, p.along_b, p.across_b)));
@@ -132,7 +131,7 @@ CAROM_INLINE Turn half_turns_of(const BodyState* states, const LaneInts& index)
     static_assert(offsetof(BodyState, delta_rotation) == offsetof(BodyState, delta_position) + 8);
     F8 x, y, c, s;
     gather4([&](int i) { return reinterpret_cast<const char*>(&states[index.v[i]].delta_position); }, x, y, c, s);
-    return {c, -s};
+    return {c, 0 - s};
 }
 
 // Fills all but a, b, contact and count, which select the source.
@@ -166,7 +165,6 @@ void fill(WideContact& constraint, WideContactNotes& notes, const Contact* conta
     notes.cached = lanes_with(flags, contact_flag::cached) & ~lanes_with(flags, contact_flag::fresh);
     notes.edge_of_b = lanes_with(flags, contact_flag::edge_of_b);
     notes.nearest = lanes_with(flags, contact_flag::nearest);
-    notes.round = static_cast<std::uint8_t>(lanes_with(flags, contact_flag::round));
     notes.followed = 0;
     turn_arms(constraint, notes, half_turns_of(states, constraint.a), half_turns_of(states, constraint.b));
     weigh(constraint, notes.count);
