@@ -51,21 +51,10 @@ public:
             note_approach(m_view, constraint, m_joints == nullptr ? least_blow(m_ctx) : std::numeric_limits<float>::max());
     }
 
-    // With a = (u1 - u0) / h while the bodies come nearer by s: u² = u0² + 2 a s. They may meet in the next sub-step only, which the relaxation foresees.
     void carry_approaches_on()
     {
         for (ContactConstraint& constraint : constraints())
-        {
-            for (ConstraintPoint& p : std::span(constraint.points).first(as_index(constraint.count)))
-            {
-                const float now = -constraint_speed(m_view, constraint, p);
-                const float most = 0.5f * m_view.h * (p.approach + now);
-                const float way = std::min(std::max(constraint_separation(m_view, constraint, p), 0.0f), most);
-                const float square = p.approach * p.approach + 2 * (now - p.approach) * way / m_view.h;
-                if (p.approach > 0)
-                    p.approach = std::sqrt(std::max(square, 0.0f));
-            }
-        }
+            carry_approach_on(m_view, constraint);
     }
 
     void bounce(int k, WorkerTeam& team)

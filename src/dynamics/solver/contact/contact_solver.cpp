@@ -14,6 +14,7 @@
 #include "dynamics/solver/contact/contact_solver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace carom::internal {
@@ -198,6 +199,19 @@ void note_approach(const SolverView& view, ContactConstraint& constraint, float 
         }
         const bool has_paused = is_halfway || p.normal_impulse == 0;
         p.missing_load = has_paused ? std::max(p.standing_load - p.normal_impulse, 0.0f) : 0;
+    }
+}
+
+void carry_approach_on(const SolverView& view, ContactConstraint& constraint)
+{
+    for (ConstraintPoint& p : std::span(constraint.points).first(static_cast<std::size_t>(constraint.count)))
+    {
+        const float now = -constraint_speed(view, constraint, p);
+        const float most = 0.5f * view.h * (p.approach + now);
+        const float way = std::min(std::max(constraint_separation(view, constraint, p), 0.0f), most);
+        const float square = p.approach * p.approach + 2 * (now - p.approach) * way / view.h;
+        if (p.approach > 0)
+            p.approach = std::sqrt(std::max(square, 0.0f));
     }
 }
 

@@ -44,6 +44,10 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
 /// sub-step early and leaves so much that the bodies meet at the end of the next one. Standing loads are those before such a blow.
 void note_approach(const SolverView& view, ContactConstraint& constraint, float least_blow);
 
+/// After the forces, carries the approach speeds on to where bodies meet: with a = (u1 - u0) / h while they come nearer by s, u² = u0² + 2 a s. They may
+/// meet in the next sub-step only, which the relaxation foresees.
+void carry_approach_on(const SolverView& view, ContactConstraint& constraint);
+
 /// The approach speed when the sub-step began, along the present normal of the constraint.
 [[nodiscard]] float approach_before(const Scratch& scratch, const ContactConstraint& constraint, const ConstraintPoint& point);
 
