@@ -488,12 +488,12 @@ TEST(Game, OnlyWhatWasOrderedIsLaunchedByItself)
     game.step({.start = true});
     int launched_alone = 0;
     int since_touch = 0;
-    for (int i = 0; i < 200'000 && game.ball_number() < 3; ++i)
+    for (int i = 0; i < 60'000 && game.ball_number() < 3; ++i)
     {
         const bool pulls = i % 1500 < 700 && game.ball_number() == 1;
         since_touch = pulls ? 0 : since_touch + 1;
         // Shaken until the ball is over, so that no other ball of this turn comes.
-        game.step({.plunger = pulls, .nudge_up = i > 40'000 && i % 350 < 20});
+        game.step({.plunger = pulls, .nudge_up = i > 12'000 && i % 350 < 20});
         for (const GameEvent& event : game.events())
             launched_alone +=
                 event.kind == EventKind::Launched && game.ball_number() == 2 && since_touch > 3000 && game.phase() == Phase::Ready

@@ -21,7 +21,7 @@ namespace {
 
 using carom::test::Random;
 
-const int shots_per_kind = carom::test::part_of(500);
+const int shots_per_kind = carom::test::does_whole_tests() ? 500 : carom::test::part_of(250);
 constexpr double common_time = 0.025; // s
 constexpr float millisecond = 0.001f;
 

@@ -66,21 +66,11 @@ protected:
             GTEST_SKIP() << "many minutes in this build";
         }
     }
-    static constexpr std::size_t overlaps = 2; // come first, then speeds
 };
 
-// Five seeds of the twenty that carom-truth takes: overlaps hardly differ from pile to pile.
-TEST_F(TruthPile, E14_PiecesLieOnEachOther)
+// In some of the twenty piles that carom-truth takes a piece still rocks on another after 20 s; the median does not.
+TEST_F(TruthPile, E14_APileOfAThousand)
 {
-    truth::Metrics metrics = run(14, 60, 0.25);
-    metrics.resize(overlaps);
-    expect_bounds(metrics);
-}
-
-// In some of the twenty piles a piece still rocks on another after 20 s; the median does not.
-TEST_F(TruthPile, E14_PiecesComeToRest)
-{
-    truth::Metrics metrics = run(14, 60);
-    metrics.erase(metrics.begin(), metrics.begin() + overlaps);
+    const truth::Metrics metrics = run(14, 60, does_whole_tests() ? 1 : 0.4);
     expect_bounds(metrics);
 }

@@ -10,6 +10,7 @@
 
 namespace truth::test {
 
+using carom::test::does_whole_tests;
 using carom::test::slow_build;
 
 inline Metrics run(int number, double hz, double share = 1, const Engine& engine = carom_engine())
