@@ -180,6 +180,14 @@ public:
     /// Every shape the ray meets, nearest first.
     [[nodiscard]] std::vector<RayHit> raycast_all(Position origin, Vec2 translation, const QueryFilter& filter = {}) const;
     [[nodiscard]] bool raycast_any(Position origin, Vec2 translation, const QueryFilter& filter = {}) const;
+    /// The first surface that a shape meets on its way, exact in time with rotation too. Shapes that it leaves or slides along do not stop it; those that it
+    /// overlaps at the start do, the deepest first. geometry: all but half-spaces.
+    [[nodiscard]] std::optional<CastHit> shapecast_closest(const Geometry& geometry, const CastWay& way,
+                                                           const QueryFilter& filter = {}) const;
+    /// Every shape that it would meet if none of them stopped it, first to last.
+    [[nodiscard]] std::vector<CastHit> shapecast_all(const Geometry& geometry, const CastWay& way,
+                                                     const QueryFilter& filter = {}) const;
+    [[nodiscard]] bool shapecast_any(const Geometry& geometry, const CastWay& way, const QueryFilter& filter = {}) const;
     [[nodiscard]] std::vector<ShapeId> overlap_point(Position point, const QueryFilter& filter = {}) const;
     /// Shapes that overlap the box (the shapes themselves, not their bounds).
     [[nodiscard]] std::vector<ShapeId> overlap_box(const Box& box, const QueryFilter& filter = {}) const;

@@ -12,6 +12,7 @@
 #include "geometry/ray.h"
 #include "geometry/surface.h"
 #include "scene/access.h"
+#include "scene/query_visits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,64 +22,6 @@ namespace carom {
 using namespace internal;
 
 namespace {
-
-bool passes(const SceneState& state, int shape, const QueryFilter& filter)
-{
-    const ShapeRecord& s = state.shapes[shape];
-    return (filter.include_triggers || !s.trigger) && (s.filter.category & filter.mask) != 0 &&
-           (filter.category & s.filter.mask) != 0;
-}
-
-Pose pose_of(const SceneState& state, int shape) { return state.sims[static_cast<std::size_t>(state.shapes[shape].body)].pose(); }
-
-// Visits every leaf whose fat box passes the test, half-spaces included; visit returns false to stop.
-template <class Test, class Visit>
-void visit_leaves(const SceneState& state, const QueryFilter& filter, Test&& test, Visit&& visit)
-{
-    const auto filtered = [&](int shape) { return !passes(state, shape, filter) || visit(shape); };
-    for (const std::int32_t shape : state.broad_phase.unbounded())
-    {
-        if (!filtered(shape))
-            return;
-    }
-    if (state.broad_phase.descend(Layer::Moving, test, filtered))
-        state.broad_phase.descend(Layer::Resting, test, filtered);
-}
-
-template <class Visit>
-void visit_box(const SceneState& state, const QueryFilter& filter, const FloatBox& box, Visit&& visit)
-{
-    visit_leaves(state, filter, [&](const FloatBox& node) { return overlaps(node, box); }, visit);
-}
-
-// Slab test of a box against a ray, conservative in floats.
-struct RayBox
-{
-    double ox;
-    double oy;
-    double dx;
-    double dy;
-    double reach = 1; ///< fraction up to which the ray still matters
-
-    bool operator()(const FloatBox& b) const
-    {
-        double low = 0;
-        double high = reach;
-        return clip(b.lx, b.ux, ox, dx, low, high) && clip(b.ly, b.uy, oy, dy, low, high);
-    }
-    static bool clip(double lower, double upper, double o, double d, double& low, double& high)
-    {
-        if (d == 0)
-            return lower <= o && o <= upper;
-        double t0 = (lower - o) / d;
-        double t1 = (upper - o) / d;
-        if (t0 > t1)
-            std::swap(t0, t1);
-        low = std::max(low, t0);
-        high = std::min(high, t1);
-        return low <= high + 1e-9;
-    }
-};
 
 bool check_ray(const char* function, Position origin, Vec2 translation)
 {

@@ -95,12 +95,20 @@ TEST_F(Contract, Queries)
         refused([&] { static_cast<void>(scene.raycast_closest({}, {bad, 0})); }, {"Scene::raycast_closest", "translation"});
         refused([&] { static_cast<void>(scene.raycast_all(p, {1, 0})); }, {"Scene::raycast_all", "origin"});
         refused([&] { static_cast<void>(scene.raycast_any({}, {0, bad})); }, {"Scene::raycast_any", "translation"});
+        refused([&] { static_cast<void>(scene.shapecast_closest(Circle{}, {.start = {p, {}}})); },
+                {"Scene::shapecast_closest", "way.start.position"});
+        refused([&] { static_cast<void>(scene.shapecast_all(Circle{}, {.translation = {bad, 0}})); },
+                {"Scene::shapecast_all", "way.translation"});
+        refused([&] { static_cast<void>(scene.shapecast_any(Circle{}, {.turn = bad})); }, {"Scene::shapecast_any", "way.turn"});
         refused([&] { static_cast<void>(scene.overlap_point(p)); }, {"Scene::overlap_point", "point"});
         refused([&] { static_cast<void>(scene.overlap_box({p, {1, 1}})); }, {"Scene::overlap_box", "box"});
         refused([&] { static_cast<void>(scene.overlap_shape(Circle{}, {p, {}})); }, {"Scene::overlap_shape", "pose"});
         refused([&] { static_cast<void>(scene.closest_point(p, 1)); }, {"Scene::closest_point", "point"});
         refused([&] { static_cast<void>(scene.shape(ball.shape).contains(p)); }, {"Shape::contains", "point"});
     }
+    refused([&] { static_cast<void>(scene.shapecast_any(Circle{}, {.turn = 7})); }, {"Scene::shapecast_any", "way.turn", "7"});
+    refused([&] { static_cast<void>(scene.shapecast_any(HalfSpace{}, {})); }, {"Scene::shapecast_any", "geometry"});
+    refused([&] { static_cast<void>(scene.shapecast_any(Circle{.radius = -1}, {})); }, {"Scene::shapecast_any", "radius"});
     refused([&] { static_cast<void>(scene.overlap_box({{1, 1}, {0, 0}})); }, {"Scene::overlap_box", "box"});
     refused([&] { static_cast<void>(scene.closest_point({}, not_a_number)); }, {"Scene::closest_point", "max_distance"});
     refused([&] { static_cast<void>(scene.closest_point({}, -1)); }, {"Scene::closest_point", "max_distance"});

@@ -415,7 +415,7 @@ void set_callbacks(Session& s, Choices& c)
 void ask(Session& s, Choices& c)
 {
     Scene& scene = s.scene;
-    switch (c.below(8))
+    switch (c.below(9))
     {
     case 0:
     {
@@ -439,6 +439,12 @@ void ask(Session& s, Choices& c)
     }
     case 5: static_cast<void>(scene.inside(s.shape(c))); return;
     case 6:
+    {
+        const CastWay way{.start = {c.position(), Rotation::from_angle(1)}, .translation = 4 * c.vec(), .turn = c.amount()};
+        static_cast<void>(scene.shapecast_all(geometry(c), way, {.without = s.body(c)}));
+        return;
+    }
+    case 7:
     {
         DebugDraw draw;
         scene.debug_draw(draw, {.boxes = true, .contacts = true, .normals = true, .impulses = true, .islands = true});
