@@ -67,7 +67,8 @@ public:
                                     static_cast<double>(b.uy) + static_cast<double>(m_half.y)));
     }
 
-    void end_at(float fraction) { m_ray.reach = static_cast<double>(fraction); }
+    /// What is met later does not count any more; what is met at the same time does.
+    void end_at(float fraction) { m_ray.reach = static_cast<double>(std::nextafter(fraction, 2.0f)); }
 
     [[nodiscard]] std::optional<CastHit> meet(int shape) const
     {

@@ -164,6 +164,17 @@ TEST(ShapeCasts, WhatTouchesAndLeavesOrSlidesMeetsNothing)
     }
 }
 
+TEST(ShapeCasts, OfShapesThatAreMetAtOnceTheFirstMadeCounts)
+{
+    for (const float side : {1.0f, -1.0f})
+    {
+        Scene scene(weightless());
+        const Thing first = add_static(scene, Circle{}, {}, {3, 0.75f * side});
+        add_static(scene, Circle{}, {}, {3, -0.75f * side});
+        EXPECT_EQ(scene.shapecast_closest(Circle{.radius = 0.5f}, {.translation = {5, 0}})->shape, first.shape);
+    }
+}
+
 TEST(ShapeCasts, SeamsOfAChainStopNothing)
 {
     Scene scene(weightless());
