@@ -67,7 +67,7 @@ public:
                                     static_cast<double>(b.uy) + static_cast<double>(m_half.y)));
     }
 
-    /// What is met later does not count any more; what is met at the same time does.
+    /// Ends the way there: shapes that are met later do not count any more, those that are met at the same time do.
     void end_at(float fraction) { m_ray.reach = static_cast<double>(std::nextafter(fraction, 2.0f)); }
 
     [[nodiscard]] std::optional<CastHit> meet(int shape) const
@@ -120,8 +120,7 @@ void cast(const char* function, const SceneState& state, const Geometry& geometr
         !check.finite("way.start.rotation", way.start.rotation.s) || !check.finite("way.translation", way.translation) ||
         !check.finite("way.turn", way.turn) ||
         !check.holds(std::fabs(way.turn) <= most_turn, "way.turn", std::to_string(way.turn), "must be within a whole turn") ||
-        !check.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") ||
-        !normalize_geometry(function, normal))
+        !normalize_bounded(function, normal))
         return;
     LeafStore store;
     bool goes_on = true;
@@ -164,13 +163,7 @@ std::vector<CastHit> Scene::shapecast_all(const Geometry& geometry, const CastWa
              hits.push_back(hit);
              return true;
          });
-    // One hit a shape: the first among its pieces and those of the cast.
-    std::sort(hits.begin(), hits.end(),
-              [](const CastHit& a, const CastHit& b) { return a.shape != b.shape ? a.shape < b.shape : is_before(a, b); });
-    hits.erase(std::unique(hits.begin(), hits.end(), [](const CastHit& a, const CastHit& b) { return a.shape == b.shape; }),
-               hits.end());
-    std::sort(hits.begin(), hits.end(), is_before);
-    return hits;
+    return first_of_each(std::move(hits), is_before);
 }
 
 bool Scene::shapecast_any(const Geometry& geometry, const CastWay& way, const QueryFilter& filter) const

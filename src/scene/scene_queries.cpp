@@ -105,15 +105,7 @@ std::vector<RayHit> Scene::raycast_all(Position origin, Vec2 translation, const 
                          hits.push_back(*hit);
                      return true;
                  });
-    // Only the nearest hit among the pieces of a chain counts: one hit per shape.
-    std::sort(hits.begin(), hits.end(), is_nearer);
-    std::vector<RayHit> first_hits;
-    for (const RayHit& hit : hits)
-    {
-        if (std::none_of(first_hits.begin(), first_hits.end(), [&](const RayHit& h) { return h.shape == hit.shape; }))
-            first_hits.push_back(hit);
-    }
-    return first_hits;
+    return first_of_each(std::move(hits), is_nearer);
 }
 
 bool Scene::raycast_any(Position origin, Vec2 translation, const QueryFilter& filter) const
@@ -170,9 +162,7 @@ std::vector<ShapeId> Scene::overlap_shape(const Geometry& geometry, const Pose& 
     const Checker check{function};
     Geometry normal = geometry;
     if (!check.finite("pose.position", pose.position) || !check.finite("pose.rotation", pose.rotation.c) ||
-        !check.finite("pose.rotation", pose.rotation.s) ||
-        !check.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") ||
-        !normalize_geometry(function, normal))
+        !check.finite("pose.rotation", pose.rotation.s) || !normalize_bounded(function, normal))
         return {};
     LeafStore store;
     std::vector<ShapeId> ids;

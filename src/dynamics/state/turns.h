@@ -48,6 +48,8 @@ inline void turn_from_start(BodyState& s, double angle)
 /// Lets a body's rotation within the step count from the orientation that it reaches in the middle of it, after turning by `half`: lever arms
 /// of that orientation are right in the mean. BodySim::rotation holds it until the step is committed.
 void begin_at_middle(SceneState& state, std::int32_t body, Rotation half, BodyState& s);
+/// Lets it count from the start of the step again.
+void begin_at_start(SceneState& state, std::int32_t body, BodyState& s);
 /// While a step is solved, the rotation with which a body has begun it; other bodies than dynamic ones get a new one when it is committed.
 [[nodiscard]] inline Rotation rotation_at_start(const SceneState& state, std::int32_t body)
 {
@@ -55,8 +57,6 @@ void begin_at_middle(SceneState& state, std::int32_t body, Rotation half, BodySt
     const BodyRecord& record = state.bodies[body];
     return record.type == BodyType::Dynamic && record.awake_index != none ? sim.previous_rotation : sim.rotation;
 }
-/// Lets it count from the start of the step again.
-void begin_at_start(SceneState& state, std::int32_t body, BodyState& s);
 
 /// Adds to the turns of a body those between two rotations by `displacement`, rad.
 void count_turns(std::int32_t& turns, Rotation before, Rotation after, double displacement);

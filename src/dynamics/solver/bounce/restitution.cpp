@@ -267,8 +267,8 @@ private:
         for (int p = 0; p < constraint.count; ++p)
         {
             const float rest = -constraint_speed(m_view, constraint, constraint.points[p]);
-            if (constraint.points[p].normal_impulse > 0 && rest > least_blow(m_ctx) &&
-                2 * wide.points[p].separation.v[lane] > m_view.h * rest)
+            if (constraint.points[p].normal_impulse > 0 &&
+                is_halfway(wide.points[p].separation.v[lane], rest, m_view.h, least_blow(m_ctx)))
                 halfway |= may_hit_bit(lane, p);
         }
         return halfway;

@@ -334,17 +334,17 @@ void StandingLoads::forget_relieved()
 void note_standing_loads(const StepContext& ctx, int k, std::int32_t lane, ContactConstraint& constraint)
 {
     const WideContactNotes& notes = ctx.scratch.solver.wide_notes[as_index(lane / lane_count)];
-    const bool is_halfway = constraint.halfway != 0;
+    const bool goes_on = constraint.halfway != 0;
     for (int i = 0; i < constraint.count; ++i)
     {
         ConstraintPoint& p = constraint.points[i];
         if ((notes.may_hit & (may_hit_bit(lane % lane_count, i) | lost_bit(lane % lane_count, i))) != 0)
             continue;
-        const bool may_have_paused = is_halfway || (notes.paused & may_hit_bit(lane % lane_count, i)) != 0;
+        const bool may_have_paused = goes_on || (notes.paused & may_hit_bit(lane % lane_count, i)) != 0;
         const PointImpulses& last = impulses_of(ctx.state, constraint.contact).points[i];
         const float borne = p.total_impulse - p.normal_impulse; // in this step, before this sub-step
         p.standing_load = load_before_last(last, ctx.substeps);
-        if (k > 0 || !is_halfway)
+        if (k > 0 || !goes_on)
             p.standing_load = std::min(p.standing_load, last.normal);
         if (k > 0)
             p.standing_load = std::min(p.standing_load, (last.normal + borne) / static_cast<float>(may_have_paused ? k : k + 1));

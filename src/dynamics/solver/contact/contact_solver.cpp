@@ -182,22 +182,22 @@ void note_approach(const SolverView& view, ContactConstraint& constraint, float 
         ConstraintPoint& p = points[i];
         const float approach = -constraint_speed(view, constraint, p);
         const float separation = constraint_separation(view, constraint, p);
-        const bool meets = approach > least_blow && 2 * separation > view.h * approach;
+        const bool meets = is_halfway(separation, approach, view.h, least_blow);
         if (p.normal_impulse > 0 && meets)
             constraint.halfway = static_cast<std::uint8_t>(constraint.halfway | 1u << i);
         p.approach = p.normal_impulse > 0 && !meets ? 0 : approach;
         if (p.normal_impulse == 0 && 2 * separation > view.h * least_blow)
             forget_loads(p);
     }
-    const bool is_halfway = constraint.halfway != 0;
+    const bool goes_on = constraint.halfway != 0;
     for (ConstraintPoint& p : points)
     {
-        if (!is_halfway)
+        if (!goes_on)
         {
             p.standing_load = median(p.older_impulse, p.last_impulse, p.normal_impulse);
             p.older_impulse = std::exchange(p.last_impulse, p.normal_impulse);
         }
-        const bool has_paused = is_halfway || p.normal_impulse == 0;
+        const bool has_paused = goes_on || p.normal_impulse == 0;
         p.missing_load = has_paused ? std::max(p.standing_load - p.normal_impulse, 0.0f) : 0;
     }
 }

@@ -40,6 +40,11 @@ void solve_contact_constraints(const SolverView& view, std::span<ContactConstrai
 /// The speed of b's surface relative to a's along perp(n), less the surface speed, m/s.
 [[nodiscard]] float constraint_slip(const SolverView& view, const ContactConstraint& constraint, const ConstraintPoint& point);
 
+/// Whether a point that has been stopped in part still approaches: the bodies meet within the next sub-step of h.
+[[nodiscard]] inline bool is_halfway(float separation, float approach, float h, float least_blow)
+{
+    return approach > least_blow && 2 * separation > h * approach;
+}
 /// Before the sub-step's forces, notes the approach speeds of points that bear no load yet or have not met: a constraint takes a part of an approach up to a
 /// sub-step early and leaves so much that the bodies meet at the end of the next one. Standing loads are those before such a blow.
 void note_approach(const SolverView& view, ContactConstraint& constraint, float least_blow);

@@ -3,12 +3,16 @@
 // Which leaves a query looks at.
 
 #include "carom/query.h"
+#include "core/refuse.h"
 #include "dynamics/state/body_store.h"
 #include "dynamics/state/contact_store.h"
 #include "dynamics/state/scene_state.h"
 #include "geometry/bounds.h"
+#include "geometry/leaf.h"
 
 #include <algorithm>
+#include <variant>
+#include <vector>
 
 namespace carom::internal {
 
@@ -73,5 +77,23 @@ struct RayBox
         return low <= high + 1e-9;
     }
 };
+
+/// One hit a shape, the first of its pieces, in order.
+template <class Hit, class Before>
+[[nodiscard]] std::vector<Hit> first_of_each(std::vector<Hit> hits, const Before& before)
+{
+    std::sort(hits.begin(), hits.end(),
+              [&](const Hit& a, const Hit& b) { return a.shape != b.shape ? a.shape < b.shape : before(a, b); });
+    hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.shape == b.shape; }), hits.end());
+    std::sort(hits.begin(), hits.end(), before);
+    return hits;
+}
+
+/// False if the geometry is refused: a query's has to be bounded.
+[[nodiscard]] inline bool normalize_bounded(const char* function, Geometry& geometry)
+{
+    return Checker{function}.holds(!std::holds_alternative<HalfSpace>(geometry), "geometry", "a half-space", "must be bounded") &&
+           normalize_geometry(function, geometry);
+}
 
 } // namespace carom::internal
